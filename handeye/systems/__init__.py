@@ -1,1 +1,3 @@
-"""Systems of the period, a folder each: its `ENTRY` says what it offers, and where that is found."""
+"""The systems of the 1970s and 1980s, one folder each; the folder's `ENTRY` says what the system offers and where
+its objects are.
+"""

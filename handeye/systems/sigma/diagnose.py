@@ -1,7 +1,7 @@
-"""Self-tests at power-on, and what they say of the bus: in the paper's order, and through the port alone.
+"""Self-tests at power-on, in the paper's order, through the bus interface only.
 
-First the central computer, then the bus by segments, then each microcomputer. An interface that fails fails for all
-microcomputers behind it; a microcomputer that fails fails alone.
+The central computer is tested first, then the segments of the bus, then each microcomputer. A faulty interface of a
+segment makes the tests of all microcomputers behind it fail; a faulty microcomputer fails alone.
 """
 
 from collections.abc import Container, Iterator, Mapping, Sequence
@@ -14,7 +14,7 @@ from handeye.systems.sigma.bus.layout import Layout
 from handeye.systems.sigma.protocol import ANSWERS, Op, echo, name_of, self_test
 
 PATTERNS: Final = (b"\x55\xaa\x33", b"\xaa\x55\xcc")
-"""What ECHO asks back: each line low and high, and neighbouring bytes that differ."""
+"""Test patterns for ECHO: each line low and high, and neighbouring bytes that differ."""
 DEAD: Final = (
     "nothing on it answers: its interface is dead, or a data line low in all its addresses is stuck high"
 )
@@ -24,7 +24,7 @@ Part = Literal["computer", "segment", "regenerator", "microcomputer", "status li
 
 
 class SelfTest(Record, frozen=True, kw_only=True):
-    """What one test found."""
+    """The result of one test."""
 
     part: Part
     number: int  # of the segment or microcomputer
@@ -33,7 +33,7 @@ class SelfTest(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class _Heard:
-    """Answers of one microcomputer; None where none came."""
+    """Answers of one microcomputer; None for an answer that did not come."""
 
     well: bytes | None
     echoes: tuple[bytes | None, ...]
@@ -49,13 +49,13 @@ class _Heard:
 
     @property
     def open(self) -> bool:
-        """Strobes came, and data lines that no one drives."""
+        """True if strobes came, but no microcomputer drove the data lines."""
         answers = [answer for answer in (self.well, *self.echoes) if answer is not None]
         return bool(answers) and all(byte == _ALL for answer in answers for byte in answer)
 
 
 def power_on(bus: MicrobusPort, layout: Layout) -> list[SelfTest]:
-    """Test everything that hangs on a bus; what is behind a segment that fails is not judged."""
+    """Test everything that is connected to a bus; nothing behind a faulty segment is judged."""
     numbers = [place.number for place in layout.places]
     at_rest = {number: bus.status(number) for number in numbers}
     heard = {number: _heard(bus, number, numbers) for number in numbers}
@@ -111,7 +111,7 @@ def _segment(segment: int, heard: Mapping[int, _Heard]) -> SelfTest:
 
 
 def _stuck(heard: Sequence[_Heard]) -> str:
-    """The data line that is wrong on a segment."""
+    """The faulty data line of a segment, in words."""
     echoed = [byte for one in heard for answer in one.echoes if answer for byte in answer]
     wells = [byte for one in heard if one.well for byte in one.well]
     high = _ALL
@@ -162,7 +162,7 @@ def _status_lines(at_rest: Mapping[int, Status], scanning: Container[int]) -> It
 
 
 def told(tests: Sequence[SelfTest]) -> list[str]:
-    """Results in lines: the faults, or that all is well."""
+    """Results as lines of text: the faults, or that all is well."""
     out = [f"{_name(test)}: {test.fault}" for test in tests if test.fault]
     return out or ["computer, segments, microcomputers and status lines are well"]
 

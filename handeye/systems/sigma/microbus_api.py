@@ -1,4 +1,4 @@
-"""The MICROBUS from Python: the paper's "few functions that provide MICROBUS driving", in a general language."""
+"""The MICROBUS from Python, after the paper's "few functions that provide MICROBUS driving" in a general language."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -21,7 +21,8 @@ _LONGEST_WAIT: Final = 86_400  # s
 
 
 class Microbus:
-    """A MICROBUS with the ten microcomputers of SUPERSIGMA, over a machine whose rotors follow each pulse.
+    """A MICROBUS with the ten microcomputers of SUPERSIGMA, connected to an ideal machine whose rotors follow each
+    pulse.
 
     >>> bus = handeye.Microbus()
     >>> bus.command("X1", steps=800)
@@ -30,12 +31,12 @@ class Microbus:
     """
 
     def __init__(self, *, faults: Sequence[str] = (), seed: int = 0, clock_spread: float = 0.0) -> None:
-        """Switch it on.
+        """Switch the bus on.
 
         Args:
-            faults: What is wrong with it, as `--fault` of `handeye sigma bus demo`: `clock:X1:200`.
-            seed: Draws when each microcomputer begins to poll, and how far its clock is off.
-            clock_spread: How far clocks are off at most, as a share: .005.
+            faults: injected faults, written like `--fault` of `handeye sigma bus demo`, for example `clock:X1:200`.
+            seed: seed of the random times at which the microcomputers begin to poll, and of their clock errors.
+            clock_spread: greatest clock error, as a fraction, for example .005.
         """
         if not 0 <= clock_spread < 1:
             raise BadArgument(f"clocks are off by a share of 0 to 1, not by {clock_spread:g}")
@@ -45,12 +46,12 @@ class Microbus:
 
     @property
     def now(self) -> float:
-        """s since power-on."""
+        """Seconds since power-on."""
         return self._bus.now / _MICROSECONDS
 
     @property
     def interrupt(self) -> bool:
-        """Line A of a motor is high: its last command was aborted."""
+        """True if line A of a motor is high: the motor's last command was aborted."""
         return self._bus.interrupt
 
     def command(
@@ -66,12 +67,12 @@ class Microbus:
         """Send a command of five bytes.
 
         Args:
-            name: A microcomputer by name (`X1`, `FORCE1`, `HAND2`) or number.
-            op: The operation; one that asks is for `ask`.
-            steps: Of a MOVE, signed.
-            curve: Of a MOVE, 0 to 4.
-            detail: Byte 3 of other operations.
-            value: Bytes 4 and 5 of other operations.
+            name: a microcomputer, by name (`X1`, `FORCE1`, `HAND2`) or number.
+            op: the operation; for operations with an answer use `ask`.
+            steps: distance of a MOVE, steps, with its sign.
+            curve: acceleration curve of a MOVE, 0 to 4.
+            detail: byte 3 of other operations.
+            value: bytes 4 and 5 of other operations.
 
         Raises:
             NoSuchName: there is no such microcomputer or operation.
@@ -83,10 +84,11 @@ class Microbus:
         self._bus.send(move(name, steps, curve) if kind is Op.MOVE else _command(name, kind, detail, value))
 
     def ask(self, name: str | int, op: str = "POSITION", *, detail: int = 0, count: int | None = None) -> int:
-        """Ask a microcomputer, and wait for its answer as a number; POSITION, ABORT_POSITION and FORCE are signed.
+        """Ask a microcomputer, and wait for its answer; returns a number, with a sign for POSITION, ABORT_POSITION
+        and FORCE.
 
         Raises:
-            NoAnswer: it did not come within 5 ms.
+            NoAnswer: the answer did not come within 5 ms.
         """
         kind = _op(op)
         if count is None and kind not in ANSWERS:
@@ -96,11 +98,13 @@ class Microbus:
         return signed(answer) if kind in _SIGNED else int.from_bytes(answer, "big")
 
     def status(self, name: str | int) -> str:
-        """`free`, `busy`, or why the last command was aborted: `rail`, `force`."""
+        """The state of a microcomputer: `free`, `busy`, or the reason why its last command was aborted, `rail` or
+        `force`.
+        """
         return self._bus.status(number_of(name)).name.lower()
 
     def wait(self, name: str | int, seconds: float = 60.0) -> str:
-        """Wait until a microcomputer is not busy, or so long; its status then."""
+        """Wait until a microcomputer is not busy, at most `seconds`; returns its state, as `status`."""
         return self._bus.wait_free(number_of(name), _microseconds(seconds)).name.lower()
 
     def pause(self, seconds: float) -> None:
@@ -110,7 +114,7 @@ class Microbus:
             self._bus.wait(end)
 
     def self_test(self) -> list[str]:
-        """What the self-tests of power-on find, in sentences."""
+        """The results of the self-tests of power-on, in sentences."""
         return told(power_on(self._bus, SUPERSIGMA))
 
     @property
@@ -120,17 +124,17 @@ class Microbus:
 
     @property
     def log(self) -> list[str]:
-        """What has happened, a line an event, its time in microseconds first."""
+        """The log of the bus, one line per event, each beginning with the time in microseconds."""
         return [event_text(event) for event in sorted(self._log, key=lambda event: event.at)]
 
     def diagram(self, begin: float = 0.0, end: float | None = None, *, width: int = 100) -> str:
-        """The timing diagram from one moment to another, s, as text."""
+        """The timing diagram between two times, s, as text."""
         return "\n".join(
             as_text(diagram("", self._log, *self._span(begin, end), self._bus.timing), width)[1:]
         )
 
     def svg(self, begin: float = 0.0, end: float | None = None, *, title: str = "MICROBUS") -> str:
-        """The timing diagram from one moment to another, s, as a drawing."""
+        """The timing diagram between two times, s, as SVG."""
         return as_svg(diagram(title, self._log, *self._span(begin, end), self._bus.timing))
 
     def _span(self, begin: float, end: float | None) -> tuple[int, int]:

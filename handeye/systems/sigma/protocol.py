@@ -1,4 +1,4 @@
-"""What the five bytes of a command mean, by whom an answer comes, and which number each microcomputer has."""
+"""The protocol of the bus: the five bytes of a command, the answers, and the numbers of the microcomputers."""
 
 from collections.abc import Sequence
 from enum import IntEnum
@@ -19,7 +19,7 @@ SLOW_STEP_MM: Final = 2  # mm/s, the speed that each unit of a speed code stands
 
 _NAMES: Final = ("X1", "Y1", "Z1", "FORCE1", "HAND1", "X2", "Y2", "Z2", "FORCE2", "HAND2")
 NUMBERS: Final = {name: number for number, name in enumerate(_NAMES)}
-"""Microcomputers of SUPERSIGMA: one status page an arm."""
+"""Numbers of the microcomputers of SUPERSIGMA, by name: one status page per arm."""
 AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
 COMPONENTS: Final = ("X", "Y", "Z")  # of a wrist, in the order that byte 3 counts
 DEVICES: Final = {
@@ -31,7 +31,7 @@ DEVICES: Final = {
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """When lines change, are polled and are sampled: whole microseconds, of each device's own clock."""
+    """Times at which lines change, are polled and are sampled: whole microseconds of each device's clock."""
 
     slot: int = 20  # from byte to byte of a command
     strobe_falls: int = 2  # /DATA READY, after the first byte begins
@@ -54,7 +54,7 @@ class Timing(Record, frozen=True, kw_only=True):
 
     @property
     def command(self) -> int:
-        """Microseconds that a command takes."""
+        """Duration of a command, microseconds."""
         return COMMAND_BYTES * self.slot
 
 
@@ -87,7 +87,7 @@ ANSWERS: Final[dict[Op, int]] = {
     Op.SELF_TEST: 1,
     Op.ECHO: 3,
 }
-"""Bytes of each answer."""
+"""Number of bytes of each answer."""
 
 
 def number_of(name: str | int) -> int:
@@ -102,12 +102,12 @@ def number_of(name: str | int) -> int:
 
 
 def name_of(number: int) -> str:
-    """The name of a microcomputer; its number, where it has none."""
+    """The name of a microcomputer, or its number if it has no name."""
     return {number: name for name, number in NUMBERS.items()}.get(number, str(number))
 
 
 def move(axis: str | int, steps: int, curve: int = 0) -> Command:
-    """Move by signed steps along the profile that fits their number."""
+    """Move by a signed number of steps, along the profile for that number."""
     return Command(
         number=number_of(axis),
         op=Op.MOVE,
@@ -117,25 +117,25 @@ def move(axis: str | int, steps: int, curve: int = 0) -> Command:
 
 
 def move_slow(axis: str | int, steps: int, speed: float) -> Command:
-    """Move by signed steps at a constant speed, mm/s, rounded to an even number from 2 to 254."""
+    """Move by a signed number of steps at a constant speed, mm/s, rounded to an even number from 2 to 254."""
     code = within(max(1, round(speed / SLOW_STEP_MM)), 1, 127, "the code of a speed")
     value = within(abs(steps), 1, LONGEST_MOVE, "a move in steps")
     return Command(number=number_of(axis), op=Op.MOVE_SLOW, detail=(steps < 0) | code << 1, value=value)
 
 
 def limit_speed(axis: str | int, speed: int) -> Command:
-    """Never move faster than a speed, steps/s; 0: as fast as the curve says."""
+    """Limit the speed, steps/s; 0: as fast as the curve allows."""
     limit = within(speed, SLOWEST, 0xFFFF, "a limit in steps/s") if speed else 0
     return Command(number=number_of(axis), op=Op.LIMIT_SPEED, value=limit)
 
 
 def origin(axis: str | int) -> Command:
-    """Search the end of the rail, and count from there."""
+    """Move to the end of the rail, and count from there."""
     return Command(number=number_of(axis), op=Op.ORIGIN)
 
 
 def position(axis: str | int, *, at_abort: bool = False) -> Command:
-    """Ask for the count, now or when the last command was aborted."""
+    """Ask for the count, now or at the last abort."""
     return Command(number=number_of(axis), op=Op.ABORT_POSITION if at_abort else Op.POSITION)
 
 
@@ -145,13 +145,15 @@ def set_position(axis: str | int, count: int) -> Command:
 
 
 def force(arm: int, component: str, *, peak: bool = False) -> Command:
-    """Ask for a component of the force on a wrist: now, or the greatest since that was asked last."""
+    """Ask for a component of the force on a wrist: the present value, or the greatest one since the last such
+    question.
+    """
     op = Op.PEAK_FORCE if peak else Op.FORCE
     return Command(number=number_of(f"FORCE{arm}"), op=op, detail=COMPONENTS.index(component))
 
 
 def threshold(arm: int, component: str, newtons: float | None) -> Command:
-    """Set the force above which a motor is stopped; None: the standard one."""
+    """Set the force above which a motor is stopped; None: the standard value."""
     value = STANDARD if newtons is None else within(round(newtons / FORCE_STEP_N), 0, STANDARD - 1, "a limit")
     return Command(
         number=number_of(f"FORCE{arm}"), op=Op.THRESHOLD, detail=COMPONENTS.index(component), value=value
@@ -164,32 +166,32 @@ def actuate(arm: int, device: str, value: int) -> Command:
 
 
 def beam(arm: int) -> Command:
-    """Ask whether the light beam between the fingers is cut."""
+    """Ask whether the light beam between the fingers is interrupted."""
     return Command(number=number_of(f"HAND{arm}"), op=Op.BEAM)
 
 
 def self_test(name: str | int) -> Command:
-    """Ask a microcomputer to test itself: 0 is well."""
+    """Ask a microcomputer to test itself; the answer 0 means no fault."""
     return Command(number=number_of(name), op=Op.SELF_TEST)
 
 
 def echo(name: str | int, pattern: bytes) -> Command:
-    """Ask a microcomputer for three bytes back."""
+    """Ask a microcomputer to send three bytes back."""
     return Command.of(bytes((number_of(name), Op.ECHO, *pattern)))
 
 
 def sense(name: str | int) -> Command:
-    """Ask a sensor of a newer kind."""
+    """Ask a newer kind of sensor."""
     return Command(number=number_of(name), op=Op.SENSE)
 
 
 def signed(answer: Sequence[int]) -> int:
-    """The number in two bytes of an answer, high byte first."""
+    """The signed number in two bytes of an answer, high byte first."""
     return int.from_bytes(bytes(answer), "big", signed=True)
 
 
 def within(value: int, least: int, most: int, what: str) -> int:
-    """A number that fits its field; raises BadArgument."""
+    """Return a number that fits its field; raises BadArgument."""
     if not least <= value <= most:
         raise BadArgument(f"{what} is from {least} to {most}, not {value}")
     return value

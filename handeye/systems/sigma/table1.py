@@ -1,7 +1,7 @@
-"""Table 1 of the paper: how often four programs send commands, and how much of the bus and the computer they use.
+"""Table 1 of the paper: how often four programs send commands, and the load of bus and computer.
 
-Layer 1 repeats one move, of the length at which a command takes as long as in the paper: it checks the arithmetic of
-bus and motors. Layer 2 runs programs like those that the paper names, and nothing in them is fitted to the table.
+Layer 1 repeats one move, of the length for which a command takes as long as in the paper; it checks the arithmetic
+of bus and motors. Layer 2 runs programs like those named in the paper; nothing in them is fitted to the table.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,7 +25,7 @@ CALCULATIONS: Final = (0, 10, 100, 1000)  # between two moves
 
 
 class PaperRow(Record, frozen=True, kw_only=True):
-    """A row as it is printed, and the move that layer 1 repeats."""
+    """A row of the printed table, and the move that layer 1 repeats."""
 
     name: str
     job: str
@@ -58,7 +58,7 @@ ROWS: Final = (
 
 
 class Load(Record, frozen=True, kw_only=True):
-    """What a program asks of bus and computer."""
+    """The load of bus and computer caused by a program."""
 
     name: str
     commands: int  # questions among them
@@ -87,7 +87,7 @@ class Table1(Record, frozen=True, kw_only=True):
 
     @property
     def holds(self) -> bool:
-        """All claims hold."""
+        """True if all claims hold."""
         return all(each.holds for each in self.claims)
 
 
@@ -119,7 +119,7 @@ def calculating(calculations: int, moves: int = 20) -> str:
 
 
 def load(name: str, text: str, statement_us: int = STATEMENT_US) -> Load:
-    """Carry a program out on perfect motors, and measure what it asks for."""
+    """Run a program on perfect motors, and measure its load."""
     motors = PerfectMotors()
     vm = VirtualMachine(program_of(f"{name}.mal", text), motors, statement_us=statement_us)
     vm.begin()
@@ -232,7 +232,7 @@ def _texts(form: str, name: str, each: Load) -> str:
 
 
 def page_tables(found: Table1) -> str:
-    """The tables of the page, in Markdown."""
+    """The tables of the documentation page, in Markdown."""
     out = []
     for title, layer in (
         ("Layer 1: one move, repeated", found.layer1),

@@ -1,4 +1,4 @@
-"""The system of 1973 as a `System`: runs of plans of motions in the cell of a task."""
+"""The hand-eye system of 1973 as a `System`: executes plans of motions in the cell of a task."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -57,10 +57,12 @@ from handeye.vision.marks import Mark
 
 
 class RunningPlan(RunningSystem):
-    """A run of a plan with the arm of a simulated cell."""
+    """A plan in execution, with the arm of a simulated cell."""
 
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
-        """Build the cell; InvalidInput if the plan is for another arm or the camera cannot work as asked."""
+        """Build the cell; raises InvalidInput if the plan is for another arm, or the camera cannot work as
+        requested.
+        """
         self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
         self._anew, self._prepared, self._took_up = around.calibrate, 0.0, False
         self._unkept: str | None = None
@@ -144,7 +146,9 @@ class RunningPlan(RunningSystem):
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: CameraSetup) -> float:
-        """Measure the joints and calibrate the camera, or use a kept preparation; return the joints' time, s."""
+        """Measure the joints and calibrate the camera, or restore a kept preparation; returns the time for the
+        joints, s.
+        """
         kept = KeptCalibrations.of_user()
         conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
         earlier = None if conditions is None or self._anew else kept.find(conditions)
@@ -162,7 +166,7 @@ class RunningPlan(RunningSystem):
         return seconds
 
     def _goes_on_from(self, earlier: Preparation) -> bool:
-        """Use a kept preparation; False, with nothing changed, if it cannot be used."""
+        """Restore a kept preparation; False, with nothing changed, if that is impossible."""
         try:
             take_up(earlier, self.context, self._cell)
         except InvalidInput:
@@ -172,7 +176,7 @@ class RunningPlan(RunningSystem):
         return True
 
     def _set_clock(self) -> None:
-        """Let the clock show 0, as the program begins."""
+        """Set the clock to 0, as the program begins."""
         self._prepared += self.time
         self._cell.set_to_zero()
 
@@ -226,7 +230,7 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _measure_joints(self) -> float:
-        """Measure friction and link weights if the program uses force; return the simulated time, s."""
+        """Measure friction and link weights if the program uses force; returns the simulated time, s."""
         if not self.plan.program.feels:
             return 0.0
         before = self.time
@@ -238,7 +242,7 @@ class RunningPlan(RunningSystem):
         return round(self.time - before, 6)
 
     def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
-        """The event for friction measured in `seconds`; none if it was not measured."""
+        """The event for a friction measurement that took `seconds`; none if there was no measurement."""
         drive = self.state.drive
         if drive.links is not None:
             joints = ArmNames.of(self.arm).joints
@@ -265,7 +269,7 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _take_calibration(self) -> None:
-        """Use the calibrated camera model, or else that of the drawing."""
+        """Use the calibrated camera model, or the design without one."""
         if self.state.calibration is not None:
             self.context.camera = self.state.calibration.model
         elif self._eye is not None:
@@ -316,7 +320,7 @@ class RunningPlan(RunningSystem):
 
 
 class PlanSystem(System):
-    """Plans of motions for an arm (the first waist)."""
+    """Plans of motions for an arm."""
 
     name = PLANNED
     plan = Plan
@@ -359,7 +363,9 @@ class PlanSystem(System):
         return plan.arm, plan.arm_digest
 
     def check(self, setup: Setup) -> None:
-        """Refuse a plan for another arm than the task's, and a world or faults that the task lacks."""
+        """Raises InvalidInput for a plan for another arm than the task's, and for a world or faults that the task
+        does not have.
+        """
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)
         task(setup.task).variation().check(world)

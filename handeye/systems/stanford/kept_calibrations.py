@@ -1,7 +1,7 @@
-"""Calibrations kept for later runs: files in the user's cache, named by a digest of their conditions.
+"""Calibrations kept for later runs, as files in the user's cache, named by a digest of their conditions.
 
-A file that cannot be used is replaced. Files are written whole or not at all and equal conditions give equal bytes,
-so that several processes may write at once.
+A file that cannot be used is replaced. Files are written completely or not at all, and equal conditions give equal
+bytes, so that several processes may write at once.
 """
 
 import hashlib
@@ -45,7 +45,7 @@ class KeptCalibrations:
     """The calibrations in a folder; without a folder none are found or kept."""
 
     def __init__(self, folder: Path | None, most: int = MOST) -> None:
-        """Limit the size of all files together to `most` bytes."""
+        """`most` is the greatest size of all files together, bytes."""
         self.folder, self.most = folder, most
 
     @classmethod
@@ -64,7 +64,7 @@ class KeptCalibrations:
             return None
 
     def keep(self, conditions: Conditions, preparation: Preparation) -> None:
-        """Keep a preparation, replacing an earlier one, and trim the folder; raises CannotWrite."""
+        """Keep a preparation, in place of an earlier one, and remove old files; raises CannotWrite."""
         if self.folder is None:
             return
         try:
@@ -98,7 +98,7 @@ class KeptCalibrations:
                 )
 
     def clear(self) -> int:
-        """Remove all calibrations and no other files; return their number."""
+        """Remove all calibrations and no other files; returns their number."""
         files = self.files()
         for path in (*files, *self._unfinished()):
             _remove(path)
@@ -125,7 +125,7 @@ def _place(folder: Path, conditions: Conditions) -> Path:
 
 
 def _decoded(data: bytes, wanted: Conditions) -> Preparation:
-    """The preparation in a file; ValueError unless it was made under these conditions."""
+    """The preparation in a file; raises ValueError unless it was made under these conditions."""
     line, _, rest = data.partition(b"\n")[2].partition(b"\n")
     if line != wanted.line or data != sealed(MAGIC, VERSION, line + b"\n" + rest):
         raise ValueError("it is damaged, or belongs to other conditions")
@@ -133,7 +133,7 @@ def _decoded(data: bytes, wanted: Conditions) -> Preparation:
 
 
 def _written(path: Path) -> float:
-    """When a file was written, s since the epoch; 0 if it no longer exists."""
+    """Time at which a file was written, s since the epoch; 0 if it no longer exists."""
     try:
         return path.lstat().st_mtime
     except OSError:

@@ -1,7 +1,7 @@
 """Preparation of a run: the arm measures its joints and calibrates the camera before the first instruction.
 
-It does not depend on the instructions, so that runs of other programs can start from a kept one
-(`systems/stanford/kept_calibrations.py`). Equal conditions give equal preparations, to the byte.
+The preparation does not depend on the instructions, so that runs of other programs can start from a kept one
+(`systems/stanford/kept_calibrations.py`). Equal conditions give equal preparations, byte for byte.
 """
 
 import platform
@@ -38,7 +38,7 @@ class Preparation(Record, frozen=True, kw_only=True):
 def preparation_of(
     run: ExecutionContext, cell: SimulatedCell, seconds: float, friction_s: float
 ) -> Preparation:
-    """The preparation that a run has just made; the clock of the cell now shows 0."""
+    """The preparation that a run has just completed; the clock of the cell is now 0."""
     return Preparation(
         cell=cell.capture(),
         drive=copied(run.state.drive),
@@ -50,7 +50,9 @@ def preparation_of(
 
 
 def take_up(preparation: Preparation, run: ExecutionContext, cell: SimulatedCell) -> None:
-    """Put cell and run in the state after a preparation; InvalidInput, with nothing changed, if it does not fit."""
+    """Set cell and run to the state after a preparation; raises InvalidInput, with nothing changed, if the
+    preparation does not fit.
+    """
     state = copied(run.state)
     state.drive, state.lens = preparation.drive, preparation.lens
     state.calibration = preparation.calibration
@@ -78,7 +80,7 @@ class Conditions(Record, frozen=True, kw_only=True):
 
 
 def conditions_of(setup: Setup, camera: Renderer) -> Conditions | None:
-    """The conditions of a run with this renderer; None if it uses code that is not Handeye's."""
+    """The conditions of a run with this renderer; None if the run uses code of the caller."""
     ours = type(task(setup.task)).__module__.startswith("handeye.")
     if camera.method == "replaced" or not ours:
         return None

@@ -1,4 +1,4 @@
-"""The stepper's views of a run of a plan: sensor values and the executor's state."""
+"""The stepper's views of a run of a plan: sensor readings, and the state of the executor."""
 
 import math
 from typing import Final

@@ -1,4 +1,4 @@
-"""TRIG (MIT, 1982): programs taught by doing, drawn as they grow, and run forwards and backwards."""
+"""TRIG (MIT, 1982): programs that are taught by doing, drawn as they grow, and run forwards and backwards."""
 
 from handeye.core.entries import Entry
 

@@ -1,4 +1,4 @@
-"""The language service for scripts of lines typed at TRIG, and for programs that W has written."""
+"""The language service for scripts of lines typed at TRIG, and for programs written by the command W."""
 
 from typing import Final
 
@@ -21,12 +21,12 @@ _CODES: Final = {
 
 
 class TrigLanguage(OwnLanguage):
-    """Scripts are typed at an imagined arm; nothing moves."""
+    """Checks scripts by typing them at an imaginary arm; nothing moves."""
 
     system = ENTRY.name
 
     def check(self, source: Source) -> list[Diagnostic]:
-        """The line that is refused first, or why the file is no program."""
+        """A diagnostic for the first line that is refused, or for a file that is no program."""
         first = Span(start=0, end=len(source.line(1)))
         try:
             if source.name.endswith(ENDING):
@@ -48,7 +48,7 @@ class TrigLanguage(OwnLanguage):
         return help(word) if SYNONYMS.get(word.upper(), word.upper()) in COMMANDS else None
 
     def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
-        """Commands, where a line begins."""
+        """The commands, for completion at the beginning of a line."""
         number, column = source.position(offset)
         before = source.line(number)[: column - 1].removeprefix(">").split()
         if len(before) > 1:

@@ -1,4 +1,4 @@
-"""A session of TRIG from Python: lines are typed, and both displays show what has come of them."""
+"""A session of TRIG from Python: lines are typed, and both displays show the resulting program."""
 
 from typing import Final, get_args
 
@@ -15,9 +15,10 @@ _WIDE: Final = 100  # characters of a line of the displays
 
 
 class TrigSession:
-    """A session at TRIG's editor, with a teach box: each line typed is executed, and the program grows.
+    """A session at TRIG's editor, with a teach box: each typed line is executed, and most commands add a step to
+    the program.
 
-    It shows itself as its steps; in notebooks in miniature, too.
+    The session is displayed as the steps of its program; notebooks also show the program in miniature.
 
     >>> session = handeye.TrigSession()
     >>> session.type("M CENTER\\nX 0 Y 0 Z 150 RECORD\\nM BLOCK\\nX 60 Z 6 RECORD\\nGRASP")
@@ -31,10 +32,10 @@ class TrigSession:
     """
 
     def __init__(self, arm: ArmName = "none") -> None:
-        """Sit down at an arm, to write a new program.
+        """Start a session with an arm and an empty program.
 
         Args:
-            arm: `none` is one that is imagined, `purbrick` that of the paper, with physics.
+            arm: `none`, an imaginary arm, or `purbrick`, the arm of the paper, with physics.
 
         Raises:
             InvalidInput: there is no such arm.
@@ -44,13 +45,13 @@ class TrigSession:
         self._session = new_session(arm)
 
     def type(self, text: str) -> tuple[str, ...]:
-        """Type lines, as a script has them: commands, the teach box, answers, and what the user does with the table.
+        """Execute lines, as in a script: commands, teach box actions, answers, and lines about the table.
 
-                Returns:
-        The messages, a sentence each.
+        Returns:
+            the messages, one sentence each.
 
-                Raises:
-                    InvalidInput: a line cannot be executed; those before it have been.
+        Raises:
+            InvalidInput: a line cannot be executed; the lines before it have been.
         """
         told: list[str] = []
         script = Script(text.splitlines(), told.append)
@@ -60,15 +61,15 @@ class TrigSession:
 
     @property
     def hand(self) -> tuple[float, float, float]:
-        """Commanded position of the hand: X, Y and Z of the paper's arm, mm."""
+        """Commanded position of the hand: X, Y and Z of the arm, mm."""
         x, y, z, *_ = self._session.arm.here().measures()
         return x, y, z
 
     def photograph(self, *, width: int = 640, height: int = 480) -> Photograph:
-        """Arm and table as seen by a person in front of them, shape (height, width, 3), red, green and blue.
+        """A photograph of arm and table from the front, shape (height, width, 3), red, green and blue.
 
         Raises:
-            InvalidInput: the arm is imagined, there is no OpenGL on this machine, or the size is none of a picture.
+            InvalidInput: the arm is imaginary, OpenGL is missing, or the size is impossible.
         """
         table = self._session.table
         if not isinstance(table, SeenTable):

@@ -1,1 +1,1 @@
-"""The MICROBUS below the wall: wires, receivers with clocks of their own, segments, faults, and its timing diagram."""
+"""The simulated MICROBUS: wires, receivers with separate clocks, segments, faults, and timing diagrams."""

@@ -1,4 +1,4 @@
-"""A demonstration of the protocol: a command that all free microcomputers take, and a question with its answer."""
+"""A demonstration of the protocol: a command that all free microcomputers receive, and a question with its answer."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -26,7 +26,7 @@ ASKED: Final = "Y1"
 COUNT: Final = 0x1234  # that it has at first
 SHORT_MOVE: Final = 8  # steps that the late riser makes
 COMMAND: Final = Command(number=NUMBERS["X1"], op=Op.MOVE, detail=Op.SET_POSITION, value=0x0102)
-"""A move of X1 whose bytes from the second on are a command to Y1, that changes its count."""
+"""A move of X1 whose bytes, from the second on, are also a command to Y1 that would change Y1's count."""
 RISES: Final = 26  # microseconds after the command began, when the late riser becomes free
 _MARGIN: Final = 20  # microseconds around what is drawn
 _ENOUGH: Final = 60_000_000  # microseconds
@@ -34,7 +34,7 @@ _ENOUGH: Final = 60_000_000  # microseconds
 
 @dataclass(kw_only=True)
 class Demonstration:
-    """What was shown."""
+    """The log and the results of a demonstration."""
 
     bus: WiredBus
     log: list[AnyBusEvent] = field(default_factory=list)
@@ -49,14 +49,14 @@ class Demonstration:
 
     @property
     def right(self) -> bool:
-        """Everything arrived as it was sent."""
+        """True if all bytes arrived as they were sent."""
         return not (self.misread or self.deaf or self.strangers) and self.found == self.wanted
 
 
 def demonstrate(
     defects: Sequence[BusDefect] = (), *, late_riser: bool = False, seed: int = 0, all_lines: bool = False
 ) -> Demonstration:
-    """Show a command and a question; with a late riser, Y1 becomes free in the middle of the command."""
+    """Send a command and ask a question; with `late_riser`, Y1 becomes free in the middle of the command."""
     shown = Demonstration(bus=WiredBus(defects=defects, seed=seed))
     bus, number = shown.bus, NUMBERS[ASKED]
     bus.tell.append(shown.log.append)
@@ -104,7 +104,7 @@ def _pass(bus: WiredBus, until: int) -> None:
 
 
 def verdict(shown: Demonstration) -> list[str]:
-    """What came of it, in sentences."""
+    """The results of a demonstration, in sentences."""
     out = []
     for event in shown.misread:
         acts = f", and acts: {command_text(Command.of(event.frame))}" if event.own else ", and drops it"
@@ -123,7 +123,7 @@ def verdict(shown: Demonstration) -> list[str]:
 
 
 def told(shown: Demonstration) -> list[str]:
-    """The log of both pictures, a line an event."""
+    """The log of both diagrams, one line per event."""
     first = shown.diagrams[0].begin
     events = sorted((e for e in shown.log if e.at >= first), key=lambda event: event.at)
     return [event_text(event) for event in events]

@@ -1,4 +1,4 @@
-"""Timing diagrams of the bus, made from its log: what is on the lines, and what each receiver took when."""
+"""Timing diagrams of the bus, made from its log: the levels of the lines, and the bytes that each receiver took."""
 
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -27,7 +27,7 @@ _ALWAYS_BUSY: Final = "FORCE"  # microcomputers of these names show BUSY from po
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """One line: its level at first, and each change of it, ps."""
+    """One line of the bus: its level at first, and the times of its changes, ps."""
 
     name: str
     first: int
@@ -36,7 +36,7 @@ class Wave:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A byte that a receiver took at a moment, ps."""
+    """A byte that a receiver took, with its time, ps."""
 
     at: int
     byte: int
@@ -47,7 +47,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Receiver:
-    """What one microcomputer, or the computer, took."""
+    """The bytes that one microcomputer, or the central computer, took."""
 
     name: str
     marks: tuple[Mark, ...]
@@ -56,7 +56,7 @@ class Receiver:
 
 @dataclass(frozen=True, slots=True)
 class Diagram:
-    """Lines and receivers between two moments, ps."""
+    """Lines and receivers between two times, ps."""
 
     title: str
     begin: int
@@ -71,7 +71,9 @@ class Diagram:
 def diagram(
     title: str, log: Sequence[AnyBusEvent], begin: int, end: int, timing: Timing, *, all_lines: bool = False
 ) -> Diagram:
-    """The diagram of a log between two moments, microseconds; status lines that do not change if `all_lines`."""
+    """The diagram of a log between two times, microseconds; with `all_lines`, including status lines that do not
+    change.
+    """
     first, last = begin * PS, end * PS
     sent = [e for e in log if isinstance(e, CommandSent)]
     spoken = [e for e in log if isinstance(e, ByteSpoken)]
@@ -171,7 +173,7 @@ _ASCII: Final = ("-", "_", "|")
 
 
 def as_text(drawn: Diagram, width: int = 100, *, ascii: bool = False) -> list[str]:
-    """A diagram as lines of text of at most a width, if that is 60 or more."""
+    """A diagram as lines of text, at most `width` characters wide (60 at least)."""
     behind = max((len(receiver.says) + 1 for receiver in drawn.receivers), default=0)
     columns = max(20, width - _NAME - behind)
     scale = (drawn.end - drawn.begin) / columns
@@ -220,14 +222,14 @@ def _axis(drawn: Diagram, columns: int) -> str:
 
 
 def _unit(drawn: Diagram) -> tuple[str, int]:
-    """The unit of an axis, and its microseconds."""
+    """The unit of the time axis, and its length in microseconds."""
     units = (("microseconds", 1), ("milliseconds", 1_000), ("seconds", 1_000_000))
     span = (drawn.end - drawn.begin) // PS
     return max((unit for unit in units if span >= 20 * unit[1]), key=lambda unit: unit[1], default=units[0])
 
 
 def _ticks(drawn: Diagram, most: int) -> list[int]:
-    """Round moments, ps, that an axis shows."""
+    """Round times, ps, for the ticks of the time axis."""
     span = (drawn.end - drawn.begin) // PS
     step = next(
         (digit * 10**power for power in range(12) for digit in (1, 2, 5) if digit * 10**power * most >= span),
@@ -258,7 +260,7 @@ _STYLE: Final = (
 
 
 def as_svg(*drawings: Diagram) -> str:
-    """Diagrams below each other, as a drawing with searchable text."""
+    """Diagrams one below another as SVG, with searchable text."""
     pieces, top = [], 0
     for drawn in drawings:
         piece, height = _drawing(drawn, top)
@@ -294,7 +296,7 @@ def _drawing(drawn: Diagram, top: int) -> tuple[Markup, int]:
 
 
 def _bit(drawn: Diagram, bit: int) -> Wave:
-    """One data line; high where no one drives it."""
+    """The wave of one data line; the line is high while nothing drives it."""
     changes: list[tuple[int, int]] = []
     for start, end, byte in drawn.data:
         changes += [(start, byte >> bit & 1), (end, OPEN >> bit & 1)]

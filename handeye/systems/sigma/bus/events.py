@@ -1,16 +1,16 @@
-"""What happens on a bus, for its log and its timing diagram. Times are picoseconds since power-on."""
+"""Events of a bus, for its log and its timing diagram. Times are picoseconds since power-on."""
 
 from handeye.core.record import Record
 
 
 class BusEvent(Record, frozen=True, kw_only=True, tag_field="kind"):
-    """Something that happened on the bus."""
+    """An event on the bus."""
 
     at: int
 
 
 class CommandSent(BusEvent, frozen=True, kw_only=True, tag="sent"):
-    """The central computer begins a command."""
+    """The central computer began to send a command."""
 
     frame: bytes
     falls: int  # ps, of /DATA READY
@@ -18,7 +18,7 @@ class CommandSent(BusEvent, frozen=True, kw_only=True, tag="sent"):
 
 
 class FrameTaken(BusEvent, frozen=True, kw_only=True, tag="taken"):
-    """A microcomputer has taken five bytes, and compared the first with its number."""
+    """A microcomputer took five bytes and compared the first with its number."""
 
     number: int
     frame: bytes
@@ -28,7 +28,7 @@ class FrameTaken(BusEvent, frozen=True, kw_only=True, tag="taken"):
 
 
 class ByteSpoken(BusEvent, frozen=True, kw_only=True, tag="spoken"):
-    """A microcomputer puts a byte of an answer on the lines, with the strobe, until `until`."""
+    """A microcomputer put a byte of an answer on the lines, with the strobe, until `until`."""
 
     number: int
     byte: int
@@ -37,14 +37,14 @@ class ByteSpoken(BusEvent, frozen=True, kw_only=True, tag="spoken"):
 
 
 class ByteHeard(BusEvent, frozen=True, kw_only=True, tag="heard"):
-    """The central computer has taken a byte of an answer."""
+    """The central computer took a byte of an answer."""
 
     number: int  # the one that was asked
     byte: int
 
 
 class AnswerEnded(BusEvent, frozen=True, kw_only=True, tag="answered"):
-    """A question is over."""
+    """A question has ended, with an answer or with a failure."""
 
     number: int
     answer: bytes
@@ -52,14 +52,14 @@ class AnswerEnded(BusEvent, frozen=True, kw_only=True, tag="answered"):
 
 
 class StatusLines(BusEvent, frozen=True, kw_only=True, tag="status"):
-    """The status lines of a microcomputer have changed."""
+    """The status lines of a microcomputer changed."""
 
     number: int
     status: int  # A is the upper bit, B the lower
 
 
 class InterruptLine(BusEvent, frozen=True, kw_only=True, tag="interrupt"):
-    """The interrupting input of the central computer has changed."""
+    """The interrupt input of the central computer changed."""
 
     level: bool
 

@@ -1,4 +1,4 @@
-"""What can be wrong with a bus, each asked for by name."""
+"""Faults of a bus, each injected by name."""
 
 from collections.abc import Container
 from typing import Final
@@ -10,7 +10,7 @@ from handeye.systems.sigma.protocol import number_of
 
 
 class BusDefect(Record, frozen=True, kw_only=True):
-    """A fault: its kind, the segment or microcomputer that has it, and how much."""
+    """An injected fault: its kind, the segment or microcomputer concerned, and its size."""
 
     kind: str
     where: int = 0
@@ -18,7 +18,7 @@ class BusDefect(Record, frozen=True, kw_only=True):
 
 
 class Defects(Record, frozen=True, kw_only=True):
-    """What a kind of fault is, and what a user says of it."""
+    """A kind of fault: its meaning, where it can be, and its possible sizes."""
 
     help: str
     where: str = ""  # `segment` or `microcomputer`; empty: the whole bus
@@ -61,11 +61,11 @@ KINDS: Final[dict[str, Defects]] = {
     "no-reflex": Defects(help="the wires from the wrists to the motors are cut"),
     "no-interrupt": Defects(help="the wire that joins the A lines of the motors is broken"),
 }
-"""By name, as `--fault` takes them."""
+"""Kinds of faults by name, as `--fault` takes them."""
 
 
 def defect(text: str) -> BusDefect:
-    """The fault that `KIND`, `KIND:WHERE` or `KIND:WHERE:VALUE` names; raises BadArgument.
+    """Parse a fault: `KIND`, `KIND:WHERE` or `KIND:WHERE:VALUE`; raises BadArgument.
 
     A kind that concerns the whole bus has no WHERE.
     """
@@ -100,7 +100,7 @@ def _number(text: str, what: str, least: int, most: int) -> int:
 
 
 def check_place(defect: BusDefect, segments: int, numbers: Container[int]) -> None:
-    """Raise BadArgument if there is nothing on the bus that could have a fault."""
+    """Raise BadArgument if the bus has no such segment or microcomputer."""
     where = KINDS[defect.kind].where
     if where == "segment" and not (defect.kind == "no-turn") <= defect.where < segments:
         what = "regenerator before segment" if defect.kind == "no-turn" else "segment"

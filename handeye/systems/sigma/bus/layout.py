@@ -1,4 +1,6 @@
-"""What is connected to the bus: segments of ten, the regenerators between them, and pages of status lines."""
+"""The layout of the bus: segments of ten microcomputers, the regenerators between segments, and pages of status
+lines.
+"""
 
 from typing import Final, Literal
 
@@ -15,7 +17,7 @@ Kind = Literal["motor", "force", "hand", "sensor"]
 
 
 class Place(Record, frozen=True, kw_only=True):
-    """A microcomputer: the number it answers to, which its status lines are wired by, and the segment it hangs on."""
+    """A microcomputer: its number, which also determines its status lines, and its segment."""
 
     number: int
     kind: Kind
@@ -24,16 +26,20 @@ class Place(Record, frozen=True, kw_only=True):
 
 
 class Layout(Record, frozen=True, kw_only=True):
-    """All microcomputers, and how segments hang on each other."""
+    """All microcomputers, and the connections between segments."""
 
     places: tuple[Place, ...]
     behind: tuple[int, ...] = (-1,)
-    """For each segment, the one that its regenerator is towards; the first has none, and leads to the computer."""
+    """For each segment, the segment towards the central computer; the first segment is connected to the computer
+    itself.
+    """
     more_pages: bool = False  # two more output bits, for 256 microcomputers
 
     @property
     def reflexes(self) -> dict[tuple[int, int], int]:
-        """The motor that each component of each force microcomputer interrupts: the three numbers before its own."""
+        """The motor that each component of each force microcomputer interrupts: the three numbers before the force
+        microcomputer's own.
+        """
         motors = {place.number for place in self.places if place.kind == "motor"}
         wired = {
             (place.number, component): place.number - len(COMPONENTS) + component
@@ -50,18 +56,18 @@ class Layout(Record, frozen=True, kw_only=True):
 
     @property
     def pages(self) -> int:
-        """Pages of status lines that can be chosen."""
+        """Number of pages of status lines that can be selected."""
         return 1 << PAGE_BITS + (MORE_PAGE_BITS if self.more_pages else 0)
 
     def way(self, segment: int) -> tuple[int, ...]:
-        """Segments from the computer to one, that one included."""
+        """Segments from the central computer to a segment, including that segment."""
         passed = [segment]
         while (segment := self.behind[segment]) >= 0:
             passed.append(segment)
         return tuple(reversed(passed))
 
     def check(self) -> None:
-        """Raise BadArgument if it cannot be built."""
+        """Raise BadArgument if the layout cannot be built."""
         if not self.behind or self.behind[0] != -1:
             raise BadArgument("the first segment of a bus is that of the computer, behind no regenerator")
         for segment, towards in enumerate(self.behind[1:], start=1):
@@ -94,7 +100,7 @@ def _kind(name: str) -> Kind:
 SUPERSIGMA: Final = Layout(
     places=tuple(Place(number=number, kind=_kind(name)) for name, number in NUMBERS.items())
 )
-"""Two arms, which fill one segment."""
+"""The layout of SUPERSIGMA: two arms, which fill one segment."""
 
 _FEEDING: Final[tuple[Kind, ...]] = ("motor", "motor", "hand", "motor", "sensor", "hand")
 LINE: Final = Layout(
@@ -108,4 +114,6 @@ LINE: Final = Layout(
     ),
     behind=(-1, 0, 1),
 )
-"""An assembly line: two SUPERSIGMAs, and behind them what brings pieces and takes them away; 26 microcomputers."""
+"""An assembly line: two SUPERSIGMAs, and a segment for the devices that bring and remove pieces; 26 microcomputers.
+
+"""

@@ -1,4 +1,6 @@
-"""A microcomputer on the bus: it polls a strobe by its own clock, takes five bytes, acts if they are its own."""
+"""A microcomputer on the bus: it polls a strobe by its own clock, takes five bytes, and acts if they are addressed
+to it.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -15,7 +17,7 @@ from handeye.systems.sigma.protocol import Timing
 
 
 class NodeMemory(MutableRecord, kw_only=True):
-    """What a microcomputer remembers. Times are ps."""
+    """The state of a microcomputer. Times are in ps."""
 
     device: MotorMemory | ForceMemory | HandMemory | SensorMemory
     listens: int | None = None  # since when it polls the strobe
@@ -25,7 +27,7 @@ class NodeMemory(MutableRecord, kw_only=True):
 
 
 class Taken(NamedTuple):
-    """Five bytes that a receiver took."""
+    """Five bytes that a receiver took, with times in ps."""
 
     frame: bytes
     sampled: tuple[int, ...]  # ps
@@ -63,12 +65,12 @@ class Microcomputer:
         return memory
 
     def bind(self, memory: NodeMemory) -> None:
-        """Go on from what it once remembered."""
+        """Continue from a state."""
         self.memory, self.device.memory = memory, memory.device
 
     @property
     def status(self) -> Status:
-        """What its status lines show."""
+        """The levels of the status lines."""
         if self.dead:
             return Status.FREE
         if self.memory.working is not None or self.memory.speech is not None:
@@ -77,7 +79,7 @@ class Microcomputer:
 
     @property
     def due(self) -> int | None:
-        """When it does something next: receiver and firmware."""
+        """Time of the next action of receiver or firmware, ps; None if there is none."""
         if self.dead:
             return None
         memory = self.memory
@@ -89,7 +91,7 @@ class Microcomputer:
 
     @property
     def _silent(self) -> int | None:
-        """When its answer ends."""
+        """Time at which the present answer ends, ps; None without an answer."""
         speech = self.memory.speech
         return None if speech is None else speech.lows(self.timing)[-1][1]
 
@@ -100,9 +102,10 @@ class Microcomputer:
     # -- receiving ---------------------------------------------------------------------------------------
 
     def listen(self, at: int, sent: Sequence[Sending], wires: Wires, *, quiet: bool) -> list["Taken"]:
-        """Look for a strobe, if it is free to take a command; the commands of others that it takes and drops.
+        """Look for a strobe if the microcomputer is free to take a command; returns commands to others that it
+        takes and drops.
 
-        Those are known at once, where no line is wrong and no answer is on the lines (`quiet`).
+        Those are known at once if no line is faulty and no answer is on the lines (`quiet`).
         """
         memory, passed = self.memory, list[Taken]()
         if not self._takes():
@@ -126,7 +129,7 @@ class Microcomputer:
         return passed
 
     def _takes(self) -> bool:
-        """It is free to look for a strobe."""
+        """True if the microcomputer is free to look for a strobe."""
         memory = self.memory
         if self.dead or memory.noticed is not None or memory.working is not None or memory.speech is not None:
             return False
@@ -148,7 +151,7 @@ class Microcomputer:
     def receive(
         self, at: int, sent: Sequence[Sending], speeches: Sequence[Speech], wires: Wires
     ) -> Taken | None:
-        """The five bytes that it has taken by now, if their number has just been compared."""
+        """The five bytes taken by now, if their number has just been compared; else None."""
         noticed = self.memory.noticed
         if noticed is None or self._checked(noticed) != at:
             return None
@@ -158,7 +161,7 @@ class Microcomputer:
         return Taken(frame, sampled, noticed, at)
 
     def act(self, command: Command, at: int) -> None:
-        """Carry out a command of its own."""
+        """Execute a command addressed to this microcomputer."""
         answer = self.device.take(command, at)
         if not answer:
             self.memory.working = at + self.crystal.micros(self.timing.act)
@@ -173,7 +176,7 @@ class Microcomputer:
         )
 
     def elapse(self, at: int) -> None:
-        """Do what is due, except receiving."""
+        """Do everything that is due, except receiving."""
         memory = self.memory
         if self.device.due == at:
             self.device.elapse(at)

@@ -1,4 +1,6 @@
-"""What hangs on the pins of the microcomputers: a machine, and an ideal one, whose rotors follow each pulse."""
+"""The machine connected to the pins of the microcomputers: its interface, and an ideal machine whose rotors follow
+each pulse.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -15,7 +17,7 @@ Kept = TypeVar("Kept", bound=MutableRecord)
 
 
 class Level(NamedTuple):
-    """A level that the machine has changed by itself."""
+    """A level that the machine has changed."""
 
     number: int  # of a motor, or of the force microcomputer that has to scan its wrist
     pin: Pin = "force"
@@ -23,43 +25,45 @@ class Level(NamedTuple):
 
 
 class Plant(ABC, Generic[Kept]):
-    """The machine as its pins show it. Numbers are those of microcomputers, times picoseconds.
+    """The machine as seen at the pins. Numbers are those of microcomputers, times are in picoseconds.
 
-    A machine that can predict its levels has a `next_pin`, and forces that stay as they are. One that cannot, because
-    it is simulated step by step, returns those that have changed from `advance`.
+    A machine that can predict its levels returns them from `next_pin`, and its forces are constant. A machine that
+    is simulated step by step cannot; it returns changed levels from `advance`.
     """
 
     memory: Kept
     predicts = True  # its forces stay as they are until they are set
 
     def resumed(self) -> None:
-        """Its memory has been put back; it is asked about all motors and thresholds next."""
+        """The state has been restored; all motors and thresholds are queried next."""
 
     def advance(self, at: int) -> tuple[int, list[Level]] | None:
-        """Go on to a moment; an earlier one, where levels have changed by themselves, with these."""
+        """Advance to a time, or to an earlier one at which levels have changed; returns the time reached and the
+        changed levels.
+        """
         return None
 
     def driven(self, number: int, motor: Motor) -> None:
-        """A motor may have begun another train, or ended it."""
+        """A motor may have begun another pulse train, or ended one."""
 
     def limited(self, number: int, thresholds: Sequence[float]) -> None:
-        """A force microcomputer has taken a command that may have changed its thresholds, N."""
+        """A force microcomputer has executed a command that may have changed its thresholds, N."""
 
     @abstractmethod
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:
-        """When a switch of the rail changes next if the motor goes on as it does, which, and to what level."""
+        """Time and new level of the next switch of the rail that changes if the motor continues; None if none does."""
 
     @abstractmethod
     def forces(self, number: int) -> Sequence[float]:
-        """What a wrist feels now, N along x, y and z."""
+        """Present force on a wrist along x, y and z, N."""
 
     def peaks(self, number: int) -> Sequence[float]:
-        """The greatest forces that a wrist has felt since this was asked last, N."""
+        """The greatest forces on a wrist since the last query, N."""
         return tuple(map(abs, self.forces(number)))
 
     @abstractmethod
     def beam(self, number: int) -> bool:
-        """Whether something is in the light beam of a hand."""
+        """True if an object is in the light beam of a hand."""
 
     @abstractmethod
     def actuate(self, number: int, devices: Sequence[int]) -> None:
@@ -67,7 +71,7 @@ class Plant(ABC, Generic[Kept]):
 
 
 class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
-    """An ideal machine."""
+    """The state of an ideal machine."""
 
     starts: dict[int, int] = field(
         default_factory=dict
@@ -79,7 +83,9 @@ class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
 
 
 class IdealMachine(Plant[IdealMemory]):
-    """Rotors are where the pulses say; nothing pushes and nothing is in the way, unless it is set so."""
+    """An ideal machine: its rotors are where the pulses put them, and there are no forces or obstacles unless they
+    are set.
+    """
 
     def __init__(self) -> None:
         self.memory = IdealMemory(
@@ -88,7 +94,7 @@ class IdealMachine(Plant[IdealMemory]):
         )
 
     def place(self, number: int, motor: Motor, at: int) -> int:
-        """True steps of a motor past its low switch."""
+        """True position of a motor, steps from its low switch."""
         return self.memory.starts.get(number, 0) + motor.sent(at)
 
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:

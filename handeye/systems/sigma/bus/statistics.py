@@ -1,4 +1,4 @@
-"""How often commands are misread, by how far the clocks of receivers may be off."""
+"""Statistics of misread commands, depending on the clock errors of the receivers."""
 
 from typing import Final
 
@@ -15,7 +15,7 @@ _AT_ONCE: Final = 10_000  # commands whose numbers are drawn together
 
 
 class Rate(Record, frozen=True, kw_only=True):
-    """What came of drawn commands to one free microcomputer."""
+    """Counts of random commands to one free microcomputer."""
 
     clock: float  # the most that a clock is off, as a share
     commands: int
@@ -27,9 +27,11 @@ class Rate(Record, frozen=True, kw_only=True):
 
 
 def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None = None) -> Rate:
-    """Draw commands of random bytes, receivers that become free at a random moment, and clocks within a share.
+    """Send random commands to receivers that become free at random times, with clocks that are off by at most a
+    fraction `clock`.
 
-    A receiver becomes free up to a command before the command begins, or in the middle of it.
+    A receiver becomes free during the time of one command before the command begins, or in the middle of the
+    command.
     """
     timing = timing or Timing()
     wires = Wires(_ANOTHER, timing, ())
@@ -65,7 +67,7 @@ def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None
 
 
 def _taken(wires: Wires, timing: Timing, sending: Sending, ppm: int, free: int) -> bytes | None:
-    """What a receiver takes that becomes free at a moment, ps; None: nothing."""
+    """The bytes that a receiver takes if it becomes free at time `free`, ps; None if it takes none."""
     node = Microcomputer(
         _ANOTHER.places[0], timing, answers_to=256, ppm=ppm, phase=free, dead=False
     )  # one of no number, so that it acts on nothing

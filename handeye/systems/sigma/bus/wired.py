@@ -1,6 +1,7 @@
-"""The bus itself behind its port: the central computer's side of the lines, all microcomputers, and the machine.
+"""The bus behind its interface: the lines at the central computer, all microcomputers, and the machine.
 
-Nothing is stepped: waves, polls, samples and pulses are known in closed form, and time goes from event to event.
+There are no time steps: waves, polls, samples and pulses are known in closed form, and time advances from event to
+event.
 """
 
 from collections.abc import Callable, Sequence
@@ -41,7 +42,7 @@ _PER_MILLE: Final = 1_000  # ppm
 
 
 class Question(MutableRecord, kw_only=True):
-    """A question whose answer is awaited: the side of the central computer. Times are ps."""
+    """A question whose answer is awaited, at the side of the central computer. Times are in ps."""
 
     number: int
     wanted: int
@@ -52,7 +53,7 @@ class Question(MutableRecord, kw_only=True):
 
 
 class BusMemory(MutableRecord, kw_only=True):
-    """All that a bus and its machine remember."""
+    """The whole state of a bus and its machine."""
 
     now: int = 0  # microseconds
     taken_until: int = 0  # microseconds, by a command
@@ -63,7 +64,7 @@ class BusMemory(MutableRecord, kw_only=True):
 
 
 class WiredBus(MicrobusPort):
-    """A bus with its microcomputers, over a machine."""
+    """A bus with its microcomputers, connected to a machine."""
 
     def __init__(
         self,
@@ -78,9 +79,9 @@ class WiredBus(MicrobusPort):
         """Switch the bus on.
 
         Args:
-            defects: What is wrong with it.
-            seed: Draws when each microcomputer begins to poll, and its clock.
-            clock_spread: How far clocks are off at most, as a share: .005.
+            defects: injected faults of the bus.
+            seed: seed of the random times at which the microcomputers begin to poll, and of their clock errors.
+            clock_spread: greatest clock error, as a fraction, for example .005.
         """
         layout.check()
         for defect in defects:
@@ -115,7 +116,7 @@ class WiredBus(MicrobusPort):
         )
 
     def _reckon(self) -> None:
-        """Work out what follows from the memory."""
+        """Compute everything that follows from the state."""
         self._due = {number: self._due_of(number, self.now * PS) for number in self._nodes}
         self._shown = {number: self._status(number) for number in self._nodes}
         self._level, self._changed = self._tied(), False
@@ -209,19 +210,19 @@ class WiredBus(MicrobusPort):
     # -- the machine's side ------------------------------------------------------------------------------
 
     def motor(self, number: int) -> Motor:
-        """The firmware of a motor."""
+        """The firmware of a motor; raises Refused if the microcomputer is no motor."""
         device = self._nodes[number].device
         if not isinstance(device, Motor):
             raise Refused(f"{name_of(number)} is no motor")
         return device
 
     def touched(self, *numbers: int) -> None:
-        """Forces, beams or pins of microcomputers have been changed by the machine."""
+        """Update microcomputers whose forces, beams or pins the machine has changed."""
         for number in numbers:
             self._due[number] = self._due_of(number, self.now * PS)
 
     def pin(self, number: int, pin: Pin, level: bool) -> None:
-        """Change a pin of a motor now."""
+        """Set a pin of a motor now."""
         motor = self.motor(number)
         if getattr(motor.memory, pin) != level:
             motor.pin(pin, level, self.now * PS)
@@ -238,7 +239,7 @@ class WiredBus(MicrobusPort):
         return min(times) if times else None
 
     def _pass(self, moment: int) -> bool:
-        """Go on to a moment, or to an earlier one where something has changed that the port shows; whether it has."""
+        """Advance to a time, or to an earlier one at which something changes at the interface; True if it did."""
         free, self._changed = self.free, False
         while True:
             due = self._next_below(moment)
@@ -257,7 +258,7 @@ class WiredBus(MicrobusPort):
         return self._changed or self.free != free
 
     def _events(self, due: int) -> None:
-        """Serve all that is due."""
+        """Handle all events due at a time."""
         for number, at in self._due.items():
             if at is not None and at <= due:
                 self._serve(number, at)
@@ -265,7 +266,7 @@ class WiredBus(MicrobusPort):
             self._compute(at)
 
     def _sense(self, level: Level, at: int) -> None:
-        """A level of the machine has changed by itself."""
+        """Handle a level that the machine has changed."""
         node = self._nodes[level.number]
         if node.dead:
             return
@@ -283,7 +284,7 @@ class WiredBus(MicrobusPort):
         return due if due is not None and due <= moment * PS else None
 
     def _due_of(self, number: int, at: int) -> int | None:
-        """When a microcomputer has something to do next, after a moment."""
+        """Time of the next action of a microcomputer after a time; None if there is none."""
         node = self._nodes[number]
         times = [
             time for time in (node.due, self._pin_due(node), self._scan_due(node, at)) if time is not None
@@ -297,7 +298,7 @@ class WiredBus(MicrobusPort):
         return change[0] if change else None
 
     def _scan_due(self, node: Microcomputer, at: int) -> int | None:
-        """When a force microcomputer scans next, if that changes anything."""
+        """Time of a force microcomputer's next scan, if that changes anything; else None."""
         if node.dead or not self.plant.predicts or not isinstance(node.device, Force):
             return None
         number, device = node.place.number, node.device
@@ -308,14 +309,14 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """Motors that a force microcomputer interrupts, and whether it does."""
+        """The motors that a force microcomputer can interrupt, each with True if it is interrupted now."""
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
         return [(motor, level) for motor, level in pairs if motor is not None]
 
     def _serve(self, number: int, at: int) -> None:
-        """Let a microcomputer do what is due."""
+        """Let a microcomputer perform all actions that are due."""
         node, memory = self._nodes[number], self._memory
         if isinstance(node.device, Motor) and self._pin_due(node) == at:
             change = self.plant.next_pin(number, node.device)
@@ -356,7 +357,7 @@ class WiredBus(MicrobusPort):
                 self._say(ByteSpoken(at=start, number=speech.number, byte=byte, until=end, turned=turned))
 
     def _settle(self, number: int, at: int) -> None:
-        """A microcomputer has done something: what it shows, and what it does next."""
+        """Update outputs and next action of a microcomputer after an action."""
         node = self._nodes[number]
         self._listen(node, at)
         self._show(number, node)
@@ -371,19 +372,19 @@ class WiredBus(MicrobusPort):
                 self._say(InterruptLine(at=at, level=level))
 
     def _show(self, number: int, node: Microcomputer) -> None:
-        """Let the machine see the pulses of a motor, and the thresholds of a wrist."""
+        """Tell the machine about the pulses of a motor, or the thresholds of a wrist."""
         if isinstance(node.device, Motor):
             self.plant.driven(number, node.device)
         elif isinstance(node.device, Force):
             self.plant.limited(number, node.device.memory.thresholds)
 
     def _listen(self, node: Microcomputer, at: int) -> None:
-        """Let a microcomputer look for a strobe, if it is free."""
+        """Let a microcomputer look for a strobe if it is free."""
         for taken in node.listen(at, self._memory.sent, self.wires, quiet=not self._speeches()):
             self._say_taken(node.place.number, taken, own=False)
 
     def _status(self, number: int) -> Status:
-        """The status lines of a microcomputer, as they arrive."""
+        """The status lines of a microcomputer, as they arrive at the central computer."""
         status = int(self._nodes[number].status)
         for defect in self._defects:
             if defect.where == number and defect.kind in ("status-a", "status-b"):
@@ -445,7 +446,7 @@ class WiredBus(MicrobusPort):
         return self.wires.answers(self._speeches())
 
     def _low(self, question: Question) -> int | None:
-        """When the computer sees /ANSWER READY low next."""
+        """Time at which the central computer next sees /ANSWER READY low, ps; None if it does not."""
         for start, end in self._answers():
             seen = _COMPUTER.after(question.since, self.timing.poll, max(start, question.since))
             if seen < end:

@@ -1,6 +1,6 @@
-"""Levels of the lines, by segment and time: what a receiver takes that looks at them at a moment of its own.
+"""Levels of the lines by segment and time, for receivers that sample them at any time.
 
-A command and an answer are waves that are known when they begin. Times are picoseconds.
+A command or an answer is a wave that is completely known when it begins. Times are in picoseconds.
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,7 +16,7 @@ OPEN: Final = 0xFF  # what data lines read that no one drives
 
 
 class Sending(Record, frozen=True, kw_only=True):
-    """A command on the lines, driven by the central computer."""
+    """A command on the lines, sent by the central computer."""
 
     start: int  # microseconds
     frame: bytes
@@ -25,7 +25,7 @@ class Sending(Record, frozen=True, kw_only=True):
 
 
 class Speech(Record, frozen=True, kw_only=True):
-    """An answer on the lines, driven by a microcomputer."""
+    """An answer on the lines, sent by a microcomputer."""
 
     number: int  # its place
     segment: int
@@ -34,14 +34,14 @@ class Speech(Record, frozen=True, kw_only=True):
     ppm: int  # of its clock
 
     def lows(self, timing: Timing) -> list[tuple[int, int]]:
-        """When /ANSWER READY is low, and each byte on the lines: ps from and to."""
+        """The times at which /ANSWER READY is low with a byte on the lines, ps: begin and end of each."""
         clock = Crystal(self.ppm)
         starts = [self.begin + clock.micros(timing.answer * byte) for byte in range(len(self.frame))]
         return [(start, start + clock.micros(timing.answer_low)) for start in starts]
 
 
 class Wires:
-    """The lines of a bus with its faults."""
+    """The lines of a bus, with injected faults."""
 
     def __init__(self, layout: Layout, timing: Timing, defects: Sequence[BusDefect]) -> None:
         self.layout, self.timing = layout, timing
@@ -61,17 +61,17 @@ class Wires:
         self._rigid = {d.where for d in defects if d.kind == "no-turn"}
 
     def strobe(self, sending: Sending) -> tuple[int, int]:
-        """When /DATA READY reads low for a command: ps from and to."""
+        """Time for which /DATA READY is low for a command, ps: begin and end."""
         return (sending.start + sending.falls) * PS, (sending.start + sending.rises) * PS
 
     def whole(self, sending: Sending, segment: int, first: int, last: int) -> bool:
-        """Whether evenly spaced samples, ps, take each byte of a command as it was sent."""
+        """True if evenly spaced samples, ps, read each byte of a command as it was sent."""
         begin, slot = (sending.start + self.settle) * PS, self.timing.slot * PS
         end = begin + len(sending.frame) * slot
         return self._clean[segment] and begin <= first < begin + slot and end - slot <= last < end
 
     def data(self, segment: int, at: int, sent: Iterable[Sending], speeches: Iterable[Speech] = ()) -> int:
-        """The byte that a microcomputer on a segment reads at a moment."""
+        """The byte that a microcomputer on a segment reads at a time."""
         value, then = OPEN, at - self.settle * PS
         for sending in sent:
             slot = (then - sending.start * PS) // (self.timing.slot * PS)
@@ -85,7 +85,7 @@ class Wires:
         return value
 
     def heard(self, at: int, speeches: Iterable[Speech]) -> int:
-        """The byte that the central computer reads at a moment."""
+        """The byte that the central computer reads at a time."""
         value = OPEN
         for speech in speeches:
             byte = self._spoken(speech, at - self.settle * PS)
@@ -99,11 +99,11 @@ class Wires:
         return self._through(0, value)
 
     def turned(self, speech: Speech) -> tuple[int, ...]:
-        """Segments whose regenerators turn round for an answer."""
+        """Segments whose regenerators change direction for an answer."""
         return tuple(s for s in self.layout.way(speech.segment) if s and s not in self._rigid)
 
     def answers(self, speeches: Iterable[Speech]) -> list[tuple[int, int]]:
-        """When /ANSWER READY reads low at the central computer: ps from and to, each interval in order."""
+        """Times at which /ANSWER READY is low at the central computer, ps: begin and end of each, in order."""
         lows = sorted(low for speech in speeches for low in speech.lows(self.timing))
         joined: list[tuple[int, int]] = []
         for start, end in lows:
@@ -114,7 +114,7 @@ class Wires:
         return joined
 
     def _spoken(self, speech: Speech, at: int) -> int | None:
-        """The byte that a microcomputer drives at a moment; None: its port is open."""
+        """The byte that a microcomputer drives at a time; None if its port is open."""
         for byte, (start, end) in zip(speech.frame, speech.lows(self.timing), strict=True):
             if start <= at < end:
                 return byte

@@ -1,4 +1,6 @@
-"""The chess experiment as a task: each piece stands on the line of its height, and its height was told right."""
+"""The chess experiment as a task: the referee checks that each piece stands on the line for its height, and that
+the reported heights are right.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,7 @@ _NEAR: Final = 10.0  # mm along X from a piece to where the program says that it
 
 
 class Chess(GantryTask):
-    """Find pieces along three lines, measure their heights, and put each on the line of its height."""
+    """Find pieces along three lines, measure their heights, and put each on the line for its height."""
 
     name = "chess"
     words = Words(product="the board", done="Each piece stands on the line of its height.")
@@ -62,13 +64,13 @@ class Chess(GantryTask):
 
 
 def _error(piece: Piece, told: Sequence[ToldHeight]) -> float:
-    """mm by which the height of a piece was told wrong; infinite if it was not told at all."""
+    """Error of the reported height of a piece, mm; infinite if no height was reported."""
     here = [each for each in told if each.line == piece.line and abs(each.x - piece.x) < _NEAR]
     return min((abs(each.height - piece.height) for each in here), default=inf)
 
 
 def board(world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, tuple[Piece, ...]]:
-    """The scene of a world with its pieces; raises BadArgument for a number of pieces that is none."""
+    """The scene of a world with its pieces; raises BadArgument for an impossible number of pieces."""
     spec, pieces = scene(world), drawn(world, count)
     stand(spec, pieces)
     return spec, pieces

@@ -1,4 +1,4 @@
-"""The witness of a board: the pieces that stood on it, and what the program said of them, for the referee alone."""
+"""The witness of a board: the initial pieces, and the program's messages about them, for the referee only."""
 
 import re
 from typing import Final
@@ -18,7 +18,7 @@ _TOLD: Final = re.compile(r"HEIGHT\s*(\S+)\s+AT\s*(\S+)\s+LINE\s*(\d)")
 
 
 class ToldHeight(Record, frozen=True, kw_only=True):
-    """A piece that the program has measured, mm."""
+    """A piece as measured and reported by the program, mm."""
 
     height: float
     x: float
@@ -26,14 +26,14 @@ class ToldHeight(Record, frozen=True, kw_only=True):
 
 
 class Heard(Record, frozen=True, kw_only=True):
-    """The pieces as they stood at first, and the lines that the program has printed."""
+    """The pieces in their initial positions, and the lines that the program has printed."""
 
     pieces: tuple[Piece, ...]
     lines: tuple[str, ...] = field(default=())
 
     @property
     def heights(self) -> list[ToldHeight]:
-        """The pieces of which it has printed height, place and line."""
+        """The pieces for which the program has printed height, position and line."""
         found = []
         for line in self.lines:
             if (said := _TOLD.search(line)) is not None:
@@ -45,7 +45,7 @@ class Heard(Record, frozen=True, kw_only=True):
 
 
 class Witness(Mechanism[Heard]):
-    """Keeps what the program prints about a board."""
+    """Records the lines that the program prints about a board."""
 
     name = HEARD
     kind = Heard
@@ -54,7 +54,7 @@ class Witness(Mechanism[Heard]):
         self.heard = Heard(pieces=pieces)
 
     def hear(self, line: str) -> None:
-        """Keep a printed line."""
+        """Record a printed line."""
         if len(self.heard.lines) < _MOST:
             self.heard = replace(self.heard, lines=(*self.heard.lines, line[:_LONGEST]))
 

@@ -1,4 +1,4 @@
-"""Commands that show the MICROBUS, and how often it errs."""
+"""Commands that show the MICROBUS, and how often commands are misread."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,18 +36,18 @@ bus = App(name="bus", help="The MICROBUS: what is on its lines, what each receiv
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrawingOptions:
-    """Where the timing diagram is drawn."""
+    """Options for the timing diagram."""
 
     out: Annotated[Path | None, Parameter(name=["--out", "-o"], help="The drawing to write, .svg.")] = None
     overwrite: Overwrite = False
 
     def check(self) -> None:
-        """Raise InvalidInput if it could not be written afterwards."""
+        """Raise InvalidInput if the drawing could not be written after the run."""
         if self.out is not None:
             check_place(self.out, DRAWING, overwrite=self.overwrite)
 
     def write(self, drawn: str) -> None:
-        """Write it, if it is wanted."""
+        """Write the drawing if it was requested."""
         if self.out is not None:
             write_over(self.out, drawn.encode(), DRAWING)
 
@@ -257,7 +257,7 @@ def self_test(
 
 
 def _no_bars(encoding: str) -> bool:
-    """A terminal cannot show the bars of a diagram."""
+    """True if a terminal cannot show the bars of a diagram."""
     try:
         "▔▁│µ".encode(encoding or "ascii")
     except (UnicodeEncodeError, LookupError):

@@ -90,7 +90,7 @@ def _check_pieces(pieces: int) -> None:
 
 
 def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
-    """Raise InvalidInput before the run if the video could not be written behind it."""
+    """Raise InvalidInput before the run if the video could not be written after it."""
     from handeye.cell.opengl import context
     from handeye.core.files import check_place
     from handeye.video.formats import format_of
@@ -102,7 +102,7 @@ def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
 
 
 def _filmed(folder: Path, video: Path, *, overwrite: bool) -> bool:
-    """Make the video from the trace of the run; False if it cannot be made, which is reported."""
+    """Make the video from the trace of the run; False if that fails, which is reported."""
     from handeye.runs.folder import TRACE
     from handeye.trace.reading import read_trace
     from handeye.video.making import make_video

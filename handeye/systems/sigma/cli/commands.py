@@ -1,4 +1,4 @@
-"""Commands of SUPERSIGMA: carry a MAL program out, try its interleavings, the words, and the console."""
+"""Commands of SUPERSIGMA: run a MAL program, try its interleavings, explain words, and open the console."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -107,7 +107,7 @@ def run(
 
 
 class Printer(Observer):
-    """Shows what a program prints."""
+    """Prints the output of a program."""
 
     def __init__(self, put: Callable[[str], None]) -> None:
         self._put = put
@@ -118,7 +118,7 @@ class Printer(Observer):
 
 
 def reported(source: Source) -> bool:
-    """True if a program has no errors; its mistakes are shown."""
+    """Print the mistakes of a program; True if it has no errors."""
     found = checked(source)[1]
     show(found, source, json=False)
     return not has_errors(found)
@@ -164,7 +164,7 @@ def check(
 
 
 def told_orders(name: str, result: "Interleavings") -> Iterator[str]:
-    """What came of trying all orders: each finding, with a schedule for the first of its kind."""
+    """The result of trying all orders: each finding, with a schedule for the first of its kind."""
     from handeye.systems.sigma.mal.interleavings import KINDS, schedule_lines
 
     shown: set[str] = set()

@@ -1,4 +1,4 @@
-"""The console of 1981: lines with numbers are a program, the others are executed at once."""
+"""The console of 1981: numbered lines form a program, all others are executed at once."""
 
 import re
 from collections.abc import Callable, Iterable
@@ -48,7 +48,7 @@ COMMANDS: Final = {
 
 
 class Console:
-    """A session: its program, and the machine as the last run left it."""
+    """A session at the console: the program, and the machine in the state of the last run."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class Console:
         ask: Callable[[str], str | None] = lambda _: None,
         halted: Callable[[], bool] = lambda: False,
     ) -> None:
-        """`ask` gives a line that is typed as an answer, None at the end of input."""
+        """`ask` returns a line that is typed as an answer, or None at the end of the input."""
         self._tell, self._ask, self._halted = tell, ask, halted
         self._lines: dict[int, str] = {}
         self._machine, self._vm = PerfectMotors(), None
@@ -75,7 +75,7 @@ class Console:
         return COMMANDS
 
     def hear(self, line: str) -> None:
-        """Execute a line; raises InvalidInput if it cannot be, and nothing has changed then."""
+        """Execute a line; raises InvalidInput, with nothing changed, if that is impossible."""
         line = line.strip()
         if not line:
             return
@@ -94,7 +94,7 @@ class Console:
     # -- the program ----------------------------------------------------------------------------------
 
     def _enter(self, line: str) -> None:
-        """Take a numbered line: a number alone removes one."""
+        """Store a numbered line; a number alone removes the line."""
         if bare := re.fullmatch(r"([0-9]{1,5})", line):
             if int(bare[1]) not in self._lines:
                 raise NoSuchName(f"there is no line {bare[1]}")
@@ -194,7 +194,7 @@ class Console:
             self._stop = int(line)
 
     def _carry_on(self, *first: Callable[[], None]) -> None:
-        """Execute statements until the program ends, stands, is to stop, or is broken off."""
+        """Execute statements until the program ends, stands, reaches a breakpoint, or is interrupted."""
         assert self._vm is not None
         vm, self._paused = self._vm, False
         try:
@@ -224,7 +224,7 @@ class Console:
         self._tell(f"{sent} in {vm.time:.3f} s; the computer was idle for {vm.idle:.0%} of it")
 
     def _answered(self, vm: VirtualMachine) -> bool:
-        """Ask for the number that a task waits for; False at the end of input."""
+        """Ask for the number for which a task waits; False at the end of the input."""
         assert vm.memory.fault is not None
         line = self._ask("? ")
         if line is None:
@@ -248,7 +248,7 @@ class Console:
     # -- the machine ----------------------------------------------------------------------------------
 
     def _status(self, _: str) -> None:
-        """The table of microcomputers."""
+        """Print a table of the microcomputers."""
         memory = self._machine.memory
         for name, number in NUMBERS.items():
             status = self._machine.status(number)

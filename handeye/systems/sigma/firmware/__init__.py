@@ -1,1 +1,1 @@
-"""Firmware of the microcomputers: bytes and pins in, pulses and bytes out."""
+"""Firmware of the microcomputers: takes commands and pin levels, and gives pulses and answers."""

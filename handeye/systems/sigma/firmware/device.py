@@ -1,7 +1,7 @@
-"""What a microcomputer does with the commands that are addressed to it, whatever bus they came by.
+"""Executes commands addressed to a microcomputer, independent of the bus.
 
-Times are picoseconds on the clock of the machine, so that intervals of clocks that are some parts per million fast or
-slow are whole numbers.
+Times are in picoseconds on the clock of the machine, so that intervals of clocks with errors of some parts per
+million are whole numbers.
 """
 
 from abc import ABC, abstractmethod
@@ -22,25 +22,25 @@ class Crystal:
         self.ppm = ppm  # by how much its intervals are too long; a fast clock has a negative one
 
     def micros(self, micros: int) -> int:
-        """Picoseconds that an interval of its own microseconds takes."""
+        """Duration of `micros` microseconds of the microcomputer's clock, picoseconds."""
         return micros * (PS + self.ppm)
 
     def ticks(self, ticks: int) -> int:
-        """Duration of a number of ticks of its 2 MHz clock, picoseconds."""
+        """Duration of a number of ticks of the microcomputer's 2 MHz clock, picoseconds."""
         return ticks * (PS + self.ppm) // _TICKS
 
     def ticks_in(self, picoseconds: int) -> int:
-        """Its ticks of 2 MHz that are over after a time."""
+        """Number of ticks of the microcomputer's 2 MHz clock that have passed after a time, picoseconds."""
         return picoseconds * _TICKS // (PS + self.ppm)
 
     def after(self, since: int, micros: int, at: int) -> int:
-        """The first moment from `at` on that is a multiple of an interval after `since`."""
+        """The first time from `at` on that is `since` plus a multiple of an interval."""
         step = self.micros(micros)
         return since + max(0, -(-(at - since) // step)) * step
 
 
 class Device(ABC):
-    """The firmware of one kind of microcomputer, and what it remembers."""
+    """The firmware of one kind of microcomputer, and its state."""
 
     memory: MutableRecord
     by_interrupt = False  # always busy, yet it takes commands: the strobe interrupts it
@@ -52,19 +52,19 @@ class Device(ABC):
     @property
     @abstractmethod
     def status(self) -> Status:
-        """What its status lines show between commands."""
+        """The levels of the status lines between commands."""
 
     @property
     def due(self) -> int | None:
-        """When it does something by itself next."""
+        """Time of the next action without a command; None if there is none."""
         return None
 
     def elapse(self, at: int) -> None:
-        """Do what is due."""
+        """Perform the action that is due."""
         return
 
     def take(self, command: Command, at: int) -> bytes:
-        """Carry out a command; the bytes of its answer, none if it asks for nothing."""
+        """Execute a command; returns the bytes of the answer, none if the command asks for nothing."""
         if command.op == Op.SELF_TEST:
             return b"\0"
         if command.op == Op.ECHO:
@@ -73,4 +73,4 @@ class Device(ABC):
 
     @abstractmethod
     def execute(self, command: Command, at: int) -> bytes:
-        """Carry out a command of its own kind; one that it does not know does nothing."""
+        """Execute a command for this kind of device; an unknown command has no effect."""

@@ -1,4 +1,6 @@
-"""Firmware of a wrist: it scans three components, and raises a pin of a motor while one is above its threshold."""
+"""Firmware of a wrist: scans three force components, and raises a pin of a motor while a component is above its
+threshold.
+"""
 
 from collections.abc import Sequence
 from typing import Final
@@ -19,18 +21,18 @@ _LARGEST: Final = 0x7FFF  # of an answer
 
 
 class ForceMemory(MutableRecord, kw_only=True, tag="force"):
-    """What a force microcomputer remembers: x, y and z, N."""
+    """The state of a force microcomputer: x, y and z, N."""
 
     thresholds: list[float] = field(default_factory=lambda: [STANDARD_N] * len(COMPONENTS))
     readings: list[float] = field(default_factory=lambda: [0.0] * len(COMPONENTS))
     peaks: list[float] = field(default_factory=lambda: [0.0] * len(COMPONENTS))
-    """The greatest readings since they were asked for last, without their signs."""
+    """The greatest magnitudes of the readings since they were last queried."""
     over: list[bool] = field(default_factory=lambda: [False] * len(COMPONENTS))
-    """They were over their thresholds when they were read."""
+    """True for components whose last reading was above the threshold."""
 
 
 class Force(Device):
-    """The firmware of a force microcomputer, which is always busy and takes commands all the same."""
+    """The firmware of a force microcomputer. It is always busy, but takes commands nevertheless."""
 
     memory: ForceMemory
     by_interrupt = True
@@ -44,14 +46,16 @@ class Force(Device):
         return Status.BUSY
 
     def scan(self, forces: Sequence[float], peaks: Sequence[float]) -> None:
-        """Read all components, N, and the greatest that they have been since the last scan that is seen."""
+        """Read all components, N, and their greatest values since the last scan."""
         self.memory.readings = [_converted(force) for force in forces]
         self.memory.over = [*self.pins]
         self.memory.peaks = [*map(max, self.memory.peaks, map(_converted, peaks))]
 
     @property
     def pins(self) -> tuple[bool, ...]:
-        """For each component, whether its motor is interrupted: from its threshold on, until it is well below it."""
+        """For each component, True if its motor is interrupted: from the threshold on, until the force is well
+        below it.
+        """
         memory = self.memory
         each = zip(memory.readings, memory.thresholds, memory.over, strict=True)
         return tuple(

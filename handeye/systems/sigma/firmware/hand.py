@@ -1,4 +1,4 @@
-"""Firmware of a hand, of its light beam, and of sensors whose answers are longer."""
+"""Firmware of a hand and its light beam, and of sensors with longer answers."""
 
 from typing import Final
 
@@ -13,7 +13,7 @@ _FINGERS: Final = DEVICES["HAND"]
 
 
 class HandMemory(MutableRecord, kw_only=True, tag="hand"):
-    """What a hand microcomputer remembers."""
+    """The state of a hand microcomputer."""
 
     devices: list[int] = field(default_factory=lambda: [0] * len(DEVICES))
     until: int | None = None  # ps, when the fingers have moved
@@ -52,13 +52,13 @@ class Hand(Device):
 
 
 class SensorMemory(MutableRecord, kw_only=True, tag="sensor"):
-    """What a sensor remembers."""
+    """The state of a sensor."""
 
     reading: bytes = b""
 
 
 class Sensor(Device):
-    """The firmware of a sensor of a newer kind, whose answer has a length of its own."""
+    """The firmware of a newer kind of sensor, whose answer has a special length."""
 
     memory: SensorMemory
 

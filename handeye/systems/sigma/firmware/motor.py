@@ -1,4 +1,6 @@
-"""Firmware of a motor: commands become pulse trains; a pin that rises while it moves becomes the steepest stop."""
+"""Firmware of a motor: converts commands to pulse trains; a pin that rises during a motion causes the steepest
+stop.
+"""
 
 from typing import Final, Literal
 
@@ -18,14 +20,16 @@ from handeye.systems.sigma.motors.pulses import (
 from handeye.systems.sigma.protocol import LONGEST_MOVE, SLOW_STEP_MM, STEP_MM, Op
 
 Pin = Literal["low", "high", "force"]
-"""End of the rail where counts are low, the other end, and excessive force, behind one gate to the interrupt."""
+"""A pin of the interrupt gate: low end of the rail, high end, or excessive force."""
 State = Literal["still", "moving", "stopping", "seeking", "turning", "releasing"]
-"""`seeking` the low end of the rail, `turning` there, and `releasing` its switch are what ORIGIN does."""
+"""State of a motor; ORIGIN goes through `seeking` the low end of the rail, `turning` there, and `releasing` its
+switch.
+"""
 _BITS: Final = 16
 
 
 class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
-    """What a motor's firmware remembers."""
+    """The state of a motor's firmware."""
 
     state: State = "still"
     status: Status = Status.FREE
@@ -62,7 +66,7 @@ class Motor(Device):
     # -- where it is -------------------------------------------------------------------------------------
 
     def sent(self, at: int) -> int:
-        """Pulses sent to the driver by a time, forward less backward."""
+        """Number of pulses sent to the driver up to a time, forward minus backward."""
         memory = self.memory
         if memory.train is None:
             return memory.pulses
@@ -70,19 +74,19 @@ class Motor(Device):
         return memory.pulses + memory.sense * made
 
     def count(self, at: int) -> int:
-        """Its count by a time, steps, as 16 bits with a sign."""
+        """The count at a time, steps, as 16 bits with a sign."""
         half = 1 << _BITS - 1
         return (self.sent(at) - self.memory.zero + half) % (1 << _BITS) - half
 
     def speed(self, at: int) -> float:
-        """Steps/s at a time, signed."""
+        """Speed at a time, steps/s, with its sign."""
         memory = self.memory
         if memory.train is None:
             return 0.0
         return memory.sense * memory.train.pulses.speed(self.crystal.ticks_in(at - memory.began))
 
     def when(self, pulse: int) -> int | None:
-        """When the so-manieth pulse of the train, from 1, is sent; None: never."""
+        """Time of a pulse of the train, given by its number from 1; None: the pulse is never sent."""
         memory = self.memory
         if memory.train is None or not 1 <= pulse <= len(memory.train.pulses):
             return None
@@ -117,7 +121,7 @@ class Motor(Device):
 
     @property
     def shape(self) -> Curve:
-        """Its curve of acceleration."""
+        """The selected acceleration curve."""
         return CURVES[self.memory.curve if self.memory.curve < len(CURVES) else 0]
 
     def _answer(self, count: int, at: int) -> bytes:
@@ -143,7 +147,7 @@ class Motor(Device):
         memory.status = Status.BUSY
 
     def _halt(self, at: int) -> float:
-        """Take the train away; the speed until then, steps/s."""
+        """End the pulse train; returns the speed until then, steps/s."""
         memory, speed = self.memory, abs(self.speed(at))
         memory.pulses, memory.train, memory.state = self.sent(at), None, "still"
         return speed
@@ -168,7 +172,7 @@ class Motor(Device):
         return memory.began + self.crystal.ticks(memory.train.pulses.end) + 1
 
     def elapse(self, at: int) -> None:
-        """The train has ended."""
+        """Handle the end of the pulse train."""
         memory, ended = self.memory, self.memory.state
         self._halt(at)
         match ended:
@@ -182,7 +186,7 @@ class Motor(Device):
                 self._refuse(Status.RAIL, at)
 
     def pin(self, pin: Pin, level: bool, at: int) -> None:
-        """A pin of the interrupt has changed."""
+        """Handle the change of a pin of the interrupt gate."""
         memory = self.memory
         rose = level and not getattr(memory, pin)
         setattr(memory, pin, level)

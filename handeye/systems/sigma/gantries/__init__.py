@@ -1,1 +1,1 @@
-"""Two gantries over one board, with physics: scene, rotors, wrists, beams, and what is studied on them."""
+"""Two simulated gantries over one board: scene, rotors, wrists, beams, and the studies made with them."""

@@ -1,4 +1,4 @@
-"""The safety study: arm 1 runs into the standing hand of arm 2, with the reflex and without it."""
+"""The safety study: arm 1 runs into the standing hand of arm 2, with and without the reflex."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -33,7 +33,7 @@ _PROGRAM: Final = """10 REM ARM 1 RUNS INTO THE STANDING HAND OF ARM 2
 
 
 class CrashedAxis(Record, frozen=True, kw_only=True):
-    """An axis after the collision. Places are mm."""
+    """An axis after the collision. Positions are in mm."""
 
     axis: str
     force: float  # the greatest on its wrist, N
@@ -46,7 +46,7 @@ class CrashedAxis(Record, frozen=True, kw_only=True):
 
 
 class Crash(Record, frozen=True, kw_only=True):
-    """What came of a collision."""
+    """The result of a collision."""
 
     speed: float | None  # mm/s; None: the profile of a fast move
     reflex: bool
@@ -62,12 +62,12 @@ def program_text(speed: float | None) -> str:
 
 
 def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> Crash:
-    """Let the arms collide.
+    """Simulate the collision.
 
     Args:
-        speed: mm/s; None: as fast as a motor goes over that distance.
-        reflex: The wires from the wrists to the motors are whole.
-        endless_loop: The central computer hangs once it has sent the move: it reads no status any more.
+        speed: speed of arm 1, mm/s; None: the greatest speed that a motor reaches over the distance.
+        reflex: True if the wires from the wrists to the motors are connected.
+        endless_loop: True if the central computer hangs after it has sent the move, and reads no status.
     """
     if speed is not None and not SLOWEST <= speed <= FASTEST:
         raise BadArgument(f"a constant speed is from {SLOWEST:g} to {FASTEST:g} mm/s, not {speed:g}")
@@ -108,7 +108,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> C
 
 
 def _sent(vm: VirtualMachine) -> bool:
-    """The move of the study is sent."""
+    """True if the move of the study has been sent."""
     return vm.memory.counts.get("X1") == round(GOAL / STEP_MM)
 
 
@@ -145,7 +145,7 @@ def _after(
 
 
 def lines(found: Crash) -> list[str]:
-    """A collision in sentences and a table."""
+    """The result of a collision, as sentences and a table."""
     speed = "full speed" if found.speed is None else f"{found.speed:g} mm/s"
     loop = ", with the central computer in an endless loop" if found.endless_loop else ""
     rows = [
@@ -166,7 +166,7 @@ STUDY: Final = (
     (50.0, True, True),
     (50.0, False, True),
 )
-"""Speed, reflex and endless loop of each collision of the page."""
+"""Speed, reflex and endless loop of each collision on the page."""
 
 
 def page_table() -> str:

@@ -1,8 +1,8 @@
-"""The two gantries behind the pins: rotors drawn by their fields, wrists that bend, switches, beams and hands.
+"""The two gantries behind the pins: rotors drawn by magnetic fields, wrists that bend, switches, beams and hands.
 
-The fields of all motors are known ahead, from the pulse trains of their firmware, as tables with a row a millisecond.
-The physics follows these tables; each millisecond, one product and one comparison show whether a wrist has crossed its
-threshold, a switch has changed, or a rotor has slipped. Only then does anything else have to act.
+The fields of all motors are known in advance from the pulse trains of their firmware, as tables with one row per
+millisecond. The physics follows these tables. In each millisecond, one product and one comparison show whether a
+wrist has crossed its threshold, a switch has changed, or a rotor has slipped; only then do other parts have to act.
 """
 
 import math
@@ -68,7 +68,7 @@ Table = NDArray[np.float64]
 
 
 def scene(world: GantryWorld) -> mujoco.MjSpec:
-    """The scene of a world, with nothing on the board."""
+    """The scene of a world, with an empty board."""
     spec = mujoco.MjSpec.from_file(str(scenes() / SCENE))
     stiffer = world.axes(STIFFNESS)
     friction = world.value(FRICTION)
@@ -83,7 +83,7 @@ def scene(world: GantryWorld) -> mujoco.MjSpec:
 
 
 class Field(NamedTuple):
-    """Where the field of a motor is, from a step of the physics on; the last row stays."""
+    """The position of a motor's field from a physics step on; the last row stays in force."""
 
     first: int
     places: Table  # pulses
@@ -97,10 +97,10 @@ class Gantries(Plant[GantryMemory]):
     channels = FORCES
 
     def __init__(self, spec: mujoco.MjSpec, world: GantryWorld, *, compensated: bool = True) -> None:
-        """Switch them on.
+        """Switch the gantries on.
 
         Args:
-            compensated: The signals of the accelerometers are mixed with those of the wrists.
+            compensated: add the signals of the accelerometers to those of the wrists.
         """
         self.bench, self.memory = Bench(spec.compile()), GantryMemory()
         model, data = self.bench.model, self.bench.data
@@ -183,19 +183,21 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def places(self) -> Array:
-        """Where each axis truly is, steps from its low switch, shape (6,)."""
+        """True position of each axis, steps from its low switch, shape (6,)."""
         model, data = self.bench.model, self.bench.data
         q = data.qpos[[model.joint(axis).qposadr[0] for axis in AXES]]
         return np.asarray((q - self._low) / STEP)
 
     @property
     def felt(self) -> Array:
-        """What the wrists feel now along each axis, N, shape (6,)."""
+        """Present force on the wrists along each axis, N, shape (6,)."""
         return np.asarray(self._felt[:_N] @ self.bench.data.sensordata + self._still[:_N])
 
     @property
     def period(self) -> ServoPeriod:
-        """What the arms do now, for traces and pictures: places and speeds of joints, forces on the wrists."""
+        """The present state of the arms, for traces and pictures: positions and speeds of joints, forces on the
+        wrists.
+        """
         model, data = self.bench.model, self.bench.data
         joints = [model.joint(axis) for axis in AXES]
         q = data.qpos[[int(joint.qposadr[0]) for joint in joints]]
@@ -221,7 +223,7 @@ class Gantries(Plant[GantryMemory]):
         return self._step * TICK, seen
 
     def _plan(self) -> None:
-        """Lay the fields of all motors into one table, from the present step on."""
+        """Combine the fields of all motors in one table, from the present physics step on."""
         self._first = self._step
         left = [(field, min(self._step - field.first, len(field.places) - 1)) for field in self._fields]
         rows = max(len(field.places) - gone for field, gone in left)
@@ -248,7 +250,7 @@ class Gantries(Plant[GantryMemory]):
         self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + leaves, leaves - places
 
     def _draw(self) -> None:
-        """Let the fields draw the rotors for a step."""
+        """Let the fields draw the rotors for one physics step."""
         if not self._whole and self._step - self._first > self._last:
             self._plan()
         self._row = min(self._step - self._first, self._last)
@@ -256,7 +258,7 @@ class Gantries(Plant[GantryMemory]):
         self.bench.model.actuator_forcerange[:_N] = self._ranges[self._row]
 
     def _look(self) -> None:
-        """See what a step has changed."""
+        """Detect the changes made by a physics step."""
         sensed = self._felt @ self.bench.data.sensordata + self._still
         self._step += 1
         np.maximum(self._peaks, np.abs(sensed[:_N]), out=self._peaks)
@@ -265,7 +267,7 @@ class Gantries(Plant[GantryMemory]):
             self._change(levels, sensed)
 
     def _change(self, levels: bytes, sensed: Array) -> None:
-        """Comparators and switches have changed, or rotors leave their poles."""
+        """Handle changed comparators and switches, and rotors that leave their poles."""
         for index in range(_LEVELS):
             if levels[index] != self._known[index]:
                 kind, axis = divmod(index, _N)
@@ -282,7 +284,7 @@ class Gantries(Plant[GantryMemory]):
             self.bench.end_early()
 
     def _slip(self, leaves: bytes, places: Array) -> None:
-        """Rotors leave their poles, and the nearest ones catch them."""
+        """Move rotors that have left their poles to the nearest poles."""
         most, least = np.split(self._limits[self._row, _LEVELS:], 2)
         poles = np.rint((places - (most - least) / 2) / STEP / POLE)
         for axis in range(_N):
@@ -293,7 +295,7 @@ class Gantries(Plant[GantryMemory]):
 
 
 def _field(motor: Motor, first: int) -> Field:
-    """Where the field of a motor goes from a step of the physics on."""
+    """The position of a motor's field from a physics step on."""
     memory = motor.memory
     if memory.train is None:
         return Field(first, np.array([float(memory.pulses)]), np.zeros(1))
@@ -306,21 +308,21 @@ def _field(motor: Motor, first: int) -> Field:
 
 
 def pull_out(speeds: Table) -> Table:
-    """The greatest force of a motor at speeds, steps/s, N."""
+    """Greatest force of a motor, N, at speeds in steps/s."""
     usual, slow, fast = Drive(mass=1.0), CURVES[1].start, CURVES[1].top
     return np.asarray(np.interp(np.abs(speeds), (slow, fast), (usual.start_force, usual.top_force)))
 
 
 def _least_over(threshold: float) -> float:
-    """The least force whose reading is over a threshold, N."""
+    """The least force whose reading exceeds a threshold, N."""
     return (math.floor(threshold / CONVERTER_N + 1e-9) + 0.5) * CONVERTER_N
 
 
 def _gauges(gain: Array, left: float) -> tuple[Table, Array]:
-    """How the sensors of the scene make up the six forces, shape (6, 24), and what is added, shape (6,).
+    """The matrix, shape (6, 24), and the offset, shape (6,), that convert the scene's sensors to the six forces.
 
-    A strain gauge shows what the wrist bears; an accelerometer adds what accelerates the hand itself, except a share
-    that is `left`, so that their sum is the force from outside.
+    A strain gauge measures the force in the wrist. An accelerometer adds the force that accelerates the hand
+    itself, except a fraction `left`, so that their sum is the external force.
     """
     inertia = (1 - left) * _HAND_KG * _SENSE
     gauges = np.zeros((_N, 4 * _N))

@@ -1,4 +1,4 @@
-"""The task of a program that works the two gantries over an empty board: nothing is judged."""
+"""The task of a program that moves the two gantries over an empty board, without a referee."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class GantryTask(AnyTask):
-    """Two gantries and what lies on their board."""
+    """Two gantries, and the objects on their board."""
 
     name = "gantries"
     words = Words(product="the program", done="The program has ended.")

@@ -1,4 +1,4 @@
-"""Worlds of the gantries: errors of switches, motors, wrists, beams and clocks, drawn from a seed."""
+"""Worlds of the gantries: errors of switches, motors, wrists, beams and clocks, generated from a seed."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -66,33 +66,35 @@ VARIATION: Final = Variation(
 
 @dataclass(frozen=True, slots=True)
 class GantryWorld:
-    """A world, without errors if it has no specification. Each number has a stream of its own, by name."""
+    """A world; without a specification it has no errors. Each number is drawn from a separate stream, by name."""
 
     spec: WorldSpec | None = None
 
     def value(self, quantity: str) -> float:
-        """A quantity of the world, SI."""
+        """The value of a quantity in the world, SI."""
         if self.spec is None:
             nominal = VARIATION.quantities[quantity]
             return nominal.nominal * nominal.measure.size
         return VARIATION.value(quantity, self.spec)
 
     def normal(self, name: str, quantity: str) -> float:
-        """A normal number by name, its sigma a quantity of the world, clipped at two sigma."""
+        """A normally distributed number by name; its sigma is a quantity of the world, and it is clipped at two
+        sigma.
+        """
         if self.spec is None:
             return 0.0
         drawn = float(self.numbers(name).standard_normal())
         return min(max(drawn, -_CLIPPED), _CLIPPED) * self.value(quantity)
 
     def numbers(self, name: str) -> np.random.Generator:
-        """The stream of a name."""
+        """The random stream for a name."""
         return random_numbers(0 if self.spec is None else self.spec.seed, f"gantries.{name}")
 
     def axes(self, quantity: str) -> Array:
-        """A normal number for each axis, shape (6,)."""
+        """A normally distributed number for each axis, shape (6,)."""
         return np.array([self.normal(f"{quantity}.{axis}", quantity) for axis in AXES])
 
     @property
     def clock_spread(self) -> float:
-        """How far clocks of microcomputers are off at most, as a share."""
+        """Greatest clock error of the microcomputers, as a fraction."""
         return _CLIPPED * self.value(CLOCKS)

@@ -1,4 +1,6 @@
-"""Perfect motors behind the bus: each command takes its time, nothing slips, nothing is in the way, no byte is lost."""
+"""Perfect motors behind the bus interface: each command takes its time, nothing slips, there are no obstacles, and
+no byte is lost.
+"""
 
 from typing import Final
 
@@ -25,7 +27,7 @@ _HANDS: Final = (NUMBERS["HAND1"], NUMBERS["HAND2"])
 
 
 class MotorMemory(MutableRecord, kw_only=True):
-    """A motor: its count, and the command under way."""
+    """A motor: its count, and the command in progress."""
 
     count: int = 0  # steps, as it counts
     place: int = SWITCHED_ON_AT  # steps from the end of its rail, as it is
@@ -39,7 +41,7 @@ class MotorMemory(MutableRecord, kw_only=True):
 
 
 class PerfectMemory(MutableRecord, kw_only=True):
-    """All that the machine remembers."""
+    """The whole state of the machine."""
 
     now: int = 0
     free_at: int = 0  # when the bus is free
@@ -53,7 +55,7 @@ class PerfectMemory(MutableRecord, kw_only=True):
 
 
 class PerfectMotors(MicrobusPort):
-    """The ten microcomputers of SUPERSIGMA with machines that obey."""
+    """The ten microcomputers of SUPERSIGMA, with perfect machines."""
 
     def __init__(self) -> None:
         self._memory = PerfectMemory()
@@ -134,7 +136,7 @@ class PerfectMotors(MicrobusPort):
     # -- microcomputers -------------------------------------------------------------------------------
 
     def _accept(self, command: Command) -> bytes | None:
-        """Let the microcomputer of a command take it, if it listens; its answer, if it gives one."""
+        """Let a microcomputer take a command if it listens; returns its answer, if it gives one."""
         number, busy = command.number, self._status(command.number) == Status.BUSY
         if number in _FORCES:  # its force is 0: nothing is in the way
             return bytes(ANSWERS[Op.FORCE]) if command.op == Op.FORCE else None
@@ -201,7 +203,7 @@ class PerfectMotors(MicrobusPort):
 
 
 def _finish(motor: MotorMemory) -> None:
-    """The end of a command."""
+    """End the command of a motor."""
     motor.count += motor.steps
     motor.place += motor.steps
     motor.status, motor.steps = motor.ends, 0

@@ -1,4 +1,4 @@
-"""How long a motor takes for a number of steps: short, medium and long profiles, in whole microseconds."""
+"""Durations of moves of a motor, by number of steps: short, medium and long profiles, in whole microseconds."""
 
 import math
 
@@ -6,7 +6,7 @@ from handeye.systems.sigma.motors.pulses import CURVES, SHORT
 
 
 def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
-    """The time of a move by `steps` along a curve, microseconds; `limit` is in steps/s, 0: none."""
+    """Duration of a move by `steps` along a curve, microseconds; `limit` is in steps/s, 0: none."""
     form = CURVES[curve if curve < len(CURVES) else 0]
     start, top, acceleration = form.start, form.top, form.acceleration
     if limit:
@@ -23,5 +23,5 @@ def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
 
 
 def slow_us(steps: int, speed: float) -> int:
-    """The time of a move at one speed (steps/s), microseconds; above start/stop speed it has ramps."""
+    """Duration of a move at one speed (steps/s), microseconds; above start/stop speed it has ramps."""
     return math.ceil(steps / speed * 1e6) if speed <= CURVES[0].start else move_us(steps, 0, round(speed))

@@ -1,1 +1,3 @@
-"""MAL, Multipurpose Assembly Language: scanner, parser, checks, compiler, and the virtual machine with its tasks."""
+"""MAL, Multipurpose Assembly Language: scanner, parser, checks, compiler, and the virtual machine that executes
+tasks.
+"""

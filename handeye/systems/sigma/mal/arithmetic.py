@@ -1,4 +1,4 @@
-"""What the instructions that calculate do with the numbers on the stack."""
+"""Executes the arithmetic instructions on the numbers of the stack."""
 
 import math
 import operator
@@ -9,7 +9,7 @@ from handeye.core.errors import HandeyeError
 
 
 class Trap(HandeyeError):
-    """A statement cannot be executed."""
+    """Raised if a statement cannot be executed."""
 
 
 def _divided(left: float, right: float) -> float:
@@ -49,13 +49,13 @@ UNARY: Final[dict[str, Callable[[float], float]]] = {
 
 
 def checked(value: float) -> float:
-    """A number that can be kept; raises Trap if it is not finite."""
+    """Return a number; raises Trap if it is not finite."""
     if not math.isfinite(value):
         raise Trap("this is beyond the largest number")
     return float(value)
 
 
 def shown(value: float) -> str:
-    """A number as PRINT shows it."""
+    """A number as PRINT prints it."""
     whole = value == int(value) and abs(value) < 1e15
     return f"{value:.0f}" if whole else f"{value:.6g}"

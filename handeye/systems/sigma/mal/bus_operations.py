@@ -1,4 +1,4 @@
-"""Instructions that concern the machine: they send commands, ask questions, and read status lines."""
+"""Instructions that use the machine: they send commands, ask questions, and read status lines."""
 
 from collections.abc import Callable
 from typing import Final
@@ -130,7 +130,7 @@ class BusOperations:
         task.pc += 1
 
     def _do_cmd(self, name: str, task: TaskMemory, _: Instruction) -> None:
-        """Send what is to be sent, in order; wait for what is busy."""
+        """Send the task's commands in order; wait for busy microcomputers."""
         while task.outgoing:
             first = task.outgoing[0]
             needed = tuple(each for each in (first.to, *first.after) if self.busy(each))
@@ -190,7 +190,7 @@ class BusOperations:
         return answer
 
     def busy(self, name: str) -> bool:
-        """True if an axis or device has a command to finish; a force microcomputer always takes one."""
+        """True if an axis or device has a command in progress; a force microcomputer always accepts commands."""
         if name.startswith("FORCE"):
             return False
         if name in MAL_DEVICES:

@@ -1,4 +1,4 @@
-"""What is wrong with a program whose lines are well formed: names, jumps, loops, flags, axes."""
+"""Checks of a program without syntax errors: names, jumps, loops, flags, axes."""
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterator, Sequence
@@ -37,7 +37,7 @@ TRAVEL_MM: Final = {"X": 600.0, "Y": 400.0, "Z": 200.0}
 
 
 def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
-    """The lines of a program in the order of their numbers, and all its mistakes, by place."""
+    """The lines of a program in the order of their numbers, and all mistakes, by place."""
     lines, found = parsed(source)
     form = has_errors(found)
     kept: dict[int, Line] = {}
@@ -53,7 +53,7 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def in_order(lines: Sequence[Line]) -> list[Line]:
-    """Lines by their numbers, each with the task that it then belongs to."""
+    """Lines in the order of their numbers, each with the task to which it belongs in that order."""
     ordered, task = [], MAIN
     for line in sorted(lines, key=lambda line: line.number):
         if line.statement.word == "TASK":
@@ -64,7 +64,7 @@ def in_order(lines: Sequence[Line]) -> list[Line]:
 
 
 def within(statement: Statement) -> Iterator[Statement]:
-    """A statement, and those behind its THEN and ELSE."""
+    """A statement, and the statements after its THEN and ELSE."""
     yield statement
     for branch in (statement.then, statement.otherwise):
         if branch is not None:
@@ -72,7 +72,7 @@ def within(statement: Statement) -> Iterator[Statement]:
 
 
 def expressions(statement: Statement) -> Iterator[Expression]:
-    """The expressions that a statement evaluates, those of its branches not counted."""
+    """The expressions that a statement evaluates, without those of its branches."""
     yield from statement.values
     yield from (goal.distance for goal in statement.goals)
     if statement.slow is not None:
@@ -83,7 +83,7 @@ def expressions(statement: Statement) -> Iterator[Expression]:
 
 
 def parts(expression: Expression) -> Iterator[Expression]:
-    """An expression and all that it is made of."""
+    """An expression and all its subexpressions."""
     left = [expression]
     while left:
         part = left.pop()
@@ -98,7 +98,7 @@ def parts(expression: Expression) -> Iterator[Expression]:
 
 
 def reads(statement: Statement) -> Iterator[Token]:
-    """The variables that a statement reads, those of its branches not counted."""
+    """The variables that a statement reads, without those of its branches."""
     for expression in expressions(statement):
         for part in parts(expression):
             if isinstance(part, Variable):
@@ -120,19 +120,19 @@ def driven(statement: Statement) -> Iterator[Token]:
 
 @dataclass(slots=True)
 class _Task:
-    """What the lines of a task have."""
+    """The lines of a task."""
 
     name: str
     lines: list[Line] = field(default_factory=list)
 
     def nearest(self, number: int) -> int:
-        """The line of the task whose number is nearest to this one."""
+        """Number of the task's line that is nearest to a given number."""
         at = bisect_left(self.lines, number, key=lambda line: line.number)
         near = [line.number for line in self.lines[max(0, at - 1) : at + 1]]
         return min(near, key=lambda each: (abs(each - number), each))
 
     def having(self, word: str) -> Iterator[tuple[Line, Statement]]:
-        """The statements of a word."""
+        """The statements with a given word, each with its line."""
         for line in self.lines:
             for statement in within(line.statement):
                 if statement.word == word:
@@ -140,7 +140,7 @@ class _Task:
 
 
 class _Check:
-    """All checks of a program; those on what is missing are left out where lines could not be read."""
+    """All checks of a program; checks for missing statements are left out if lines could not be parsed."""
 
     def __init__(self, lines: list[Line], *, complete: bool) -> None:
         self._lines, self._complete = lines, complete
@@ -152,7 +152,7 @@ class _Check:
         self._all = [(line, statement) for line in lines for statement in within(line.statement)]
 
     def found(self) -> Iterator[Diagnostic]:
-        """The mistakes, in no order."""
+        """The mistakes, in no particular order."""
         yield from self._task_names()
         yield from self._shared_axes()
         for line, statement in self._all:
@@ -169,7 +169,7 @@ class _Check:
             yield from self._variables()
 
     def _near(self, name: str, known: Collection[str]) -> SimilarName | KnownNames | None:
-        """Names that may be meant; none once there are more mistakes than are shown."""
+        """Names that may be intended; None if there are already more mistakes than are shown."""
         self._told += 1
         return alternatives(name, known) if self._told <= LIMIT else None
 
@@ -326,7 +326,7 @@ _RANGES: Final = {
 
 
 def constant(expression: Expression) -> float | None:
-    """The value of an expression that is a number; None if it is not."""
+    """The value of an expression that is a number; None for other expressions."""
     match expression:
         case Number(value):
             return value

@@ -1,4 +1,4 @@
-"""Every kind of mistake in a MAL program, by code, with a text that makes it and its cure."""
+"""All kinds of mistakes in MAL programs, by code, each with an example text and a cure."""
 
 from typing import Final
 
@@ -138,7 +138,7 @@ def mistake(
     help: str | None = None,
     meant: SimilarName | KnownNames | None = None,
 ) -> Diagnostic:
-    """A diagnostic, with the cure of its code unless there is a better one for this text."""
+    """A diagnostic with the cure of its code, unless there is a more specific one."""
     known = CODES[code]
     cure = help or names_sentence(meant) or known.cure
     return problem(code, message, span, *secondary, help=cure, meant=meant, own=known.severity)

@@ -35,7 +35,7 @@ ARITHMETIC: Final = {
     "ADD", "SUB", "MUL", "DIV", "NEG", "EQ", "NE", "LT", "GT", "LE", "GE", "AND", "OR", "NOT", "ABS", "INT", "SGN",
     "SQR",
 }  # fmt: skip
-"""Instructions that calculate: each costs the central computer time of its own."""
+"""Arithmetic instructions; each costs the central computer additional time."""
 _OPERATORS: Final[dict[str, Op]] = {
     "+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV", "=": "EQ", "<>": "NE", "<": "LT", ">": "GT", "<=": "LE",
     ">=": "GE", "AND": "AND", "OR": "OR",
@@ -51,7 +51,7 @@ Operand = float | str | tuple[str, ...] | None
 
 
 class Instruction(NamedTuple):
-    """An instruction of the stack machine, with its operand, and the address that a jump leads to."""
+    """An instruction of the stack machine, with its operand, and the target address of a jump."""
 
     op: Op
     operand: Operand = None
@@ -60,7 +60,7 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledLine:
-    """A line that can be executed, and where its code begins."""
+    """An executable line, and the address at which its code begins."""
 
     number: int
     task: str
@@ -80,15 +80,15 @@ class MalProgram:
     code: tuple[Instruction, ...]
     lines: tuple[CompiledLine, ...]
     tasks: dict[str, int]
-    """Address of the first instruction of each task, MAIN first."""
+    """Address of the first instruction of each task, with MAIN first."""
     texts: dict[int, str] = field(repr=False, default_factory=dict)
-    """All lines by their numbers, remarks too, in order."""
+    """All lines by number, including remarks, in order."""
     statements: tuple[Line, ...] = field(repr=False, default=())
-    """The syntax of `lines`."""
+    """The syntax trees of `lines`."""
 
     @cached_property
     def line_at(self) -> tuple[int, ...]:
-        """For each address the index of its line; the END behind a task belongs to its last line."""
+        """For each address, the index of its line; the END after a task belongs to the task's last line."""
         owners, at = [], 0
         begins = {line.begin: number for number, line in enumerate(self.lines)}
         for address in range(len(self.code)):
@@ -98,17 +98,17 @@ class MalProgram:
 
     @cached_property
     def closing(self) -> frozenset[int]:
-        """Addresses of the END behind the last line of each task."""
+        """Addresses of the END after the last line of each task."""
         firsts = sorted(self.tasks.values())
         return frozenset(begin - 1 for begin in (*firsts[1:], len(self.code)))
 
     def line_of(self, address: int) -> CompiledLine:
-        """The line that an address belongs to."""
+        """The line to which an address belongs."""
         return self.lines[self.line_at[address]]
 
 
 def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]:
-    """The program of a text, None if it has errors, and its diagnostics."""
+    """The program of a text, or None if it has errors, and its diagnostics."""
     lines, found = checked(source)
     if has_errors(found):
         return None, found
@@ -188,7 +188,7 @@ class _Compiler:
         self._jumps.append((self._emit(op, operand), int(statement.target.text)))
 
     def _patch(self, address: int) -> None:
-        """Let a jump within a line lead to here."""
+        """Set the target of a jump within a line to the present address."""
         self._code[address] = self._code[address]._replace(target=len(self._code))
 
     def _statement(self, statement: Statement) -> None:
@@ -233,7 +233,7 @@ class _Compiler:
                 self._plain(word, names)
 
     def _plain(self, word: str, names: tuple[str, ...]) -> None:
-        """A statement that is one instruction, or one for each name."""
+        """Compile a statement that is one instruction, or one for each of its names."""
         op = _PLAIN[word]
         if word in ("START", "KILL"):
             self._emit(op, names)
@@ -318,7 +318,7 @@ _PLAIN: Final[dict[str, Op]] = {
 
 
 class _Ways:
-    """Which lines may follow a line in its task."""
+    """Finds the lines that may follow a line within its task."""
 
     def __init__(self, program: MalProgram) -> None:
         self._program = program
@@ -342,7 +342,7 @@ class _Ways:
 
     @cached_property
     def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
-        """The lines behind each FOR and GOSUB, by task, instruction and operand."""
+        """The lines after each FOR and GOSUB, by task, instruction and operand."""
         behind: dict[tuple[str, str, Operand], list[int | None]] = {}
         for index, line in enumerate(self._program.lines):
             for op, operand, _ in self._code(index):

@@ -1,4 +1,4 @@
-"""Reads expressions and conditions by recursive descent, the weakest operator first."""
+"""Parses expressions and conditions by recursive descent, from the weakest operator to the strongest."""
 
 from typing import Final
 
@@ -14,10 +14,10 @@ _OF_AXES: Final = ("POS", "FORCE", "CRASHPOS", "STATUS")
 
 
 class ExpressionReader(TokenReader):
-    """Expressions among the tokens of a line."""
+    """Parses expressions from the tokens of a line."""
 
     def _condition(self) -> Expression:
-        """OR of ANDs of relations."""
+        """Parse a condition: OR of ANDs of relations."""
         self._deeper()
         left = self._conjunction()
         while self._skip("OR"):

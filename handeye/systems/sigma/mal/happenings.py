@@ -1,4 +1,4 @@
-"""Events of MAL programs: what is sent and answered, which flags change, what is printed."""
+"""Events of MAL programs: commands and answers, changes of flags, printed lines."""
 
 from typing import ClassVar
 
@@ -8,7 +8,7 @@ from handeye.program.events import Importance, SystemEvent
 
 
 class TaskStarted(SystemEvent, frozen=True, kw_only=True):
-    """A task begins."""
+    """A task began."""
 
     task: str
 
@@ -17,7 +17,7 @@ class TaskStarted(SystemEvent, frozen=True, kw_only=True):
 
 
 class TaskEnded(SystemEvent, frozen=True, kw_only=True):
-    """A task has ended, or was killed."""
+    """A task ended or was killed."""
 
     task: str
     killed: bool = False
@@ -27,7 +27,7 @@ class TaskEnded(SystemEvent, frozen=True, kw_only=True):
 
 
 class CommandSent(SystemEvent, frozen=True, kw_only=True):
-    """Five bytes went to a microcomputer."""
+    """Five bytes were sent to a microcomputer."""
 
     importance: ClassVar[Importance] = "debug"
     task: str
@@ -74,7 +74,7 @@ class Printed(SystemEvent, frozen=True, kw_only=True):
 
 
 class MotorAborted(SystemEvent, frozen=True, kw_only=True):
-    """A motor was stopped at the end of its rail, or by a force; the central computer has asked where it is."""
+    """A motor was stopped, at the end of its rail or by a force, and the central computer has queried its position."""
 
     importance: ClassVar[Importance] = "warning"
     task: str  # that had sent it on its way
@@ -88,7 +88,9 @@ class MotorAborted(SystemEvent, frozen=True, kw_only=True):
 
 
 class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
-    """A wrist has felt more than a standing or stopping motor is sure to hold."""
+    """A wrist has sensed a greater force than a standing or stopping motor can certainly hold, so its count may be
+    wrong.
+    """
 
     importance: ClassVar[Importance] = "warning"
     axis: str

@@ -1,7 +1,7 @@
-"""Every order in which the tasks of a program may go on: states are hashed, and each is looked at once.
+"""Tries every order in which the tasks of a program may continue; states are hashed, and each is examined once.
 
-A statement is one act. Motions and delays take any time. Statements that touch nothing of another task are not put
-into different orders, since that changes nothing; motions of an axis that is one task's alone end at once.
+A statement is one act. Motions and delays may take any time. Statements that concern no other task are not tried in
+different orders, because the order has no effect; motions of an axis that only one task uses end at once.
 """
 
 from collections import deque
@@ -41,7 +41,7 @@ _SHARED_WORDS: Final = {"SET", "RESET", "WAIT", "TAKE", "START", "KILL", "STOP",
 
 
 class Act(Record, frozen=True, kw_only=True):
-    """One act of a schedule: a task executes a line, or goes on with one; or an axis arrives."""
+    """One act of a schedule: a task executes a line or continues one, or an axis arrives."""
 
     task: str  # or the axis
     line: int | None = None
@@ -49,7 +49,7 @@ class Act(Record, frozen=True, kw_only=True):
 
 
 class OrderFinding(Record, frozen=True, kw_only=True):
-    """Something that goes wrong in some order."""
+    """A problem that occurs in some order."""
 
     kind: FindingKind
     told: str
@@ -58,7 +58,7 @@ class OrderFinding(Record, frozen=True, kw_only=True):
 
 
 class Interleavings(Record, frozen=True, kw_only=True):
-    """What was found."""
+    """The result of trying all orders."""
 
     states: int
     complete: bool  # all orders were tried
@@ -108,7 +108,7 @@ class _Search:
 
     @cached_property
     def both_arms(self) -> bool:
-        """Both arms move along the rail, by different tasks."""
+        """True if both arms move along the rail, commanded by different tasks."""
         return len(self._users.get("X1", set()) | self._users.get("X2", set())) > 1
 
     @cached_property
@@ -120,7 +120,7 @@ class _Search:
 
     @cached_property
     def _private(self) -> tuple[bool, ...]:
-        """For each line whether it touches nothing of another task."""
+        """For each line, True if it concerns no other task."""
         return tuple(all(map(self._is_private, within(line.statement))) for line in self.program.statements)
 
     def _is_private(self, statement: Statement) -> bool:
@@ -160,7 +160,9 @@ class _Search:
         )
 
     def _expanded(self, key: bytes, state: _State) -> list[tuple[Act, _State]]:
-        """The states that follow one; after a private statement alone if there is one, unless that was reached."""
+        """The states that follow a state; only the one after a statement that concerns no other task, if there is
+        one that leads to a new state.
+        """
         if state.memory.fault is not None:
             return []
         for name in state.memory.tasks:
@@ -187,7 +189,7 @@ class _Search:
         return found
 
     def _after(self, key: bytes, state: _State, name: str) -> tuple[Act, _State] | None:
-        """What follows if a task goes on; None if it cannot."""
+        """The act and the state if a task continues; None if it cannot."""
         self._put(_State(copied(state.memory), copied(state.machine)))
         memory = self.vm.memory
         task, line = memory.tasks[name], self.program.lines[self._line(state, name)]
@@ -224,7 +226,7 @@ class _Search:
         self.events.clear()
 
     def _taken(self) -> _State:
-        """The state as it is, without what decides nothing."""
+        """The present state, without values that have no effect on the future."""
         memory = self.vm.memory
         memory.turn, memory.last, memory.printed, memory.commands, memory.questions = "", "", "", 0, 0
         for axis in [axis for axis in memory.owners if axis not in self.machine.state.moving]:
@@ -241,7 +243,7 @@ class _Search:
     # -- looking --------------------------------------------------------------------------------------
 
     def _see_events(self, key: bytes, state: _State, act: Act) -> None:
-        """Signals that are lost by an act."""
+        """Find signals that an act loses."""
         taken = {each.operand for each in self.program.code if each.op == "TAKEF"}
         for event in self.events:
             lost = (
@@ -311,7 +313,7 @@ class _Search:
     def _find(
         self, kind: FindingKind, told: str, lines: Sequence[int], key: bytes, act: Act | None = None
     ) -> None:
-        """Note a finding, once for its lines: the first way to it is the shortest."""
+        """Record a finding, once for its lines; the first path to it is the shortest."""
         name = (kind, tuple(sorted(lines)) if kind != "variable" else told)
         if name not in self.found:
             schedule = (*self._schedule(key), *(() if act is None else (act,)))
@@ -341,12 +343,12 @@ def _uses(program: MalProgram, line: CompiledLine) -> tuple[set[str], set[str]]:
 
 
 def interleavings(program: MalProgram, most: int = MOST_STATES) -> Interleavings:
-    """Try every order in which the tasks of a program may go on, up to a number of states."""
+    """Try every order in which the tasks of a program may continue, up to a number of states."""
     return _Search(program=program, most=most).run()
 
 
 def schedule_lines(schedule: Sequence[Act]) -> list[str]:
-    """A schedule as lines of text: who goes on, with the lines executed one after the other."""
+    """A schedule as lines of text: the tasks that continue, with the lines they execute."""
     rows: list[tuple[str, list[str]]] = []
     for act in schedule:
         text = "arrives" if act.line is None else f"{act.line} goes on" if act.goes_on else str(act.line)

@@ -1,4 +1,4 @@
-"""The language service for MAL: diagnostics, explanations, completion, the usual form."""
+"""The language service for MAL: diagnostics, explanations, completion and formatting."""
 
 import re
 from typing import Final
@@ -30,11 +30,11 @@ class MalLanguage(OwnLanguage):
         return checked(source)[1]
 
     def explanation(self, word: str) -> str | None:
-        """What a code or a word of MAL means; words that the arm language has too are explained by `sigma words`."""
+        """The meaning of a code or word of MAL; words that the arm language has too are explained by `sigma words`."""
         return code_explained(word) or explained(word)
 
     def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
-        """Statements behind the number of a line; behind a word what fits it."""
+        """Completions: statements after the number of a line; after a word, whatever may follow it."""
         row, column = source.position(offset)
         before = source.line(row)[: column - 1].upper()
         written = re.findall(r"[A-Z][A-Z0-9_]*|[0-9.]+|\S", before)
@@ -70,20 +70,22 @@ class MalLanguage(OwnLanguage):
         return [*((name, "a variable") for name in names), *rest, *axes]
 
     def formatted(self, text: str) -> str:
-        """Lines in the order of their numbers, in capitals, with one blank between words; texts and remarks stay."""
+        """Lines in the order of their numbers, in capitals, with one blank between words; texts and remarks are
+        unchanged.
+        """
         lines, _ = parsed(Source(name="text", text=text))
         return "".join(f"{line.number} {tidy(line.text)}\n" for line in in_order(lines))
 
 
 def tidy(text: str) -> str:
-    """A statement in capitals, except for texts in quotes and remarks."""
+    """A statement in capitals, except texts in quotes and remarks."""
     if text.upper().startswith("REM"):
         return f"REM{text[3:]}"
     return "".join(part if part.startswith('"') else part.upper() for part in re.split(r'("[^"]*")', text))
 
 
 def code_explained(code: str) -> str | None:
-    """What a code of a mistake means, with an example and its cure; None if it is none."""
+    """The meaning of a code, with an example and its cure; None for an unknown code."""
     known = CODES.get(code.casefold())
     if known is None:
         return None

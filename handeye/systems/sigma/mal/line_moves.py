@@ -1,4 +1,6 @@
-"""Straight paths of axes that know nothing of each other: by constant speeds, and by waiting for each other."""
+"""Straight paths of axes that are not synchronised: each moves at constant speed, and the axes wait for each other
+at intermediate points.
+"""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -12,10 +14,10 @@ _STRAIGHT_MM: Final = 0.4  # by how much the path of a part may be off
 
 
 def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> list[Outgoing]:
-    """Commands that take axes to their places (steps) along a straight line, within half a millimetre.
+    """Commands that move axes to their goals (steps) along a straight line, within half a millimetre.
 
-    Speeds come in steps of 2 mm/s, so that their ratio is only nearly that of the distances: the way is divided into
-    parts, behind each of which the axes wait for each other.
+    Speeds can be set only in steps of 2 mm/s, so their ratio is only approximately that of the distances. The path
+    is therefore divided into parts, after each of which the axes wait for each other.
     """
     ways = {axis: target - counts.get(axis, 0) for axis, target in goals}
     moved = {axis: way for axis, way in ways.items() if way}
@@ -41,7 +43,9 @@ def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> l
 
 
 def _codes(moved: Mapping[str, int], longest: int, fastest: int) -> tuple[dict[str, int], float]:
-    """Speed codes with the longest way at `fastest`, and by how much the path is off then, mm."""
+    """Speed codes with the longest distance at speed `fastest`, and the resulting deviation from the straight line,
+    mm.
+    """
     codes = {axis: max(1, round(fastest * abs(way) / longest)) for axis, way in moved.items()}
     off = max(abs(codes[axis] / fastest - abs(way) / longest) for axis, way in moved.items())
     return codes, off * longest * STEP_MM

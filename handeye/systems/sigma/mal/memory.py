@@ -1,4 +1,4 @@
-"""All that the virtual machine remembers between two statements, as one record."""
+"""The whole state of the virtual machine between two statements, as one record."""
 
 from typing import Annotated, Literal
 
@@ -12,7 +12,7 @@ Address = Annotated[int, Meta(ge=0)]
 
 
 class Flags(Record, frozen=True, kw_only=True, tag=True):
-    """Wait until flags are set; with `take` the one is cleared in the same act."""
+    """Wait until flags are set; with `take`, the single flag is cleared in the same act."""
 
     names: tuple[str, ...]
     take: bool
@@ -25,7 +25,7 @@ class Motors(Record, frozen=True, kw_only=True, tag=True):
 
 
 class Moment(Record, frozen=True, kw_only=True, tag=True):
-    """Wait until a time, microseconds of the machine."""
+    """Wait until a time, microseconds on the machine's clock."""
 
     until: int
 
@@ -40,7 +40,7 @@ Waiting = Flags | Motors | Moment | TypedNumber
 
 
 class Loop(Record, frozen=True, kw_only=True):
-    """A FOR under way: its variable, last value, step, and where its lines begin."""
+    """A FOR loop in progress: its variable, last value, step, and the address at which its lines begin."""
 
     name: str
     last: float
@@ -49,7 +49,7 @@ class Loop(Record, frozen=True, kw_only=True):
 
 
 class Outgoing(Record, frozen=True, kw_only=True):
-    """A command that waits for its turn on the bus: for a motor, by the place it is to reach, or as it is."""
+    """A command that waits to be sent: for a motor given by the goal position, else as it is."""
 
     to: str  # the axis or device that has to be free
     target: int | None = None  # steps
@@ -59,7 +59,7 @@ class Outgoing(Record, frozen=True, kw_only=True):
 
 
 class TaskMemory(MutableRecord, kw_only=True):
-    """A task."""
+    """The state of a task."""
 
     pc: Address
     amid: bool = False  # in the middle of a statement, which waits
@@ -73,7 +73,7 @@ class TaskMemory(MutableRecord, kw_only=True):
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """Why a program stands."""
+    """The reason why a program stands."""
 
     kind: Literal["trap", "abort", "deadlock", "input", "break"]
     task: str
@@ -82,14 +82,14 @@ class Fault(Record, frozen=True, kw_only=True):
 
 
 class Owner(Record, frozen=True, kw_only=True):
-    """The task and statement that sent an axis on its way."""
+    """The task and statement that commanded the present motion of an axis."""
 
     task: str
     address: Address
 
 
 class MalMemory(MutableRecord, kw_only=True):
-    """A program under way."""
+    """The state of a running program."""
 
     tasks: dict[str, TaskMemory] = field(default_factory=dict)  # those not ended, in the order of their start
     turn: str = ""  # the task that goes on next; empty: none

@@ -51,7 +51,9 @@ class Operations(BusOperations):
                 self._acts[name.removeprefix("_do_").upper()] = getattr(self, name)
 
     def run(self, name: str, task: TaskMemory) -> int:
-        """Execute instructions to the end of the statement, or to where it waits; how many of them calculated."""
+        """Execute instructions to the end of the statement, or until it waits; returns the number of arithmetic
+        instructions.
+        """
         task.amid, began, calculated = True, self.program.line_of(task.pc).begin, 0
         try:
             for _ in range(_MOST_INSTRUCTIONS):
@@ -76,7 +78,7 @@ class Operations(BusOperations):
         self._tell(TaskEnded(time=self.time, task=name, killed=killed))
 
     def behind(self, address: int) -> int:
-        """The address behind the line that an address belongs to."""
+        """The address after the line to which an address belongs."""
         index = self.program.line_at[address]
         line = self.program.lines[index]
         if index + 1 < len(self.program.lines) and self.program.lines[index + 1].task == line.task:
@@ -84,7 +86,7 @@ class Operations(BusOperations):
         return min(each for each in self.program.closing if each >= line.begin)
 
     def met(self, name: str, task: TaskMemory, waits: Waiting) -> bool:
-        """True if what a task waits for has come about; it is done with then."""
+        """True if the condition for which a task waits is met; the condition is then consumed."""
         match waits:
             case Flags(names=names, take=take):
                 if not {*names} <= {*self.memory.flags}:
@@ -235,7 +237,7 @@ class Operations(BusOperations):
         task.pc, task.amid, task.resume = task.resume, False, None
 
     def _wait(self, name: str, task: TaskMemory, waiting: Waiting) -> None:
-        """Wait for something, unless it has come about."""
+        """Let a task wait for a condition, unless it is already met."""
         task.waits = waiting
         self.met(name, task, waiting)
 

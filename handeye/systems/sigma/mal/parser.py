@@ -1,4 +1,4 @@
-"""The parser: recursive descent, a line at a time. A mistake costs its line; the next ones are read."""
+"""The parser: recursive descent, line by line. A mistake affects only its line."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -27,7 +27,7 @@ MOST_LINES: Final = 5000
 
 
 def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
-    """The lines of a program, as written, and the mistakes of their form."""
+    """The lines of a program, in the order of the text, and the syntax errors."""
     lines: list[Line] = []
     found: list[Diagnostic] = []
     start, task = 0, MAIN
@@ -47,7 +47,7 @@ def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def parsed_line(text: str, start: int, row: int, task: str) -> tuple[Line | None, Diagnostic | None]:
-    """A line that begins at an offset of its text, in a task; None if it cannot be parsed."""
+    """Parse a line that begins at an offset of its text, in a task; None if it cannot be parsed."""
     scanned, wrong = tokens(text, start)
     if wrong is not None:
         return None, wrong
@@ -75,10 +75,10 @@ def _line_number(token: Token) -> int:
 
 
 class _Parser(ExpressionReader):
-    """The statement behind a line number."""
+    """Parses the statement after a line number."""
 
     def whole_statement(self) -> Statement:
-        """The statement that these tokens are, all of them."""
+        """Parse all tokens as one statement."""
         statement = self._statement(top=True)
         if self._next is not None:
             self._word = statement.word
@@ -283,5 +283,5 @@ _FORMS: Final[dict[str, Callable[[_Parser, str], Statement]]] = {
     "ON": _Parser._on,
     "RESUME": _Parser._bare,
 }
-"""How the rest of each statement is read."""
+"""The function that parses the rest of each kind of statement."""
 assert (*_FORMS,) == STATEMENTS

@@ -1,4 +1,4 @@
-"""Splits a line of MAL into tokens. Whatever a text holds, it is tokens and mistakes; nothing is raised."""
+"""Splits a line of MAL into tokens. Every text gives tokens and mistakes; nothing is raised."""
 
 import re
 from typing import Final, Literal, NamedTuple
@@ -36,7 +36,7 @@ _TOKEN: Final = re.compile(
 
 
 def tokens(line: str, start: int) -> tuple[list[Token], Diagnostic | None]:
-    """The tokens of a line that begins at an offset, and its first mistake; a remark has no token but REM."""
+    """The tokens of a line that begins at an offset, and the first mistake; a remark has only the token REM."""
     found: list[Token] = []
     if len(line) > LONGEST_LINE:
         told = f"a line has {LONGEST_LINE} characters at most; this one has {len(line)}"

@@ -37,7 +37,7 @@ class Binary(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A function of an expression, of an axis, or of nothing."""
+    """A function with an expression, an axis, or no argument."""
 
     function: str
     argument: "Expression | Token | None"
@@ -53,7 +53,7 @@ class Text(NamedTuple):
 
 
 class AxisGoal(NamedTuple):
-    """An axis and how far it goes."""
+    """An axis with its goal or distance."""
 
     axis: Token
     mode: Literal["TO", "BY"]
@@ -62,7 +62,7 @@ class AxisGoal(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Statement:
-    """A statement. Which fields it has depends on its word, as the grammar says."""
+    """A statement. The fields that are set depend on its word, according to the grammar."""
 
     word: str
     span: Span

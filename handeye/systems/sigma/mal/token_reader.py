@@ -1,4 +1,4 @@
-"""Reads the tokens of a line one by one, and says what is wrong where one does not fit."""
+"""Reads the tokens of a line one by one, and reports a token that does not fit."""
 
 from collections.abc import Callable
 from typing import Final, NoReturn
@@ -14,7 +14,7 @@ DEEPEST: Final = 30
 
 
 class Mistaken(Exception):
-    """A line cannot be parsed."""
+    """Raised if a line cannot be parsed."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.message)
@@ -22,7 +22,7 @@ class Mistaken(Exception):
 
 
 class TokenReader:
-    """The tokens behind a line number."""
+    """Reads the tokens after a line number."""
 
     def __init__(self, tokens: list[Token], whole: Span) -> None:
         self._tokens, self._at, self._depth = tokens, 0, 0

@@ -1,4 +1,4 @@
-"""A machine without time: motions under way may end in any order."""
+"""A machine without time, in which motions in progress may end in any order."""
 
 from typing import Final
 
@@ -13,14 +13,14 @@ AXIS_OF: Final = {NUMBERS[axis]: axis for axis in AXES}
 
 
 class UntimedMemory(MutableRecord, kw_only=True):
-    """Where axes are, and what is under way."""
+    """Positions of the axes, and the motions in progress."""
 
     places: dict[str, int] = field(default_factory=dict)  # steps
     moving: dict[str, int] = field(default_factory=dict)  # steps of the motions under way
 
 
 class UntimedMachine(MicrobusPort):
-    """Sensors answer 0. Axes of `instant` are at their places as soon as they are sent there."""
+    """A machine whose sensors answer 0. Axes in `instant` are at their goals as soon as they are commanded."""
 
     def __init__(self, instant: frozenset[str]) -> None:
         self.state, self._instant = UntimedMemory(), instant
@@ -57,7 +57,7 @@ class UntimedMachine(MicrobusPort):
         self.state.places[axis] = self.state.places.get(axis, 0) + self.state.moving.pop(axis)
 
     def reach(self, axis: str) -> int:
-        """The farthest place at which an axis may be now, steps."""
+        """The farthest position at which an axis may be now, steps."""
         place = self.state.places.get(axis, 0)
         return max(place, place + self.state.moving.get(axis, 0))
 

@@ -1,6 +1,6 @@
-"""The virtual machine: it schedules the tasks, a statement each in turn, and handles aborts and deadlocks.
+"""The virtual machine: schedules the tasks, one statement each in turn, and handles aborts and deadlocks.
 
-All it knows of the machine is `ports/microbus.py`. Between two statements everything it remembers is its memory.
+It accesses the machine only through `ports/microbus.py`. Between two statements its whole state is its memory.
 """
 
 import math
@@ -35,7 +35,7 @@ DOUBT_N: Final = 20.0  # force on a wrist above which the count of its axis is d
 
 
 class VirtualMachine:
-    """Executes a compiled program. `tell` hears what happens, `poll` is called before time passes."""
+    """Executes a compiled program. `tell` gets the events, `poll` is called before time passes."""
 
     def __init__(
         self,
@@ -54,7 +54,7 @@ class VirtualMachine:
 
     @property
     def memory(self) -> MalMemory:
-        """All that it remembers between two statements."""
+        """The whole state between two statements."""
         return self._operations.memory
 
     @memory.setter
@@ -68,17 +68,17 @@ class VirtualMachine:
 
     @property
     def idle(self) -> float:
-        """The share of the time in which the central computer had nothing to do."""
+        """Fraction of the time in which the central computer was idle."""
         passed = self.machine.now - self.memory.began
         return 1.0 - self.memory.worked / passed if passed else 0.0
 
     @property
     def turn(self) -> str:
-        """The task whose turn it is; empty: none can go on."""
+        """The task whose turn it is; empty: no task can continue."""
         return self.memory.turn
 
     def waits_for(self, task: str) -> str:
-        """What a task waits for, in words; empty: its turn."""
+        """The reason for which a task waits, in words; empty: its turn."""
         match self.memory.tasks[task].waits:
             case Flags(names=names):
                 return f"{'flag' if len(names) == 1 else 'flags'} {' and '.join(names)}"
@@ -94,13 +94,15 @@ class VirtualMachine:
     # -- going on ------------------------------------------------------------------------------------------
 
     def begin(self) -> None:
-        """Start the task MAIN, and find whose turn it is."""
+        """Start the task MAIN, and determine whose turn it is."""
         self.memory.began = self.machine.now
         self._operations.start(MAIN)
         self.settle()
 
     def statement(self) -> None:
-        """Execute the statement of the task whose turn it is, as far as it goes; `settle` then finds the next."""
+        """Execute the statement of the task whose turn it is, as far as possible; `settle` then determines the next
+        task.
+        """
         memory, name = self.memory, self.memory.turn
         memory.last, began = name, self.machine.now
         calculated = self._operations.run(name, memory.tasks[name])
@@ -108,7 +110,7 @@ class VirtualMachine:
         memory.worked += self.machine.now - began
 
     def settle(self) -> None:
-        """Let time pass until a task can begin a statement; none if all have ended, or the program stands."""
+        """Let time pass until a task can begin a statement, unless all have ended or the program stands."""
         self.memory.turn = ""
         while self.memory.fault is None and self.memory.tasks:
             self._see_aborts()
@@ -122,11 +124,11 @@ class VirtualMachine:
                 self._stand_still()
 
     def choose(self, task: str) -> None:
-        """Give the turn to a task, whose statement it can begin."""
+        """Give the turn to a task that can begin a statement."""
         self.memory.turn = task
 
     def proceed(self) -> None:
-        """Go on behind the statement at which the program stands."""
+        """Continue after the statement at which the program stands."""
         fault = self._unfault()
         task = self.memory.tasks.get(fault.task)
         if fault.kind in ("trap", "abort") and task is not None:
@@ -134,7 +136,7 @@ class VirtualMachine:
         self.settle()
 
     def retry(self) -> None:
-        """Execute the statement at which the program stands again."""
+        """Repeat the statement at which the program stands."""
         fault = self._unfault()
         task = self.memory.tasks.get(fault.task)
         if fault.kind in ("trap", "abort") and task is not None:
@@ -149,7 +151,7 @@ class VirtualMachine:
         self.memory.turn = ""
 
     def type_number(self, text: str, task: str = "") -> None:
-        """Give the task that waits for it a number; raises InvalidInput if none waits, or the text is none."""
+        """Give a number to a task that waits for one; raises InvalidInput if none waits, or the text is no number."""
         waiting = [name for name, each in self.memory.tasks.items() if isinstance(each.waits, TypedNumber)]
         if (task and task not in waiting) or not waiting:
             raise BadArgument(
@@ -169,11 +171,11 @@ class VirtualMachine:
             self.memory.fault = None
 
     def remember(self, memory: MalMemory) -> None:
-        """Go on from a memory that fits the program."""
+        """Continue from a state that fits the program."""
         put_back(self.memory, memory)
 
     def fits(self, memory: MalMemory) -> bool:
-        """True if all addresses and names of a memory are of this program."""
+        """True if all addresses and names in a state belong to this program."""
         size, tasks = len(self.program.code), self.program.tasks
         addresses = [each.pc for each in memory.tasks.values()]
         for each in memory.tasks.values():
@@ -191,7 +193,7 @@ class VirtualMachine:
     # -- turns ---------------------------------------------------------------------------------------------
 
     def _order(self) -> list[str]:
-        """The tasks, those first that come behind the one that had its turn last."""
+        """The tasks in order of turn: those after the task that had the last turn come first."""
         names = [*self.memory.tasks]
         after = names.index(self.memory.last) + 1 if self.memory.last in names else 0
         return names[after:] + names[:after]
@@ -205,7 +207,7 @@ class VirtualMachine:
         return None
 
     def goes_on(self, name: str) -> bool:
-        """Finish what a task waited for, if that has come about; True if it can begin a statement then."""
+        """Complete the wait of a task if its condition is met; True if the task can then begin a statement."""
         task = self.memory.tasks[name]
         if task.amid:
             if task.waits is not None and not self._operations.met(name, task, task.waits):
@@ -218,7 +220,7 @@ class VirtualMachine:
         return name in self.memory.tasks and not task.amid and self.memory.fault is None
 
     def _pass_time(self) -> bool:
-        """Let time pass until something may have changed; False if nothing comes by itself."""
+        """Let time pass until something may have changed; False if nothing can change by itself."""
         moments = [each.waits.until for each in self.memory.tasks.values() if isinstance(each.waits, Moment)]
         event = self.machine.next_event
         times = moments if event is None else [*moments, event]
@@ -229,7 +231,9 @@ class VirtualMachine:
         return True
 
     def _stand_still(self) -> None:
-        """All tasks wait, and nothing comes by itself: a number is wanted, or it is a deadlock."""
+        """Handle the case that all tasks wait and nothing can change by itself: a number is awaited, or it is a
+        deadlock.
+        """
         tasks = self.memory.tasks
         typing = next((name for name, each in tasks.items() if isinstance(each.waits, TypedNumber)), None)
         if typing is not None:
@@ -248,14 +252,14 @@ class VirtualMachine:
         )  # fmt: skip
 
     def _spend(self, microseconds: int) -> None:
-        """The central computer works for so long."""
+        """Let time pass in which the central computer works."""
         self._poll()
         until = self.machine.now + microseconds
         while self.machine.now < until:
             self.machine.wait(until)
 
     def _abandon(self, task: TaskMemory, address: int) -> None:
-        """Let a task go on at an address, whatever it did."""
+        """Let a task continue at an address, and drop its present work."""
         task.pc, task.amid, task.waits = address, False, None
         task.stack.clear()
         task.outgoing.clear()
@@ -269,7 +273,9 @@ class VirtualMachine:
     # -- aborts --------------------------------------------------------------------------------------------
 
     def _see_aborts(self) -> None:
-        """If a motor interrupts, ask where it is, and let its task go where ON ABORT says; else the program stands."""
+        """If a motor interrupts, query its position, and let its task continue as ON ABORT says; without ON ABORT,
+        the program stands.
+        """
         if not self.machine.interrupt:
             return
         for axis in AXES:
@@ -293,7 +299,7 @@ class VirtualMachine:
             self._after_abort(axis, owner, f"ABORT {axis} {cause} {at:.2f}")
 
     def _doubt(self, name: str) -> None:
-        """Ask both wrists what they have felt at most: a standing motor that was run into says nothing itself."""
+        """Query the greatest forces of both wrists, because a standing motor that was hit does not report it."""
         for axis in AXES:
             try:
                 answer = self._operations.ask(name, protocol.force(int(axis[1]), axis[0], peak=True))

@@ -1,4 +1,4 @@
-"""The words of MAL: the table that parser, completion, `explain` and the page of words are made from."""
+"""The words of MAL, as a table from which parser, completion, `explain` and the page of words are derived."""
 
 from typing import Final, Literal, NamedTuple
 
@@ -149,14 +149,14 @@ MAL_DEVICES: Final[dict[str, tuple[int, str]]] = {
     "LAMP": (1, "LAMP"),
     "BELL": (1, "BELL"),
 }
-"""The arm whose hand microcomputer works a device, and the device's name there."""
+"""The arm whose hand microcomputer drives a device, and the device's name there."""
 assert {device for _, device in MAL_DEVICES.values()} == {*DEVICES}
 RESERVED: Final = {*WORDS, *AXES, "DIM"}
-"""Words that no variable, flag or task can be called."""
+"""Words that cannot be names of variables, flags or tasks."""
 
 
 def explained(word: str) -> str | None:
-    """What a word means, with an example; None if it is none of MAL's."""
+    """The meaning of a word, with an example; None if it is no word of MAL."""
     known = WORDS.get(word.upper())
     if known is None:
         return None

@@ -1,4 +1,4 @@
-"""Plots of a move: speed, and the force that it asks for beside what there is."""
+"""Plots of a move: speed, required force and available force."""
 
 from typing import Final
 
@@ -22,7 +22,7 @@ _STYLE: Final = (
 
 
 def as_text(found: AxisStudy, width: int = 100) -> list[str]:
-    """Speed over time, in eighths of its top, as lines of text."""
+    """Speed over time as lines of text, in eighths of the greatest speed."""
     times, speeds, _, _ = series(found)
     columns = max(20, width - _NAME - 1)
     edges = np.linspace(0, times[-1], columns + 1)
@@ -42,7 +42,7 @@ def _axis(times: NDArray[np.float64], columns: int) -> str:
 
 
 def as_svg(found: AxisStudy) -> str:
-    """Speed, and force beside pull-out force, over time."""
+    """Speed, required force and pull-out force over time, as SVG."""
     times, speeds, forces, pulls = series(found)
     title = f"{found.mass:g} kg, curve {found.curve}, {counted(found.steps, 'step')}: {verdict(found)[-1]}"
     pieces = [element("text", title, x=12, y=22, class_="t")]
@@ -87,7 +87,7 @@ def _panel(
 
 
 def _round_values(least: float, most: float) -> list[float]:
-    """Round numbers that an axis shows, six or so."""
+    """About six round numbers for an axis."""
     span = most - least
     step = next(d * 10.0**p for p in range(-6, 9) for d in (1, 2, 5) if d * 10.0**p * 6 >= span)
     first = int(np.ceil(least / step))

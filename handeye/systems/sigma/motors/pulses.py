@@ -1,6 +1,7 @@
-"""Pulse trains of the motor microcomputers: when each step is made, by a counter that divides a clock of 2 MHz.
+"""Pulse trains of the motor microcomputers: the times of the steps, made by a counter that divides a 2 MHz clock.
 
-A train is a value of few numbers. Its pulses follow in closed form, so that firmware needs no step of time.
+A train is a value of a few numbers. The times of its pulses have a closed form, so that the firmware needs no time
+steps.
 """
 
 import math
@@ -25,7 +26,7 @@ Ticks = NDArray[np.int64]  # of the clock of 2 MHz
 
 
 class Curve(Record, frozen=True, kw_only=True):
-    """A curve of acceleration."""
+    """An acceleration curve."""
 
     start: float = 1_000.0  # steps/s at which a motor may start and stop at once
     top: float = 13_333.0  # steps/s
@@ -39,11 +40,13 @@ CURVES: Final = (
     Curve(acceleration=14_000.0),
     Curve(start=500.0),
 )
-"""By number, as commands select them; an unknown number is the first."""
+"""Curves by number, as commands select them; an unknown number means the first."""
 
 
 class Train(Record, frozen=True, kw_only=True):
-    """A pulse train of `steps` that begins and ends at `start`, no faster than `top`; or a stop from `top`."""
+    """A pulse train of `steps` that begins and ends at speed `start` and does not exceed `top`; or a stop from
+    `top`.
+    """
 
     kind: Literal["profile", "stop"] = "profile"
     steps: int  # of a stop: at most
@@ -53,19 +56,19 @@ class Train(Record, frozen=True, kw_only=True):
 
     @property
     def peak(self) -> float:
-        """Speed that the profile reaches, steps/s."""
+        """Greatest speed of the profile, steps/s."""
         if self.steps <= SHORT or self.top <= self.start:
             return min(self.start, self.top)
         return min(self.top, math.sqrt(self.start**2 + self.steps * self.acceleration))
 
     @property
     def pulses(self) -> "Pulses":
-        """When its steps are made."""
+        """The times of the steps."""
         return _pulses(self)
 
 
 class Pulses:
-    """Pulses of a train."""
+    """The pulses of a train."""
 
     def __init__(self, ticks: Ticks) -> None:
         self.ticks = ticks  # of each pulse after the command, rising
@@ -81,50 +84,55 @@ class Pulses:
 
     @cached_property
     def dividers(self) -> Ticks:
-        """What the counter divides by before each pulse."""
+        """The divider of the counter before each pulse."""
         return np.diff(self.ticks, prepend=0)
 
     def count(self, ticks: int) -> int:
-        """Pulses made by a time."""
+        """Number of pulses made up to a time, ticks."""
         return int(np.searchsorted(self.ticks, ticks, side="right"))
 
     def speed(self, ticks: int) -> float:
-        """Steps/s at a time; 0 behind the end."""
+        """Speed at a time, steps/s; 0 after the end."""
         done = self.count(ticks)
         return CLOCK_HZ / int(self.dividers[done]) if done < len(self.ticks) else 0.0
 
     @property
     def seconds(self) -> float:
-        """Until the last pulse."""
+        """Duration until the last pulse, s."""
         return self.end / CLOCK_HZ
 
 
 def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
-    """The train of a move: constant if very short, else a ramp up and down, with a flat part if it is long.
+    """The train of a move: constant speed if very short, else a ramp up and a ramp down, with constant speed in
+    between if it is long.
 
     Args:
-        steps: From 1.
-        limit: Greatest speed, steps/s; 0: that of the curve.
+        steps: number of steps, at least 1.
+        limit: greatest speed, steps/s; 0: that of the curve.
     """
     top = min(curve.top, float(limit)) if limit else curve.top
     return Train(steps=steps, start=min(curve.start, top), top=top, acceleration=curve.acceleration)
 
 
 def constant(steps: int, speed: float, curve: Curve, limit: float = 0.0, *, ramped: bool = True) -> Train:
-    """The train of a move at constant speed, steps/s; above start/stop speed it has ramps, unless `ramped` is off."""
+    """The train of a move at constant speed, steps/s; above start/stop speed it has ramps, unless `ramped` is
+    False.
+    """
     speed = min(speed, float(limit)) if limit else speed
     start = min(curve.start, speed) if ramped else speed
     return Train(steps=steps, start=start, top=speed, acceleration=curve.acceleration)
 
 
 def stop(speed: float, curve: Curve) -> Train:
-    """The steepest ramp from a speed, steps/s, down to that at which a motor may stop."""
+    """The steepest ramp from a speed, steps/s, down to the speed at which a motor may stop."""
     steps = max(0, math.ceil((speed**2 - curve.start**2) / (2 * EMERGENCY)))
     return Train(kind="stop", steps=steps, start=curve.start, top=speed, acceleration=EMERGENCY)
 
 
 def stopped(train: Train, curve: Curve, ticks: int, *, cut: bool = False) -> Pulses:
-    """Pulses of a train that is interrupted after some ticks: by the steepest ramp, or `cut` off, which is a fault."""
+    """Pulses of a train that is interrupted after some ticks: by the steepest ramp or, with `cut`, abruptly, which
+    is a fault.
+    """
     pulses = train.pulses
     made = pulses.ticks[: pulses.count(ticks)]
     if cut:
@@ -140,7 +148,7 @@ def _pulses(train: Train) -> Pulses:
 
 
 def _stop_times(train: Train) -> NDArray[np.float64]:
-    """Pulses of an even deceleration."""
+    """Pulse times of a constant deceleration."""
     speeds = np.sqrt(
         np.maximum(train.top**2 - 2 * train.acceleration * np.arange(1, train.steps + 1), train.start**2)
     )
@@ -148,7 +156,7 @@ def _stop_times(train: Train) -> NDArray[np.float64]:
 
 
 def _profile_times(train: Train) -> NDArray[np.float64]:
-    """Pulses of two ramps that are raised cosines, and of what is between them."""
+    """Pulse times of two ramps with the shape of raised cosines, and of the part between them."""
     steps, start, peak = train.steps, train.start, train.peak
     made = np.arange(1.0, steps + 1)
     if peak <= start:
@@ -165,7 +173,7 @@ def _profile_times(train: Train) -> NDArray[np.float64]:
 
 
 def _ramp_times(steps: NDArray[np.float64], start: float, peak: float, ramp: float) -> NDArray[np.float64]:
-    """Time of a number of steps of a ramp from `start` to `peak` that takes `ramp` s."""
+    """Times of steps on a ramp from speed `start` to `peak` that takes `ramp` s."""
 
     def made(time: NDArray[np.float64]) -> NDArray[np.float64]:
         turned = ramp / math.pi * np.sin(math.pi * time / ramp)

@@ -1,8 +1,9 @@
-"""The rotor of a stepping motor: its pulses draw it along by a spring as strong as its pull-out force, or it slips.
+"""The rotor of a stepping motor: the pulses draw it along by a spring as strong as its pull-out force, or it slips.
 
-Two models. The sine, force = pull-out x sin(2 pi lag / 4 steps), integrated in steps of .1 ms, is the one to believe.
-The balance, in steps of 1 ms, is for benches: it asks whether the force that the pulses want is there, and lets a rotor
-that has lost them coast until it can catch them again. Both slip by whole poles, 4 steps. SI, except steps.
+There are two models. The sine model, force = pull-out x sin(2 pi lag / 4 steps), integrated in steps of .1 ms, is
+the reference. The balance model, in steps of 1 ms, is for benches: it checks whether the force that the pulses
+require is available, and lets a rotor that has lost its pulses coast until a pole catches it. In both models the
+rotor slips by whole poles of 4 steps. Units are SI, except steps.
 """
 
 import math
@@ -30,7 +31,7 @@ _FULL: Final = 2 * math.pi / POLE  # rad of the sine for a step of lag
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drive:
-    """A motor and what it moves."""
+    """A motor with its moving mass and load."""
 
     mass: float  # kg
     friction: float = FRICTION  # N s/m for each kg
@@ -40,25 +41,25 @@ class Drive:
     damping: float = 0.1  # of the rotor about its field, as a share of critical, at start/stop speed
 
     def pull_out(self, speed: float) -> float:
-        """The greatest force at a speed, steps/s, N."""
+        """Greatest force at a speed in steps/s, N."""
         first, last = CURVES[1].start, CURVES[1].top
         share = min(max((abs(speed) - first) / (last - first), 0.0), 1.0)
         return self.start_force + (self.top_force - self.start_force) * share
 
     @property
     def damper(self) -> float:
-        """N s/m between rotor and field."""
+        """Damping between rotor and field, N s/m."""
         return 2 * self.damping * math.sqrt(self.start_force * _FULL / STEP * self.mass)
 
     @property
     def starts(self) -> bool:
-        """A rotor at rest can follow the jump to start/stop speed: its pole is deep enough for the energy of that."""
+        """True if a rotor at rest can follow the jump to start/stop speed: its pole is deep enough for that energy."""
         return _holds(self, CURVES[0].start, self.start_force)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Followed:
-    """How a rotor has followed its pulses."""
+    """How a rotor followed its pulses."""
 
     lost: int  # poles by which it is behind at the end; negative: ahead
     lag: float  # the greatest, steps
@@ -69,14 +70,16 @@ class Followed:
 
     @property
     def kept(self) -> bool:
-        """The rotor never left its pole."""
+        """True if the rotor never left its pole."""
         return self.lost == 0 and self.lag < POLE
 
 
 def commanded(
     pulses: Pulses, period: float, settle: float = _SETTLE
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Steps and steps/s that pulses command, as means over each `period` s, until `settle` s after the last."""
+    """Position (steps) and speed (steps/s) commanded by pulses, as means over each `period` s, until `settle` s
+    after the last pulse.
+    """
     count = math.ceil((pulses.seconds + settle) / period)
     ticks = np.arange(count + 1) * (period * CLOCK_HZ)
     done = np.searchsorted(pulses.ticks, ticks, side="right")
@@ -87,10 +90,10 @@ def commanded(
 
 
 def wanted(pulses: Pulses, drive: Drive) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The force that each millisecond of a train asks for, N, and the speed then, steps/s.
+    """The force that a train requires in each millisecond, N, and the speed then, steps/s.
 
-    The jumps to start/stop speed and from it are not in it; a change of speed is taken over some milliseconds, so that
-    the rounding of dividers is no acceleration.
+    The jumps to and from start/stop speed are not included. Changes of speed are averaged over some milliseconds,
+    so that the rounding of dividers does not count as acceleration.
     """
     count = max(1, math.ceil(pulses.seconds / _COARSE))
     edges = np.minimum(np.arange(count + 1) * _COARSE, pulses.seconds)
@@ -102,10 +105,10 @@ def wanted(pulses: Pulses, drive: Drive) -> tuple[NDArray[np.float64], NDArray[n
 
 
 class Balance:
-    """A rotor by the balance of forces, a millisecond at a time.
+    """A rotor in the balance model, with steps of one millisecond.
 
-    It is `caught` as long as its pole gives what is asked for; `strained` where more is asked, until it is two steps
-    away; then it is `slipping`, drawn along by the damping alone, until a pole can hold it again.
+    The rotor is `caught` as long as its pole can give the required force; `strained` if more is required, until it
+    is two steps away; then `slipping`, drawn along only by the damping, until a pole can hold it again.
     """
 
     def __init__(self, drive: Drive) -> None:
@@ -117,7 +120,9 @@ class Balance:
         self._speed = self._before = 0.0  # steps/s of the rotor, and of the field a millisecond ago
 
     def follow(self, there: float, pace: float, force: float) -> None:
-        """Let a millisecond pass, in which the field is at a place, steps, at a pace, steps/s, and asks for a force."""
+        """Let a millisecond pass in which the field is at position `there` (steps), moves at `pace` (steps/s), and
+        requires a force.
+        """
         pull, jump = self.drive.pull_out(pace), abs(pace - self._before)
         if self.state != "slipping" and jump > _JUMP and not _catches(self.drive, pace, self._before):
             self.state, self._speed = "slipping", self._before
@@ -156,7 +161,7 @@ class Balance:
 
 
 def by_balance(pulses: Pulses, drive: Drive) -> Followed:
-    """Follow a train by the balance of forces."""
+    """Follow a train in the balance model."""
     field, _ = commanded(pulses, _COARSE)
     forces, speeds = wanted(pulses, drive)
     rest = np.zeros(max(0, len(field) - len(forces)))
@@ -177,31 +182,31 @@ def by_balance(pulses: Pulses, drive: Drive) -> Followed:
 
 
 def _margin(forces: NDArray[np.float64], speeds: NDArray[np.float64], drive: Drive) -> tuple[float, float]:
-    """The least of pull-out force over what is asked for, and when, s."""
+    """The least ratio of pull-out force to required force, and its time, s."""
     margins = np.array([drive.pull_out(speed) for speed in speeds]) / np.maximum(np.abs(forces), _NOTHING)
     tightest = int(margins.argmin())
     return float(margins[tightest]), (tightest + 1) * _COARSE
 
 
 def lag_for(force: float, most: float) -> float:
-    """Steps that a rotor is behind when it gives a force of at most so much."""
+    """Lag of a rotor, steps, when it gives a force, with a greatest force of `most`."""
     return math.asin(min(max(force / most, -1.0), 1.0)) / _FULL
 
 
 def _catches(drive: Drive, field: float, speed: float) -> bool:
-    """A rotor of a speed is caught by a field of another one."""
+    """True if a field catches a rotor that has another speed."""
     return _holds(drive, abs(field - speed), drive.pull_out(field))
 
 
 def _holds(drive: Drive, between: float, pull: float) -> bool:
-    """Whether a pole is deep enough for a difference of speed, steps/s; a load makes it shallower."""
+    """True if a pole is deep enough for a difference of speed, steps/s; a load makes the pole shallower."""
     lag = lag_for(drive.load, pull) * _FULL
     depth = pull * (math.cos(lag) - math.cos(math.pi - lag)) - drive.load * (math.pi - 2 * lag)
     return drive.load < pull and drive.mass * (between * STEP) ** 2 / 2 <= depth * STEP / _FULL
 
 
 def by_sine(pulses: Pulses, drive: Drive) -> Followed:
-    """Follow a train by the sine, a tenth of a millisecond at a time."""
+    """Follow a train in the sine model, in steps of a tenth of a millisecond."""
     field, speeds = commanded(pulses, _FINE)
     pulls = [drive.pull_out(speed) for speed in speeds.tolist()]
     damper, mass = drive.damper, drive.mass

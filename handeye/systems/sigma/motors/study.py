@@ -1,4 +1,4 @@
-"""One axis studied: a move, the force that it asks for, and whether the rotor follows it."""
+"""Study of one axis: a move, the force that it requires, and whether the rotor follows it."""
 
 import math
 from typing import Final, Literal
@@ -36,7 +36,7 @@ class Moment(Record, frozen=True, kw_only=True):
 
 
 class AxisStudy(Record, frozen=True, kw_only=True):
-    """What came of a move."""
+    """The results of a move."""
 
     mass: float  # kg
     load: float  # N
@@ -66,14 +66,14 @@ def study(
     stop_after: float | None = None,
     cut: bool = False,
 ) -> AxisStudy:
-    """Make a move, and follow it by sine and by balance.
+    """Simulate a move with the sine model and with the balance model.
 
     Args:
-        mass: kg.
-        slow: Constant speed, mm/s; None: the profile that fits the length.
-        load: N against the motion.
-        stop_after: s after which an emergency stops the motor.
-        cut: By leaving the pulses out, and not by the steepest ramp.
+        mass: moving mass, kg.
+        slow: constant speed, mm/s; None: the profile for the length.
+        load: force against the motion, N.
+        stop_after: time after which an emergency stop begins, s; None: no stop.
+        cut: stop by omitting the pulses, instead of by the steepest ramp.
     """
     _check(mass, steps, curve, slow, load)
     shape = CURVES[curve]
@@ -165,7 +165,7 @@ _INTERRUPTED: Final = {"": "", "stop": ", stopped by the steepest ramp", "cut": 
 
 
 def verdict(found: AxisStudy) -> list[str]:
-    """Whether the rotor follows, in sentences."""
+    """Sentences on whether the rotor follows."""
     out = [
         f"the least pull-out force is {found.margin:.2f} times what is asked for, at {1000 * found.tightest:.0f} ms"
     ]
@@ -187,6 +187,6 @@ def verdict(found: AxisStudy) -> list[str]:
 
 
 def series(found: AxisStudy) -> tuple[NDArray[np.float64], ...]:
-    """Times, ms, speeds, forces and pull-out forces."""
+    """Times (ms), speeds, required forces and pull-out forces."""
     rows = [(1000 * m.time, m.speed, m.force, m.pull_out) for m in found.moments]
     return tuple(np.array(rows).T)

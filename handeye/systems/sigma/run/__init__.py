@@ -1,1 +1,1 @@
-"""MAL programs as runs: stepped by statements, kept, resumed and taken back in time through all their tasks."""
+"""MAL programs as runs: stepped by statement, saved, resumed, and taken back to earlier states of all tasks."""

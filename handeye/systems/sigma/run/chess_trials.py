@@ -1,4 +1,4 @@
-"""Trials of the chess experiment: boards drawn from seeds, sorted and judged."""
+"""Trials of the chess experiment: boards generated from seeds, sorted and judged."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -25,18 +25,18 @@ _OUTCOMES: Final = {0: "right", 1: "stopped", 3: "silent"}
 
 
 def chess_plan(pieces: int) -> MalPlan:
-    """The plan of a board with this number of pieces."""
+    """The plan for a board with this number of pieces."""
     text = read_source(plans() / PROGRAM).text
     return MalPlan(name=PROGRAM, text=text, arm="gantries", pieces=pieces)
 
 
 def chess_setup(pieces: int, world: WorldSpec) -> Setup:
-    """A run of the chess experiment."""
+    """The setup of a run of the chess experiment."""
     return Setup(system=ENTRY.name, plan=chess_plan(pieces), world=world, camera="auto", judged=True)
 
 
 class ChessRow(TrialRow, frozen=True, kw_only=True):
-    """One board."""
+    """The trial of one board."""
 
     pieces: int = 0
     result: str = ""  # right, silent, or stopped
@@ -88,7 +88,7 @@ class ChessWork:
 
 
 def _more(rows: Sequence[ChessRow]) -> dict[str, object]:
-    """The means of the figures, and the greatest error of each kind."""
+    """Means of the figures, and the greatest error of each kind."""
     ended = [row for row in rows if row.figures]
     names = ended[0].figures if ended else ()
     most: dict[str, float] = {}

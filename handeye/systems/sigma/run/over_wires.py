@@ -1,4 +1,4 @@
-"""A MAL program carried out over the wires, for the bus alone: how busy it and the computer were."""
+"""Runs a MAL program on the simulated bus only, to measure the load of bus and computer."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -17,7 +17,7 @@ _LONGEST: Final = 3_600  # s by the clock of the machine
 
 
 class BusRun(Record, frozen=True, kw_only=True):
-    """What a program has done to the bus."""
+    """Results of a program on the bus."""
 
     completed: bool
     message: str  # why it did not finish; empty: it did
@@ -36,7 +36,7 @@ def over_wires(
     seed: int = 0,
     poll: Callable[[], None] = lambda: None,
 ) -> tuple[BusRun, WiredBus, list[AnyBusEvent]]:
-    """Carry a program out; what came of it, the bus, and its log."""
+    """Run a program; returns the results, the bus, and its log."""
     bus, log = WiredBus(defects=defects, seed=seed), list[AnyBusEvent]()
     bus.tell.append(log.append)
     vm = VirtualMachine(program, bus, poll=poll, statement_us=statement_us)
@@ -65,7 +65,7 @@ def over_wires(
 
 
 def lines(found: BusRun, log: Sequence[AnyBusEvent]) -> list[str]:
-    """A run in sentences."""
+    """The results of a run, in sentences."""
     out = [
         found.message or "all tasks have ended",
         f"{counted(found.commands, 'command')} in {found.seconds:.3f} s: {found.per_second:.2f} a second, "

@@ -1,4 +1,4 @@
-"""The plan of a MAL run: the text of its program, and how the run is made."""
+"""The plan of a MAL run: the text of the program, and settings of the run."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,19 +22,21 @@ LONGEST_STATEMENT_US: Final = 1_000_000
 
 
 class MalPlan(Record, frozen=True, kw_only=True):
-    """A program and the machine that it runs on."""
+    """A program and the machine on which it runs."""
 
     name: str
     text: Annotated[str, msgspec.Meta(max_length=LARGEST)]
     arm: ArmName = "none"
-    """Perfect motors; the firmware of all microcomputers on the wires of the bus; the same, and simulated gantries."""
+    """The machine: `none`, perfect motors; the firmware of all microcomputers on the wires of the bus; or that
+    firmware with simulated gantries.
+    """
     statement_us: Annotated[int, msgspec.Meta(ge=0, le=LONGEST_STATEMENT_US)] = STATEMENT_US
 
     pieces: Annotated[int, msgspec.Meta(ge=0, le=MOST_PIECES)] = 0  # of chess on the board, with gantries
 
     @property
     def task(self) -> TaskName:
-        """The task of its runs."""
+        """Name of the task of the plan's runs."""
         if self.pieces:
             return "chess"
         return "gantries" if self.arm == "gantries" else "mal"
@@ -63,7 +65,7 @@ class MalStep:
 
     @property
     def needs(self) -> Device | None:
-        """The hand, for a line that works one."""
+        """The device that the line uses: `hand` for a line that actuates a hand's device."""
         return (
             "hand"
             if self.word == "ACTUATE" and any(f" {name}" in self.text for name in MAL_DEVICES)
@@ -77,7 +79,7 @@ class MalStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MalListing:
-    """The lines of a program that are executed, in the order of their numbers."""
+    """The executable lines of a program, in the order of their numbers."""
 
     name: str
     source: str
@@ -111,7 +113,7 @@ def encode(plan: MalPlan) -> bytes:
 
 
 def decode(data: bytes, name: str) -> MalPlan:
-    """A plan from bytes; raises BadFile."""
+    """Decode a plan; raises BadFile."""
     try:
         plan = msgspec.json.decode(data, type=MalPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -121,7 +123,7 @@ def decode(data: bytes, name: str) -> MalPlan:
 
 
 def sound(plan: MalPlan) -> None:
-    """Raises BadFile unless a plan's program can be executed."""
+    """Raises BadFile unless the plan's program can be executed."""
     if plan.pieces and plan.arm != "gantries":
         raise BadFile(f"{plan.name} has pieces on its board, but no gantries")
     if not plan.program.lines:

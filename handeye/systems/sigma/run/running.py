@@ -1,4 +1,4 @@
-"""A MAL run under way: a step is one statement of the task whose turn it is."""
+"""A MAL program during a run: a step is one statement of the task whose turn it is."""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -50,7 +50,7 @@ WATCHED: Final = 50  # periods in a second that a trace keeps of the gantries
 
 
 class RunningMal(RunningSystem):
-    """Carries a program out on the machine of its plan."""
+    """Executes a program on the machine of its plan."""
 
     trouble = None
 
@@ -98,7 +98,7 @@ class RunningMal(RunningSystem):
         return () if self._gantries is None else self._gantries.channels
 
     def _watch(self) -> None:
-        """Show what the gantries do, at even times."""
+        """Report the state of the gantries at regular times."""
         assert self._gantries is not None
         if (period := int(self._gantries.bench.now * WATCHED)) > self._watched:
             self._watched = period
@@ -154,7 +154,7 @@ class RunningMal(RunningSystem):
         self._call()
 
     def _stand(self) -> None:
-        """Note where each task stands."""
+        """Record the present place of each task."""
         state, memory, program = self._state, self.vm.memory, self.vm.program
         turn = self.vm.turn
         names = sorted(memory.tasks, key=lambda name: name != turn)
@@ -181,7 +181,7 @@ class RunningMal(RunningSystem):
             self._state.stage = None
 
     def answer(self, choice: Choice) -> None:
-        """Go on: behind the statement at which the program stands, with it once more, or not at all."""
+        """Continue: after the statement at which the program stands, by repeating it, or not at all."""
         state = self._state
         state.stopped, state.onward = None, None
         if choice == "skip":
@@ -202,7 +202,7 @@ class RunningMal(RunningSystem):
         raise refusal(ENTRY.name, "undo")
 
     def type_line(self, text: str, task: str) -> None:
-        """Give the task that waits for it a number."""
+        """Give a number to the task that waits for one."""
         self.vm.type_number(text, task)
         state = self._state
         state.stopped, state.onward = None, None
@@ -300,7 +300,9 @@ class RunningMal(RunningSystem):
 
 
 def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness | None]":
-    """The bus of the simulated machine, what hangs on it, and who hears what the program says of its board."""
+    """The bus of the simulated machine, the gantries, and the witness that records what the program prints about
+    its board.
+    """
     from handeye.systems.sigma.chess.task import board
     from handeye.systems.sigma.chess.witness import Witness
     from handeye.systems.sigma.gantries.machine import Gantries, scene

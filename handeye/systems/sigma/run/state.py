@@ -1,4 +1,4 @@
-"""The state of a MAL run between two statements: the virtual machine's memory, and that of the machine."""
+"""The state of a MAL run between two statements: that of the virtual machine, and that of the machine."""
 
 from msgspec import field
 
@@ -9,13 +9,13 @@ from handeye.systems.sigma.mal.memory import MalMemory
 
 
 class MalState(SystemState, kw_only=True):
-    """Everything but the program."""
+    """The whole state, except the program."""
 
     memory: MalMemory = field(default_factory=MalMemory)
     machine: PerfectMemory | None = None  # of perfect motors
     bus: BusMemory | None = None  # of a bus with wires
     standing: list[TaskPlace] = field(default_factory=list)
-    """The place of each unfinished task, that whose turn it is first."""
+    """The place of each unfinished task; the task whose turn it is comes first."""
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:

@@ -1,4 +1,4 @@
-"""SUPERSIGMA as a system: how its runs are built, and how they are spoken of."""
+"""SUPERSIGMA as a system: builds its runs, and provides the words for them."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -18,7 +18,7 @@ OWN: Final = "handover.mal"  # the program that is run where none is named
 
 
 class SigmaSystem(System):
-    """MAL programs."""
+    """MAL programs, executed on the machine of their plan."""
 
     name = ENTRY.name
     plan = MalPlan

@@ -1,4 +1,4 @@
-"""The task of a MAL program that runs by itself: nothing is drawn, and there is no referee."""
+"""The task of a MAL program on perfect motors: no errors are drawn, and there is no referee."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class MalTask(AnyTask):
-    """Perfect motors have no scene and no referee."""
+    """A task without scene and referee, for perfect motors."""
 
     name = "mal"
     words = Words(product="the program", done="The program has ended.")

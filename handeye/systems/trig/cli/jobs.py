@@ -1,4 +1,4 @@
-"""Commands that teach, run, judge and take back the paper's two examples in drawn worlds, once or many times."""
+"""Commands that teach, run, judge and undo the paper's two examples in worlds with errors, once or many times."""
 
 import shlex
 from collections.abc import Callable, Sequence
@@ -115,7 +115,7 @@ def bucket(
 
 
 def _world(name: "JobName", seed: int, errors: OwnErrorOptions, fault: Faults) -> WorldSpec:
-    """The world of a job; raises InvalidInput if what its table lacks is asked for."""
+    """The world of a job; raises InvalidInput if an option names a quantity or fault that the job's table lacks."""
     return broken(errors.of(name).spec(seed), fault, any_task(name))
 
 
@@ -148,7 +148,7 @@ def _carried_out(
     folder: "RunFolder | None",
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
-    """Teach a job and carry it out; its result is in the folder before the user can interrupt."""
+    """Teach a job and execute it; the result is written to the folder before the user can interrupt."""
     from handeye.results.cautions import losses
     from handeye.results.finishing import finished, outcome
     from handeye.runs.host_seconds import Meter
@@ -183,7 +183,7 @@ def _taught(
     folder: "RunFolder | None",
     observers: "Callable[[Runner], Sequence[Observer]]",
 ) -> "Runner":
-    """The run with its job taught; on failure a new folder is removed."""
+    """Start a run with its job taught; if that fails, a new folder is removed."""
     from handeye.execution.servo import Halted
     from handeye.runs.runner import Runner
 
@@ -199,7 +199,7 @@ def _taught(
 
 
 def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
-    """Write the video; False if it cannot be made, which is reported."""
+    """Write the video; False if that fails, which is reported."""
     try:
         with drawing() as told:
             video.write(job, done.ended_s, told)

@@ -1,4 +1,4 @@
-"""A desk for terminals without a screen: lines in, lines out."""
+"""An interface for terminals without a screen: lines in, lines out."""
 
 import sys
 from collections import deque
@@ -23,7 +23,7 @@ ROWS = 12  # of the partial display
 
 
 class LineDesk(Desk):
-    """A desk of typed lines, the teach box included."""
+    """Reads typed lines, including those for the teach box."""
 
     def __init__(self, panic: PanicButton) -> None:
         self._panic = panic
@@ -31,7 +31,7 @@ class LineDesk(Desk):
         self.words: Callable[[], Iterable[str]] = lambda: COMMANDS
 
     def line(self, prompt: str) -> str | None:
-        """A typed line, or None at the end."""
+        """A typed line, or None at the end of the input."""
         return next(typed_lines(prompt, self._panic.aside, self.words, droppable=prompt == PROMPT), None)
 
     def answer(self, question: str) -> str:
@@ -88,7 +88,7 @@ def _names(session: Session) -> Iterable[str]:
 
 
 def _picture(session: Session) -> str:
-    """Both displays, and the arm's place."""
+    """Both displays, and the place of the arm."""
     symbols, width = symbols_for(sys.stdout.encoding), screen.width
     lines = [*full_display(session.program, width, ROWS, symbols), []]
     lines += partial_display(session.program, width, ROWS, symbols)

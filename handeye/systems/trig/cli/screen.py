@@ -1,7 +1,8 @@
-"""A desk with a screen: live displays, and keys for the teach box.
+"""An interface with a screen: live displays, and keys for the teach box.
 
-The session runs in its own thread, so that the screen reads keys while the arm moves. The displays are drawn by the
-thread that may read the program: the screen's while the session waits, the session's while it works.
+The session runs in a separate thread, so that the screen reads keys while the arm moves. The displays are drawn by
+the thread that may read the program: the screen's thread while the session waits, the session's thread while it
+works.
 """
 
 from collections import deque
@@ -32,7 +33,7 @@ Mode = Literal["line", "box", "busy"]
 
 
 class Screen(Desk):
-    """Shows a session, and reads its input."""
+    """Shows a session on the screen, and reads its input."""
 
     def __init__(
         self,
@@ -43,7 +44,9 @@ class Screen(Desk):
         input: Input | None = None,
         output: Output | None = None,
     ) -> None:
-        """Attach to a session; each step is shown for `pace` (s), and `waits` is called when input is awaited."""
+        """Attach to a session; each step is shown for `pace` (s), and `waits` is called when the session waits for
+        input.
+        """
         self.session, self.question = session, PROMPT
         self.mode: Mode = "busy"  # what input is awaited
         self.step = 3  # index of the teach box step
@@ -132,7 +135,7 @@ class Screen(Desk):
         return size.columns, size.rows
 
     def run(self) -> None:
-        """Show the session until it is over."""
+        """Show the session until it ends."""
         self.app.run(pre_run=Thread(target=self._work, daemon=True).start)
         if self._failed:
             raise self._failed[0]
@@ -148,12 +151,12 @@ class Screen(Desk):
         return False
 
     def put_line(self, line: str | None) -> None:
-        """Pass a line to the session; None at the end."""
+        """Pass a line to the session; None at the end of the input."""
         self.mode = "busy"
         self._lines.put(line)
 
     def put_button(self, button: Button | None) -> None:
-        """Pass a teach box action to the session; None if it was put down."""
+        """Pass an action on the teach box to the session; None if the user put the teach box down."""
         if not isinstance(button, Jog):
             self.mode = "busy"
         self._buttons.put(button)
@@ -168,7 +171,7 @@ class Screen(Desk):
         self.scroll = max(0, min(self.scroll + 8 * by, len(self.page) - 1))
 
     def drop_line(self) -> None:
-        """Cancel the question; at the prompt only the line is dropped."""
+        """Cancel the question; at the prompt, only drop the line."""
         if self.question != PROMPT:
             self.put_line(None)
 

@@ -1,4 +1,4 @@
-"""Windows of the screen, full display, partial display, program editor and arm status, and its keys."""
+"""The windows of the screen (full display, partial display, program editor, arm status), and its keys."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -107,7 +107,7 @@ DRIVE: Final = "Drive the arm to the place, and record it. "
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Picture:
-    """The displays of a program, and its arm's status."""
+    """The displays of a program, and the status of its arm."""
 
     full: list[Line]
     partial: list[Line]
@@ -116,7 +116,7 @@ class Picture:
 
 
 def pictured(session: Session, size: tuple[int, int]) -> Picture:
-    """Draw both displays for a terminal of this many columns and rows."""
+    """Draw both displays for a terminal with this many columns and rows."""
     columns, rows = size
     symbols = symbols_for("utf-8")
     full = full_display(session.program, columns - 2, FULL_ROWS, symbols)
@@ -131,7 +131,7 @@ def pictured(session: Session, size: tuple[int, int]) -> Picture:
 
 
 def editor_rows(rows: int) -> int:
-    """Terminal rows for input and answers."""
+    """Number of terminal rows for input and answers."""
     return max(1, min(EDITOR_ROWS, rows // 4 - 1))
 
 
@@ -190,7 +190,7 @@ def _rule(title: str, beside: str, screen: "Screen") -> StyleAndTextTuples:
 
 
 def _drawn(lines: list[Line]) -> StyleAndTextTuples:
-    """A display, indented by a blank."""
+    """A display, indented by one blank."""
     drawn: StyleAndTextTuples = []
     for line in lines:
         drawn += [("", " "), *((f"class:{style}", text) for style, text in line), ("", "\n")]
@@ -198,7 +198,7 @@ def _drawn(lines: list[Line]) -> StyleAndTextTuples:
 
 
 def _page(screen: "Screen") -> StyleAndTextTuples:
-    """A long answer from its scroll position."""
+    """A long answer from the present scroll position on."""
     return [("", "\n".join(f" {line}" for line in screen.page[screen.scroll :]))]
 
 
@@ -209,7 +209,7 @@ def _help(screen: "Screen") -> str:
 
 
 def _file(session: Session) -> str:
-    """The file name, starred if there are unsaved changes."""
+    """The name of the file, with a star if there are unsaved changes."""
     star = "*" if session.program.changed else ""
     return f"{printable(str(session.file))}{star}" if session.file else "not written" if star else ""
 

@@ -1,4 +1,4 @@
-"""Benches and jobs by name, which load physics when they are opened."""
+"""Finds benches and jobs by name, and loads the physics only when one is opened."""
 
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Literal
@@ -32,18 +32,18 @@ class SeenTable(Tabletop):
 
     @abstractmethod
     def photograph(self, width: int, height: int) -> "Photograph":
-        """A photograph of arm and table; the program never sees it."""
+        """A photograph of arm and table, which the program never sees."""
 
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":
-    """A switched-on TRIG arm and its table, in the world without errors."""
+    """A switched-on TRIG arm and its table, in a world without errors."""
     from handeye.systems.trig.jobs.table import purbrick  # with its physics: only where it is asked for
 
     return {"purbrick": purbrick}[name]()
 
 
 class BlockPose(Record, frozen=True, kw_only=True):
-    """The true pose of a block's middle over the platter."""
+    """The true pose of a block's centre relative to the platter."""
 
     name: str
     at: tuple[float, float, float]  # mm
@@ -51,7 +51,7 @@ class BlockPose(Record, frozen=True, kw_only=True):
 
 
 def new_session(arm: ArmName) -> "Session":
-    """A new TRIG session with an imaginary or simulated arm."""
+    """A new TRIG session with the imaginary or the simulated arm."""
     from handeye.systems.trig.language.command_input import Script
     from handeye.systems.trig.language.no_arm import NoArm
     from handeye.systems.trig.language.session import Session
@@ -67,19 +67,19 @@ Moment = Literal["taught", "turned", "now"]  # just taught, about to be reversed
 
 
 class TaughtPlan(Record, frozen=True, kw_only=True):
-    """A job and its script; each world teaches it with other errors."""
+    """A job with its script; each world teaches the script with other errors."""
 
     job: JobName
     script: str
 
     @property
     def task(self) -> JobName:
-        """Name of the task, which is the job's."""
+        """Name of the task, which is that of the job."""
         return self.job
 
 
 def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
-    """A plan from bytes, its script not yet typed; raises BadFile."""
+    """Decode a plan without typing its script yet; raises BadFile."""
     try:
         plan = msgspec.json.decode(data, type=TaughtPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -90,7 +90,7 @@ def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
 
 
 class TaughtJob(ABC):
-    """A TRIG program that is taught in a drawn world, executed, and judged by a referee."""
+    """A TRIG program that is taught in a world, executed, and judged by a referee."""
 
     task: "AnyTask"
     session: "Session"  # new, without a desk
@@ -100,43 +100,43 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def teach(self, halted: "Halted") -> None:
-        """Type the program with imprecise teaching, and lay the table for a run."""
+        """Type the program with imprecise teaching, and prepare the table for a run."""
 
     @abstractmethod
     def lay(self) -> None:
-        """Lay the table as after teaching, before restoring a state."""
+        """Prepare the table as after teaching, before a state is restored."""
 
     @property
     @abstractmethod
     def bench(self) -> "Bench":
-        """Its bench."""
+        """The bench of the job."""
 
     @property
     @abstractmethod
     def cell(self) -> "SnapshotCell":
-        """The bench as a cell that can be captured, restored and judged."""
+        """The bench as a cell whose state can be captured, restored and judged."""
 
     @abstractmethod
     def lying(self, when: "Moment") -> tuple[BlockPose, ...]:
-        """Block poses at a given moment, in the order in which the blocks are picked up."""
+        """Poses of the blocks at a given moment, in the order in which the arm picks them up."""
 
     @abstractmethod
     def turn(self) -> None:
         """Record the scene for the referee before the reversal."""
 
     def built(self) -> "Findings":
-        """The referee's findings on the work before its reversal; empty if there was none."""
+        """The referee's findings on the work before its reversal; empty if there was no reversal."""
         return {}
 
     @property
     def stack(self) -> int | None:
-        """Size of the stack for a run, if any."""
+        """Number of blocks in the stack of a run; None if there is no stack."""
         return None
 
     @property
     @abstractmethod
     def goals(self) -> tuple[tuple[float, float], ...]:
-        """Goals of the blocks, mm, in the order of taking."""
+        """Goals of the blocks, mm, in the order in which the arm picks them up."""
 
     def remembered(self) -> "Findings":
         """Findings on the program after its reversal; empty by default."""
@@ -151,7 +151,7 @@ def job_script(name: JobName, blocks: int = MOST_BLOCKS) -> str:
 
 
 def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob:
-    """A job in a world, or without errors if None, with nothing typed yet."""
+    """Open a job in a world, or without errors if `world` is None, with nothing typed yet."""
     from handeye.systems.trig.jobs.jobs import BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 

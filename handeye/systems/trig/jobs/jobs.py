@@ -1,4 +1,4 @@
-"""The paper's two examples as jobs: taught line by line in a drawn world, executed, and judged."""
+"""The paper's two examples as jobs: taught line by line in a world, executed, and judged."""
 
 import math
 import re
@@ -83,7 +83,7 @@ class _Job(TaughtJob):
         return turned or stands(self.bench.data, began.blocks)
 
     def _taken(self, poses: dict[str, Pose]) -> list[tuple[str, Pose]]:
-        """Names and poses of blocks in the order of taking."""
+        """Names and poses of the blocks in the order in which the arm picks them up."""
         return list(poses.items())
 
     def turn(self) -> None:

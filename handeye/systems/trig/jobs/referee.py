@@ -1,4 +1,4 @@
-"""The referee of the block bench, which alone sees the true poses of blocks and hand."""
+"""The referee of the block bench, which uses the true poses of blocks and hand."""
 
 from collections.abc import Mapping, Sequence
 from math import acos, degrees
@@ -26,7 +26,9 @@ Poses = Mapping[str, Pose]  # of blocks over the platter, by name
 
 
 def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings:
-    """Check that the uppermost blocks of a stack lie at their places in order, and all others where they were."""
+    """Check that the uppermost blocks of a stack lie at their places in order, and that all others are where they
+    were.
+    """
     taken = list(before)[::-1][: len(places)]
     there = [now[name] for name in taken]
     off = [float(np.hypot(*(X[:2, 3] - place[:2]))) for X, place in zip(there, places, strict=True)]
@@ -49,7 +51,7 @@ def judge_back(before: Poses, now: Poses) -> Findings:
 
 
 def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pose) -> Findings:
-    """Check that a block lies in a bucket, its middle at `inside`, and another one at `place`; x, y in m."""
+    """Check that one block lies in a bucket, with its centre at `inside`, and another block at `place`; x, y in m."""
     aside = float(np.max(np.abs(X[:2, 3] - inside)))
     return {
         "below_its_rim": at_most(float(X[2, 3]) * _MM, RIM, "mm", "height of the centre of block A"),
@@ -69,7 +71,7 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
 
 
 def judge_hand(truth: Array, place: Array, what: str) -> Finding:
-    """Check that the hand truly is at a place; both of shape (6,), m and rad."""
+    """Check that the true position of the hand is at a place; both of shape (6,), m and rad."""
     off = float(np.linalg.norm(truth[:3] - place[:3]))
     return at_most(off * _MM, HAND, "mm", f"distance of the hand from where the program {what}")
 

@@ -1,4 +1,4 @@
-"""The Purbrick arm for TRIG, with blocks and a bucket on its platter, laid between commands."""
+"""The Purbrick arm for TRIG, with blocks and a bucket on its platter, which are placed between commands."""
 
 import math
 from typing import Final
@@ -86,7 +86,7 @@ class BlockTable(SeenTable):
 
     @property
     def poses(self) -> dict[str, Pose]:
-        """True poses of the blocks' middles over the platter, lower ones first, for a referee."""
+        """True poses of the blocks' centres relative to the platter, lower blocks first, for the referee."""
         return block_poses(self.bench.data, self._names)
 
 
@@ -94,6 +94,6 @@ NOMINAL = BlocksWorld()
 
 
 def purbrick(world: BlocksWorld = NOMINAL) -> tuple[AxesArm, BlockTable]:
-    """A switched-on arm with an open hand above the middle of an empty platter."""
+    """A switched-on arm with an open hand above the centre of an empty platter."""
     table = BlockTable(world)
     return AxesArm(PURBRICK.on_bench(table.bench, world.bending), table.bench, PURBRICK.limits), table

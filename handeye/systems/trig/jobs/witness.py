@@ -1,4 +1,4 @@
-"""The witness: true scenes before a run and before its reversal, for the referee alone."""
+"""The witness: records the true scene before a run and before its reversal, for the referee only."""
 
 from collections.abc import Iterable
 from typing import Final
@@ -20,20 +20,22 @@ _ENTRIES: Final = 12  # of a pose: rotation matrix by rows, position
 
 
 class ObservedScene(Record, frozen=True, kw_only=True):
-    """The true scene at a moment."""
+    """The true scene at one moment."""
 
     blocks: dict[str, tuple[float, ...]]
-    """Poses over the platter by block, lower ones first: three rows of a rotation matrix, and m."""
+    """Poses relative to the platter, by block, lower blocks first: the three rows of a rotation matrix, then the
+    position, m.
+    """
     hand: tuple[float, ...]  # m and rad
 
     @property
     def poses(self) -> dict[str, Pose]:
-        """Poses of the blocks over the platter."""
+        """Poses of the blocks relative to the platter."""
         return {name: pose(np.array(row[:9]).reshape(3, 3), row[9:]) for name, row in self.blocks.items()}
 
     @property
     def sound(self) -> bool:
-        """True if it is well formed and finite."""
+        """True if the record is well formed and finite."""
         rows = [*self.blocks.values()]
         whole = len(self.hand) == len(PURBRICK.axes) and all(len(row) == _ENTRIES for row in rows)
         return whole and all(np.isfinite(row).all() for row in (self.hand, *rows))
@@ -46,7 +48,7 @@ class InitialScene(ObservedScene, frozen=True, kw_only=True):
     turned: ObservedScene | None = None  # scene before the reversal, if recorded
 
     def place(self, name: str) -> Place:
-        """A taught position; raises Refused."""
+        """A taught position; raises Refused if the script does not teach it."""
         found = self.taught.get(name)
         if found is None:
             raise Refused(f"the referee needs the position {name}, which the script does not teach")
@@ -63,7 +65,7 @@ class Witness(Mechanism[InitialScene]):
         self.began = InitialScene(blocks={}, hand=(0.0,) * len(PURBRICK.axes), taught={})
 
     def look(self, data: mujoco.MjData, names: Iterable[str], program: TrigProgram) -> None:
-        """Record the scene with these blocks, and a program's positions."""
+        """Record the scene with these blocks, and the positions of a program."""
         now = stands(data, names)
         taught = {name: position.init for name, position in program.positions.items()}
         self.began = InitialScene(blocks=now.blocks, hand=now.hand, taught=taught)
@@ -92,11 +94,11 @@ def stands(data: mujoco.MjData, names: Iterable[str]) -> ObservedScene:
 
 
 def block_poses(data: mujoco.MjData, names: Iterable[str]) -> dict[str, Pose]:
-    """True poses of blocks' middles over the platter."""
+    """True poses of the blocks' centres relative to the platter."""
     platter = data.body("platter").xpos
     return {name: pose(data.body(name).xmat.reshape(3, 3), data.body(name).xpos - platter) for name in names}
 
 
 def hand(data: mujoco.MjData) -> Array:
-    """True place of the hand over the platter, shape (6,)."""
+    """True place of the hand relative to the platter, shape (6,), m and rad."""
     return np.array([data.joint(spec.name).qpos[0] for spec in PURBRICK.axes])

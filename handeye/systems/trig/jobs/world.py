@@ -1,4 +1,4 @@
-"""Worlds of the block bench: errors of teaching, machine and block poses, drawn from a seed."""
+"""Worlds of the block bench: errors of teaching, machine and block poses, generated from a seed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -87,27 +87,29 @@ _MAX_SIGMAS: Final = 2.0  # larger errors are corrected by people
 
 @dataclass(frozen=True, slots=True)
 class BlocksWorld:
-    """A world, without errors if it has no specification. Each number has a stream of its own, by name."""
+    """A world; without a specification it has no errors. Each number is drawn from a separate stream, by name."""
 
     spec: WorldSpec | None = None
 
     def fault(self, name: str) -> float | None:
-        """Size of a fault, SI; None if the world does not have it."""
+        """Size of a fault, SI; None if the world does not have the fault."""
         faults = () if self.spec is None else self.spec.faults
         return next((fault.value for fault in faults if fault.name == name), None)
 
     def normal(self, name: str, quantity: str) -> float:
-        """A normal number by name, its sigma a quantity of the world, clipped at two sigma."""
+        """A normally distributed number by name; its sigma is a quantity of the world, and it is clipped at two
+        sigma.
+        """
         return 0.0 if self.spec is None else VARIATION.value(quantity, self.spec) * self._drawn(name)
 
     def _drawn(self, name: str) -> float:
-        """A standard normal number by name, clipped."""
+        """A standard normal number by name, clipped at two sigma."""
         assert self.spec is not None
         drawn = float(random_numbers(self.spec.seed, f"blocks.{name}").standard_normal())
         return min(max(drawn, -_MAX_SIGMAS), _MAX_SIGMAS)
 
     def slip(self, number: int) -> float:
-        """Teaching error (m) of an axis drive, by its number from 0."""
+        """Teaching error (m) of one jog of an axis, by the number of the jog from 0."""
         return self.normal(f"taught.{number}", TAUGHT)
 
     @property

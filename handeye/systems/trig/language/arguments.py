@@ -1,4 +1,4 @@
-"""Arguments of a command, read by their kinds."""
+"""Reads the arguments of a command according to their kinds."""
 
 import re
 from collections.abc import Callable
@@ -21,7 +21,7 @@ _VECTOR: Final = re.compile(r"\(\s*(\S+)[\s,]+(\S+)[\s,]+(\S+?)\s*\)")
 
 @dataclass(slots=True, kw_only=True)
 class Arguments:
-    """The arguments of a command; None if omitted. `negate`: the position has a minus; `threshold` in N."""
+    """The arguments of a command; None if omitted. `negate`: the position has a minus sign; `threshold` is in N."""
 
     position: str | None = None
     negate: bool = False
@@ -34,7 +34,9 @@ class Arguments:
 
 
 def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Arguments:
-    """Read arguments of these kinds, of which the first `needs` are required; raises BadArgument, citing `usage`."""
+    """Read arguments of these kinds, of which the first `needs` are required; raises BadArgument with `usage` in
+    the sentence.
+    """
     given = Arguments()
     words = [rest] if takes and takes[0] in ("file", "vector") and rest else rest.split()
     if len(words) < needs:
@@ -50,7 +52,7 @@ def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -
 
 
 def read_branch(word: str) -> int:
-    """A branch of a guarded step, as typed."""
+    """A branch of a guarded step, as typed; raises BadArgument."""
     branch = BRANCHES.get(word.strip().rstrip(".").upper())
     if branch is None:
         raise BadArgument(f"{quoted(word.strip())} is not a branch; type n (normal) or g (guarded)")
@@ -58,7 +60,7 @@ def read_branch(word: str) -> int:
 
 
 def read_threshold(word: str) -> float:
-    """A threshold typed in ounces, N."""
+    """A threshold typed in ounces, converted to N; raises BadArgument."""
     ounces = number(word.strip())
     if ounces < 0:
         raise BadArgument(f"a threshold must be 0 oz or more, not {quoted(word.strip())} is")
@@ -66,7 +68,7 @@ def read_threshold(word: str) -> float:
 
 
 def read_vector(text: str) -> Vector3:
-    """A force vector, three weights in parentheses."""
+    """A force vector, typed as three weights in parentheses; raises BadArgument."""
     found = _VECTOR.fullmatch(text.strip())
     if found is None:
         raise BadArgument(f"{quoted(text.strip())} is not a force vector; write it like (0 0 1)")

@@ -1,4 +1,4 @@
-"""Commands that drive the arm or define positions, and add no step."""
+"""Commands that move the arm or define positions, but add no step to the program."""
 
 from handeye.core.errors import Refused
 from handeye.core.units import OUNCE_FORCE
@@ -21,7 +21,7 @@ def go(session: Session, given: Arguments) -> None:
 
 
 def feel(session: Session, given: Arguments) -> None:
-    """GOGPOS: go to a position until a force stops the arm, and report the end."""
+    """GOGPOS: go to a position until a force stops the arm, and report where it ended."""
     goal = session.runner.goal(_move(session, given))
     threshold, vector = session.threshold(), session.vector()
     arrival = session.arm.feel(goal, vector, threshold, session.desk.halted)
@@ -46,7 +46,7 @@ def open(session: Session, given: Arguments) -> None:
 
 
 def _move(session: Session, given: Arguments) -> Node:
-    """A move outside the program."""
+    """A move that is not part of the program."""
     session.position(given.position, negate=given.negate)
     node = session.program.graph.new("normal")
     node.position, node.negate = given.position, given.negate
@@ -54,12 +54,12 @@ def _move(session: Session, given: Arguments) -> Node:
 
 
 def here(session: Session, given: Arguments) -> None:
-    """HERE and SA: name the arm's present place."""
+    """HERE and SA: store the arm's present place under a name."""
     _define(session, given.position or "", session.arm.here(), relative=False)
 
 
 def here_relative(session: Session, given: Arguments) -> None:
-    """SR: name the offset from the end of the last step to the arm's present place."""
+    """SR: store the offset from the end of the last step to the arm's present place under a name."""
     start = session.program.ended_at
     if start is None:
         raise Refused("no step has moved the arm yet; CALPOS and ENDCAL measure any distance")
@@ -67,12 +67,12 @@ def here_relative(session: Session, given: Arguments) -> None:
 
 
 def begin_way(session: Session, given: Arguments) -> None:
-    """CALPOS: remember the arm's place."""
+    """CALPOS: remember the arm's present place."""
     session.origin = session.arm.here()
 
 
 def end_way(session: Session, given: Arguments) -> None:
-    """ENDCAL: name the offset from there to the arm's present place."""
+    """ENDCAL: store the offset from the place of CALPOS to the arm's present place under a name."""
     if session.origin is None:
         raise Refused("type CALPOS first: it remembers the start")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)
@@ -88,7 +88,7 @@ def _define(session: Session, name: str, place: Place, *, relative: bool) -> Non
 
 
 def _check_redefinition(session: Session, name: str, relative: bool) -> None:
-    """Return if a position may be redefined and the user agrees."""
+    """Return if a position may be redefined and the user agrees; else raise an exception."""
     was = session.position(name).relative
     if relative and any(node.type == "savpos" for node in session.program.users(name)):
         raise Refused(f"a SAVPOS step sets {name}, so {name} stays absolute; D deletes the step")

@@ -1,4 +1,6 @@
-"""A TRIG arm with set-point axes: moves as set-points, guarded ones with the force-sensing finger."""
+"""A TRIG arm on a machine of axes: moves are sequences of set-points, and guarded moves use the force-sensing
+finger.
+"""
 
 from collections.abc import Iterable
 from typing import Final, Literal
@@ -24,12 +26,13 @@ from handeye.systems.trig.language.trig_arm import (
 
 APPROACH: Final = 5e-3  # m of vertical approach when setting down: a slanted path would push over a stack
 DEEPER: Final = 2e-3
-"""m below that place within which there must be support. Places are taught to .3 mm, so an object may have dropped by
-two or three of these, and be grasped that much higher.
+"""Distance below a place, m, within which the arm must find support when it puts an object back. Places are taught
+with an accuracy of .3 mm, so an object may have dropped by two or three times that, and have been grasped that much
+higher.
 """
 AGAIN: Final = 1.5
-"""Allowed force over what a move met, when it is reversed, as for the pump: a hand that presses an object onto
-something feels that force vanish as it rises.
+"""Permitted force during a reversal, as a multiple of the force met in the move itself, as for the pump. A hand
+that presses an object onto a support senses a change of force of that size when it rises.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 
@@ -43,7 +46,7 @@ class ArmMemory(Record, frozen=True, kw_only=True):
 
 
 class AxesArm(TrigArm):
-    """Six axes, X, Y, Z, roll, pitch and yaw, and a hand, on an axes port."""
+    """Six axes, X, Y, Z, roll, pitch and yaw, and a hand, as axes of a machine."""
 
     def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits) -> None:
         self._axes, self._clock, self._limits = axes, clock, limits
@@ -151,7 +154,9 @@ class AxesArm(TrigArm):
         self._wait(self._limits.grasping)
 
     def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
-        """The obstacle in the way: a force over `limit` (N) beyond `tare`, or an axis left behind; `speed` is (n,)."""
+        """The obstacle in the way, if any: a force that exceeds `tare` by more than `limit` (N), or an axis that
+        lags behind; `speed` has shape (n,).
+        """
         found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:
             self._stand()
@@ -163,7 +168,9 @@ class AxesArm(TrigArm):
         self._wait(self._limits.settling)
 
     def _where(self) -> Array:
-        """Sensed axis positions clipped to their travel, which potentiometers may exceed a little."""
+        """Sensed axis positions, clipped to the travel of the axes, because readings may exceed the travel
+        slightly.
+        """
         lower, upper = np.transpose(self.travel)
         return np.clip(self._axes.read().q[:-1], lower, upper)
 
@@ -188,7 +195,7 @@ class AxesArm(TrigArm):
         return True
 
     def _notice(self, before: Array) -> None:
-        """Update the greatest force on the finger, less its value before."""
+        """Update the greatest change of the force on the finger."""
         self._met_force = max(self._met_force, float(np.linalg.norm(self._force() - before)))
 
     def _put(self, q: Array) -> None:
@@ -201,9 +208,10 @@ class AxesArm(TrigArm):
             self._put(self._goal)
 
     def _force(self) -> Array:
-        """Force on the finger, N, along its own axes, which are the arm's while the hand is level.
+        """Force on the finger, N, along the finger's axes, which are parallel to the arm's axes while the hand is
+        level.
 
-        Its gauges measure the force that the finger exerts.
+        The gauges measure the force that the finger exerts; the sign is reversed here.
         """
         channels = self._axes.read().channels
         return -np.array([channels[f"force_{axis}"] for axis in "xyz"])

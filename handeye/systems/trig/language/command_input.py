@@ -1,8 +1,8 @@
-"""Typed lines: executed as commands or refused in a sentence, from a terminal or a script.
+"""Executes typed lines as commands, from a terminal or a script; an invalid line is refused with a sentence.
 
-The lines of a script are those of a terminal: commands, with or without the prompt; after a command the buttons of
-the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to its questions, with or without the question.
-Remarks begin with `;`.
+The lines of a script are those typed at a terminal: commands, with or without the prompt; after a command, the
+buttons of the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the command's questions, with or without the
+question. Remarks begin with `;`.
 """
 
 from collections import deque
@@ -30,7 +30,7 @@ TABLE_HELP: Final = (
 
 
 def hear(session: Session, line: str) -> None:
-    """Execute a line; a wrong or cancelled one leaves the program unchanged."""
+    """Execute a line; an invalid or cancelled line leaves the program unchanged."""
     word, _, rest = stripped(line).partition(" ")
     if not word:
         return
@@ -54,7 +54,7 @@ def stripped(line: str) -> str:
 
 
 def command_of(word: str) -> TrigCommand:
-    """The command of a word, in any case; raises NoSuchName."""
+    """The command for a word, in any case; raises NoSuchName."""
     upper = word.upper()
     command = COMMANDS.get(SYNONYMS.get(upper, upper))
     if command is not None:
@@ -68,7 +68,7 @@ def command_of(word: str) -> TrigCommand:
 
 
 def help(word: str) -> str:
-    """Help on all commands, or on one."""
+    """Help on all commands, or on one command."""
     if word:
         command = command_of(word)
         return f"{command.usage}: {command.help}"
@@ -81,7 +81,7 @@ def help(word: str) -> str:
 
 
 class Script(Desk):
-    """A desk that reads from a text."""
+    """An interface that reads from a text."""
 
     def __init__(
         self,
@@ -90,7 +90,7 @@ class Script(Desk):
         halted: Halted = lambda: False,
         slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
-        """`slip` is the error (m) of a teach box move of X, Y or Z, by the number of such moves before."""
+        """`slip` gives the error (m) of a jog of X, Y or Z, by the number of such jogs before."""
         self._lines, self._halted = enumerate(lines, 1), halted
         self._told, self._slip, self._jogs = tell, slip, 0
         self._pressed = deque[Button]()
@@ -136,7 +136,7 @@ class Script(Desk):
 
 
 class LineRefused(BadFile):
-    """A line of a script cannot be executed."""
+    """Raised if a line of a script cannot be executed."""
 
     def __init__(self, name: str, number: int, why: str) -> None:
         super().__init__(f"{name}, line {number}: {why}")
@@ -144,7 +144,9 @@ class LineRefused(BadFile):
 
 
 def type_script(session: Session, script: Script, name: str) -> int:
-    """Execute the lines of a script until it leaves; returns the number of commands. `name` is for messages."""
+    """Execute the lines of a script until the script leaves the session; returns the number of commands. `name` is
+    the script's name for messages.
+    """
     count = 0
     while not session.over and (line := script.next_line()) is not None:
         try:

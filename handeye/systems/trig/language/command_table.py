@@ -1,4 +1,4 @@
-"""The commands of TRIG: arguments, action and help."""
+"""The commands of TRIG as a table of arguments, action and help."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

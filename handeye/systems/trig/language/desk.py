@@ -1,4 +1,6 @@
-"""The teacher's desk: keyboard, screen, teach box, and the table with objects that a user arranges."""
+"""The interface of a session to its user: keyboard, screen, teach box, and the table on which the user places
+objects.
+"""
 
 import re
 from abc import ABC, abstractmethod
@@ -17,7 +19,7 @@ _NUMBER: Final = re.compile(r"[+-]?(\d{1,9}\.?\d{0,9}|\.\d{1,9})", re.ASCII)
 
 
 class Cancelled(Exception):
-    """The question was cancelled."""
+    """Raised when the user cancels a question."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +36,7 @@ ENDS: Final[dict[str, Button]] = {"RECORD": "record", "SAVE": "record", "KILL": 
 
 
 class Desk(ABC):
-    """The session's interface to the user."""
+    """The interface of a session to its user."""
 
     @abstractmethod
     def answer(self, question: str) -> str:
@@ -50,17 +52,17 @@ class Desk(ABC):
 
     @abstractmethod
     def wrong(self, error: InvalidInput) -> None:
-        """Report an unusable answer or button before the next is awaited; or raise it."""
+        """Report an invalid answer or button before the next one is read; or raise the error."""
 
     def halted(self) -> bool:
-        """True if a key was struck since the last call."""
+        """True if a key was pressed since the last call."""
         return False
 
     def refresh(self) -> None:  # noqa: B027 - a desk without a screen has nothing to do
         """Redraw after a change of program, cursor or arm."""
 
     def ask(self, question: str, read: Callable[[str], Read]) -> Read:
-        """Ask until an answer can be read."""
+        """Ask until the answer is valid."""
         while True:
             try:
                 return read(self.answer(question))
@@ -84,7 +86,7 @@ def yes(word: str) -> bool:
 
 
 def buttons(line: str) -> list[Button]:
-    """Teach box actions as scripts have them: `X -30 Z BY 12 RECORD`, in mm and deg."""
+    """Actions on the teach box, as scripts write them: `X -30 Z BY 12 RECORD`, in mm and deg."""
     found: list[Button] = []
     words = deque(line.upper().split())
     while words:
@@ -140,7 +142,7 @@ class Tabletop(ABC):
 
 
 def arrange(table: Tabletop, line: str) -> str:
-    """Execute a line about the table; returns its content in words. Raises BadArgument."""
+    """Execute a line that describes the table; returns the table's new content in words. Raises BadArgument."""
     words = line.removeprefix(MARK).upper().split()
     match words:
         case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MAX_STACK:

@@ -1,9 +1,10 @@
-"""Both displays of a program, and the layout that they share.
+"""The two displays of a program, and their common layout.
 
-A chain of steps is a column. The normal son of a guarded step stands below it, in its column; the guarded son begins a
-column farther right, a row below. Columns never cross: the chains of later guarded steps are placed first. The full
-display is the program in miniature, a character a step, the active one in brackets, drawn from left to right, as a
-screen is wider than high. The partial display has the steps around the active one, a row each, as detailed as fits.
+A chain of steps is a column. The normal son of a guarded step stands below it, in the same column; the guarded son
+begins a column farther right, one row below. Columns never cross, because the chains of later guarded steps are
+placed first. The full display shows the program in miniature, one character per step, with the active step in
+brackets; it is drawn from left to right, because a screen is wider than high. The partial display shows the steps
+around the active one, one row each, in as much detail as fits.
 """
 
 from dataclasses import dataclass, field
@@ -27,7 +28,7 @@ from handeye.systems.trig.language.styled import UNICODE, Line, Style, Symbols, 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """A placed step, or a link to one placed elsewhere; `branch` is `n` or `g` on a branch's first step."""
+    """A placed step, or a link to a step placed elsewhere; `branch` is `n` or `g` for the first step of a branch."""
 
     row: int
     column: int
@@ -38,7 +39,7 @@ class Cell:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Elbow:
-    """The line from a guarded step to its guarded son's column."""
+    """The line from a guarded step to the column of its guarded son."""
 
     row: int
     start: int
@@ -47,7 +48,9 @@ class Elbow:
 
 @dataclass(slots=True)
 class _Chain:
-    """A chain of steps, with the chains to its right by the row of their guarded step, and their column offsets."""
+    """A chain of steps, with the chains to its right by the row of their guarded step, and the column offsets of
+    those chains.
+    """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)
     hung: dict[int, "_Chain"] = field(default_factory=dict)
@@ -73,7 +76,7 @@ class Layout:
 
 
 def layout(graph: Graph, *, top: bool = False) -> Layout:
-    """Place all steps of a program, and optionally the top; bloops are not drawn."""
+    """Place all steps of a program, and optionally its top; bloops are not drawn."""
     chains = _chains(graph, top=top)
     for chain in reversed(chains):
         _measure(chain)
@@ -81,7 +84,7 @@ def layout(graph: Graph, *, top: bool = False) -> Layout:
 
 
 def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
-    """All chains, each before those attached to it."""
+    """All chains; each precedes the chains attached to it."""
     first = _Chain(items=[(graph[TOP], False, "")] if top else [])
     found, waiting = [], [(first, TOP, NORMAL, "")]
     while waiting:
@@ -103,7 +106,7 @@ def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
 
 
 def _is_link_behind(graph: Graph, id: int) -> bool:
-    """True if bloops lead from a node to a step by a link."""
+    """True if a link leads from a node, through bloops, to a step."""
     while graph[id].type == "bloop":
         if graph[id].links:
             return True
@@ -114,7 +117,7 @@ def _is_link_behind(graph: Graph, id: int) -> bool:
 
 
 def _measure(chain: _Chain) -> None:
-    """Compute the size of a chain with all attached chains; later ones are nearer."""
+    """Compute the size of a chain with all attached chains; later chains are nearer."""
     chain.height = len(chain.items)
     below: list[tuple[int, int]] = []
     for row in sorted(chain.hung, reverse=True):
@@ -186,7 +189,7 @@ def _put_elbow(grid: _Grid, elbow: Elbow, symbols: Symbols) -> None:
 
 
 def _line(grid: _Grid, row: int, left: int, width: int, symbols: Symbols) -> Line:
-    """One line of the picture, with a sign where it continues beyond its ends."""
+    """One line of the display, with a mark where it continues beyond its ends."""
     last = max((x for y, x in grid if y == row), default=-2)
     line = [grid.get((row, x), ("", " ")) for x in range(left, min(last, left + width - 1) + 1)]
     if line and left > -1 and any((row, x) in grid for x in range(left)):
@@ -203,7 +206,7 @@ _STEP_STYLES: Final = {"guarded": "guarded", "normal": "position", "savpos": "po
 
 
 def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols) -> tuple[str, str, Style]:
-    """Name and action of a step, or one text for both, with its style."""
+    """Name and action of a step, or one text for both, with the style."""
     node = cell.node
     if cell.link:
         return f"[{_cut(node.name or UNNAMED, symbols)}]", "", "link"
@@ -216,7 +219,7 @@ def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols)
 
 
 def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
-    """A loop as typed: target step and count."""
+    """A loop as it is typed: target step and count."""
     target = graph.target(node)
     name = UNNAMED if target is None else target.name or UNNAMED
     return f"LOOP {_cut(name, symbols)} {node.wanted}"
@@ -244,7 +247,7 @@ _MARKER: Final = 3  # characters before a name: cursor and branch
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Pane:
-    """The part of a program that is shown; widths in characters, cells by row and column, elbows by row."""
+    """The visible part of a program: widths in characters, cells by row and column, elbows by row."""
 
     program: TrigProgram
     symbols: Symbols
@@ -255,7 +258,7 @@ class _Pane:
 
 
 def partial_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
-    """Draw as many steps as fit, the active one among them with one above it."""
+    """Draw as many steps as fit, including the active step and one step above it."""
     if program.first == NONE:
         return [[("active", symbols.cursor)]]
     drawn = layout(program.graph, top=program.cursor == TOP)
@@ -269,7 +272,7 @@ def partial_display(program: TrigProgram, width: int, height: int, symbols: Symb
 
 
 def _scrolled(active: int, count: int, room: int, above: int) -> int:
-    """The first row shown, so that the active one is visible, with some above it."""
+    """The first visible row, chosen so that the active row is visible with some rows above it."""
     return max(0, min(active - above, count - room))
 
 

@@ -1,8 +1,9 @@
-"""The graph of a program's steps, each with one or two sons and any number of fathers; its loops and deletions.
+"""The graph of a program's steps, each with one or two sons and any number of fathers; loops and deletions.
 
-Of the edges to a step one is its own, by which it is drawn; the others are links. The own edges form a tree from the
-top that contains every step. A loop has a partner (bloop) above its target step, so that it can be reversed too. Where
-several loops return to one step, the nearest loop below it owns the nearest bloop above it, whichever was made first.
+Of the edges to a step, one is the step's own edge, by which the step is drawn; all others are links. The own edges
+form a tree from the top that contains every step. A loop has a partner (bloop) above its target step, so that the
+loop can also be reversed. If several loops return to one step, the nearest loop below the step owns the nearest
+bloop above it, whichever loop was made first.
 """
 
 from collections import deque
@@ -25,7 +26,7 @@ TOP_NAME: Final = "**TOP**"
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Node:
-    """One step. Its edges are changed by the graph only."""
+    """One step. Only the graph changes its edges."""
 
     id: int
     type: NodeType
@@ -46,7 +47,7 @@ class Node:
 
     @property
     def shown(self) -> bool:
-        """True if it is visible: neither a bloop nor an end."""
+        """True if the step is visible: neither a bloop nor an end."""
         return self.type not in ("top", "none", "bloop")
 
     @property
@@ -55,7 +56,7 @@ class Node:
 
     @property
     def recent_father(self) -> int:
-        """The last active father, else the newest one."""
+        """The father that was active last, else the newest father."""
         if self.last_father in self.fathers:
             return self.last_father
         return self.fathers[-1] if self.fathers else NONE
@@ -77,7 +78,7 @@ class Graph:
     # -- looking ---------------------------------------------------------------------------------------
 
     def order(self) -> list[int]:
-        """All nodes in drawing order: each before its own sons, the normal son before the guarded one."""
+        """All nodes in drawing order: each node precedes its own sons, the normal son before the guarded one."""
         found, waiting = [], [TOP]
         while waiting:
             id = waiting.pop()
@@ -95,11 +96,11 @@ class Graph:
         return next((node for node in self.nodes.values() if node.name == name), None)
 
     def edges_into(self, id: int) -> list[tuple[int, int]]:
-        """Fathers of a node with the branches that lead to it."""
+        """Fathers of a node, with the branches that lead to the node."""
         return [(f, branch) for f in self[id].fathers for branch, son in enumerate(self[f].sons) if son == id]
 
     def distances(self, start: int) -> dict[int, int]:
-        """Nodes reachable downwards from one, with their distance in edges."""
+        """Nodes that can be reached downwards from a node, with their distances in edges."""
         found, waiting = {start: 0}, deque([start])
         while waiting:
             id = waiting.popleft()
@@ -110,19 +111,19 @@ class Graph:
         return found
 
     def step_at(self, id: int) -> int:
-        """The first step downwards from a node that is no bloop, or NONE."""
+        """The first step, at a node or below, that is no bloop; NONE if there is none."""
         while id != NONE and self[id].type == "bloop":
             id = self[id].sons[0]
         return id
 
     def entry(self, id: int) -> int:
-        """The node by which a step is entered: the uppermost bloop above it, or itself."""
+        """The node by which a step is entered: the uppermost bloop above it, or the step itself."""
         while len(self[id].fathers) == 1 and self[self[id].fathers[0]].type == "bloop":
             id = self[id].fathers[0]
         return id
 
     def target(self, loop: Node) -> Node | None:
-        """The step that a loop returns to."""
+        """The step to which a loop returns."""
         id = self.step_at(loop.partner)
         return None if id == NONE else self[id]
 
@@ -142,7 +143,7 @@ class Graph:
         return Node(id=self._next - 1, type=type, sons=[NONE, NONE] if type == "guarded" else [NONE])
 
     def attach(self, father: int, branch: int, son: int, *, link: bool = False) -> None:
-        """Make a node the son of another on a branch, replacing its present son there."""
+        """Make a node the son of another on a branch, in place of the present son there."""
         node = self[father]
         before, node.sons[branch] = node.sons[branch], son
         node.links.discard(branch)
@@ -157,28 +158,32 @@ class Graph:
         self[son].last_father = father
 
     def insert(self, after: int, branch: int, node: Node) -> None:
-        """Insert a node below another; the previous son becomes its own, the normal one if it is guarded."""
+        """Insert a node below another; the previous son becomes the son of the new node, on the normal branch if
+        the new node is guarded.
+        """
         self.nodes[node.id] = node
         son = self[after].sons[branch]
         self.attach(after, branch, node.id)
         self.attach(node.id, 0, son)
 
     def insert_above(self, below: int, node: Node) -> None:
-        """Insert a node between another and all its fathers, links included."""
+        """Insert a node between another node and all its fathers, including links."""
         self.nodes[node.id] = node
         for father, branch in self.edges_into(below):
             self.attach(father, branch, node.id, link=branch in self[father].links)
         self.attach(node.id, 0, below)
 
     def drop(self, id: int) -> None:
-        """Remove a node that is no longer a son."""
+        """Remove a node that is no longer a son of any node."""
         for branch in range(len(self[id].sons)):
             self.attach(id, branch, NONE)
         del self.nodes[id]
 
 
 def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int) -> Node:
-    """Insert a loop below a node, and its bloop above its target; raises Refused if that is not above."""
+    """Insert a loop below a node, and its bloop above the target; raises Refused if the target is not above the
+    node.
+    """
     if after not in graph.distances(target):
         raise Refused(
             f"{graph[target].name} is not above the active step, and a loop must go back; use `L` to link to it"
@@ -191,7 +196,7 @@ def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int)
 
 
 def _innermost(graph: Graph, target: int, loop: Node) -> int:
-    """The node above which a loop's bloop belongs: a bloop of a nearer loop, or the target."""
+    """The node above which the bloop of a loop is inserted: a bloop of a nearer loop, or the target."""
     below = graph.distances(target)
     place, bloops = target, _bloops_above(graph, target)
     for bloop in bloops:
@@ -210,13 +215,13 @@ def _bloops_above(graph: Graph, target: int) -> list[int]:
 
 
 def delete_step(graph: Graph, id: int, keep: int = NORMAL) -> None:
-    """Delete one step: fathers adopt the son on branch `keep`; what hangs on the other branch goes too."""
+    """Delete one step: its fathers adopt the son on branch `keep`; the steps on the other branch are deleted too."""
     _take_out(graph, id, keep)
     prune(graph)
 
 
 def delete_below(graph: Graph, id: int) -> None:
-    """Delete a step, and every node reachable only through it."""
+    """Delete a step, and all nodes that can be reached only through it."""
     for father, branch in graph.edges_into(id):
         graph.attach(father, branch, NONE)
     graph.drop(id)
@@ -224,7 +229,7 @@ def delete_below(graph: Graph, id: int) -> None:
 
 
 def prune(graph: Graph) -> None:
-    """Drop unreachable nodes and loops cut from their bloops, then restore the tree."""
+    """Remove unreachable nodes, and loops that are separated from their bloops; then restore the tree."""
     while True:
         reached = graph.distances(TOP)
         for lost in [id for id in graph.nodes if id not in reached]:
@@ -255,7 +260,7 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one edge that is no link: its old one where that is still connected to the top."""
+    """Give every node exactly one edge that is not a link: its old one if that is still connected to the top."""
     placed = {TOP}
     _follow(graph, TOP, placed)
     while len(placed) < len(graph.nodes):
@@ -272,7 +277,7 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """Place nodes below a node along own edges; an edge to a placed node becomes a link."""
+    """Place the nodes below a node along own edges; an edge to a node that is already placed becomes a link."""
     waiting = [start]
     while waiting:
         node = graph[waiting.pop()]

@@ -1,7 +1,8 @@
-"""An imaginary arm: it reaches every place at once and exactly.
+"""An imaginary arm, which reaches every place at once and exactly.
 
-It may have blocks, to try a program without an arm. They know no gravity, and no force except on top of a block: a
-guarded move whose vector responds to upward force stops there. All other moves pass through them.
+It may have blocks, to try out a program without an arm. The blocks are not subject to gravity and exert no force,
+except on top: a guarded move whose vector responds to upward force stops there. All other moves pass through
+blocks.
 """
 
 import math
@@ -14,7 +15,7 @@ from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.trig_arm import Arrival, Halted, TrigArm
 
 TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), math.radians(170)),))
-"""m and rad: the Purbrick arm's, which the paper does not give."""
+"""Travel of the axes, m and rad: that of the Purbrick arm, which the paper does not give."""
 BLOCK: Final = 0.030  # m, along and across
 OPEN: Final = 0.048  # m between the fingers
 HEIGHT: Final = 0.012  # m, of a block
@@ -24,7 +25,7 @@ _TOUCH: Final = 1.01  # force of a trip over its threshold
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Block:
-    """A block, by the middle of its upper face (m)."""
+    """A block, given by the centre of its upper face (m)."""
 
     name: str
     x: float
@@ -32,16 +33,16 @@ class Block:
     z: float
 
     def under(self, place: Place) -> bool:
-        """True if it is under a place, or around it."""
+        """True if the block is below a place, or around it."""
         return max(abs(place.x - self.x), abs(place.y - self.y)) <= BLOCK / 2
 
     def between(self, place: Place) -> bool:
-        """True if a hand closing there grasps it."""
+        """True if a hand that closes at a place grasps the block."""
         return self.under(place) and self.z - HEIGHT < place.z < self.z
 
 
 class NoArm(TrigArm, Tabletop):
-    """Imaginary arm, hand and blocks."""
+    """The imaginary arm with its hand and blocks."""
 
     def __init__(self) -> None:
         self.blocks: list[Block] = []
@@ -102,7 +103,7 @@ class NoArm(TrigArm, Tabletop):
         return len(self.blocks)
 
     def bucket(self, x: float, y: float) -> None:
-        """Ignored: nothing falls."""
+        """Do nothing, because nothing falls."""
 
     def stack(self, count: int, x: float, y: float) -> None:
         there = len(self.blocks)
@@ -114,7 +115,7 @@ class NoArm(TrigArm, Tabletop):
         self.blocks, self.held = [], None
 
     def _met(self, goal: Place) -> float | None:
-        """Height of the first block met on the way down to a goal."""
+        """Height of the first block on the way down to a goal, m; None if there is none."""
         tops = [block.z for block in self.blocks if block.under(goal) and block is not self.held]
         return max((z for z in tops if goal.z < z <= self._at.z + _SAME), default=None)
 

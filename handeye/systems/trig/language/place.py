@@ -1,4 +1,6 @@
-"""Places of the hand as six components along and about the arm's axes, and positions: places that programs name."""
+"""Places of the hand, as six components along and about the arm's axes, and positions, which are places named by
+programs.
+"""
 
 import math
 import re
@@ -19,7 +21,7 @@ Measures = tuple[float, float, float, float, float, float]  # mm and deg, as sho
 
 
 class Place(NamedTuple):
-    """A place of the hand, or a difference of two, m and rad; angles within half a turn of 0."""
+    """A place of the hand, or a difference of two places, m and rad; angles are within half a turn of 0."""
 
     x: float = 0.0
     y: float = 0.0
@@ -29,11 +31,11 @@ class Place(NamedTuple):
     yaw: float = 0.0
 
     def moved(self, offset: "Place") -> Self:
-        """The place at an offset, component by component."""
+        """The place at an offset from this one, component by component."""
         return self._made(a + b for a, b in zip(self, offset, strict=True))
 
     def seen_from(self, origin: "Place") -> Self:
-        """The offset from another place to this one."""
+        """The offset from `origin` to this place."""
         return self._made(a - b for a, b in zip(self, origin, strict=True))
 
     def turned_back(self) -> Self:
@@ -62,7 +64,7 @@ class Place(NamedTuple):
 
 
 def told_place(place: Place) -> str:
-    """A place in words; angles only where not 0."""
+    """A place in words; angles only if they are not 0."""
     told = [f"{axis} {value:.4g}" for axis, value in zip(AXES, place.measures(), strict=True)]
     return " ".join(told[:3] + [word for word, angle in zip(told[3:], place[3:], strict=True) if angle])
 
@@ -74,7 +76,7 @@ _UNNAMED: Final = "_"  # prefix of positions without a name
 
 @dataclass(slots=True, kw_only=True)
 class Position:
-    """An absolute place, or a relative offset from wherever the arm is."""
+    """An absolute place, or an offset from wherever the arm is."""
 
     relative: bool
     init: Place  # as defined; a run from the top starts with it
@@ -86,7 +88,7 @@ Positions = dict[str, Position]  # by name; those of single steps by names that 
 
 
 def name_of(word: str) -> str:
-    """A name in capitals; raises BadArgument."""
+    """A name in capitals; raises BadArgument if it is not possible."""
     if len(word) > LONGEST:
         raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name has {LONGEST} at most")
     if not NAME.fullmatch(word.upper()) or not word.isascii():
@@ -95,11 +97,11 @@ def name_of(word: str) -> str:
 
 
 def is_named(name: str) -> bool:
-    """True if the name was given by a user."""
+    """True if the name was given by the user."""
     return not name.startswith(_UNNAMED)
 
 
 def free_name(positions: Positions) -> str:
-    """A name for an unnamed position."""
+    """A new name for an unnamed position."""
     number = 1 + max((int(name[1:]) for name in positions if not is_named(name)), default=0)
     return f"{_UNNAMED}{number}"

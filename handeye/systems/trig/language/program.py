@@ -1,4 +1,4 @@
-"""A TRIG program with its cursor and the history of executed steps."""
+"""A TRIG program, with its cursor and the history of executed steps."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ NOWHERE: Final = Place()
 
 
 class RecordedStep(NamedTuple):
-    """The state before a step, for its reversal."""
+    """The state before an executed step, for its reversal."""
 
     node: int
     place: Place  # of the arm
@@ -28,7 +28,7 @@ class RecordedStep(NamedTuple):
 
 
 class HaltedMove(NamedTuple):
-    """A move halted on its way."""
+    """A move that was halted on its way."""
 
     done: RecordedStep
     goal: Place
@@ -36,7 +36,7 @@ class HaltedMove(NamedTuple):
 
 @dataclass(slots=True)
 class TrigProgram:
-    """Everything a session works on except the arm."""
+    """Everything that a session works on, except the arm."""
 
     graph: Graph = field(default_factory=Graph)
     positions: Positions = field(default_factory=dict)
@@ -66,7 +66,7 @@ class TrigProgram:
         self.cursor = id
 
     def edited(self, above: int) -> None:
-        """Note a change; a cursor on a removed step moves to `above`, the step above it before."""
+        """Record a change; if the cursor's step was removed, the cursor moves to `above`, the step above it."""
         self.changed = True
         if self.cursor not in self.graph:
             self.put_cursor(above if above in self.graph else TOP)
@@ -80,7 +80,7 @@ class TrigProgram:
         return [done.place for done in self.trail if done.node == id]
 
     def above(self, id: int) -> int:
-        """The step above a node by the most recent fathers, else the top."""
+        """The step above a node, along the most recent fathers; else the top."""
         id = self.graph[id].recent_father
         while id not in (TOP, NONE) and not self.graph[id].shown:
             id = self.graph[id].recent_father
@@ -96,7 +96,7 @@ class TrigProgram:
         self.forgotten, self.taken, self.cut, self.paused = False, None, None, NONE
 
     def relative_by_default(self) -> bool:
-        """The default kind of a new move: that of the nearest move above, the active step included."""
+        """True if a new move is relative by default: as the nearest move above, including the active step."""
         id, seen = self.cursor, {TOP}
         while id not in seen:
             seen.add(id)

@@ -17,7 +17,7 @@ _MAX_DISTANCE = 100_000  # steps of the cursor
 
 
 def next_step(session: Session, given: Arguments) -> None:
-    """N: go down a number of steps, past loops."""
+    """N: go down by a number of steps, beyond loops."""
     program = session.program
     for _ in range(_distance(given)):
         branch = session.branch(None)
@@ -29,7 +29,7 @@ def next_step(session: Session, given: Arguments) -> None:
 
 
 def _come_down(session: Session, son: int, branch: int) -> None:
-    """Move the cursor along an edge, making every father on it the most recent one."""
+    """Move the cursor along an edge, and make every father on the way the most recent one."""
     graph, father = session.program.graph, session.program.cursor
     node = graph[father].sons[branch]
     while True:
@@ -41,7 +41,7 @@ def _come_down(session: Session, son: int, branch: int) -> None:
 
 
 def previous_step(session: Session, given: Arguments) -> None:
-    """P: go up a number of steps, by the most recent fathers."""
+    """P: go up by a number of steps, along the most recent fathers."""
     program = session.program
     for _ in range(_distance(given)):
         above = program.above(program.cursor)
@@ -57,7 +57,7 @@ def goto(session: Session, given: Arguments) -> None:
 
 
 def run(session: Session, given: Arguments) -> None:
-    """RUN: the whole program, or a number of steps, forwards or backwards."""
+    """RUN: execute the whole program, or a number of steps, forwards or backwards."""
     if given.count == 0:
         raise BadArgument(
             "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last one"
@@ -72,7 +72,7 @@ def run(session: Session, given: Arguments) -> None:
 
 
 def told_run(ran: RunResult, *, back: bool = False) -> str:
-    """The end of a run in words."""
+    """The end of a run, in words."""
     steps = f"{counted(ran.steps, 'step')} {'undone' if back else 'done'}"
     if ran.obstacle is not None:
         return f"{steps}; the arm has stopped at the step before that: {told_obstacle(ran.obstacle)}"
@@ -96,7 +96,7 @@ def _distance(given: Arguments) -> int:
 
 
 def write(session: Session, given: Arguments) -> None:
-    """W: write the program to a file; by default to the last one."""
+    """W: write the program to a file; by default to the last file."""
     _check_files(session)
     file = session.file if given.file is None else trig_file(Path(given.file))
     if file is None:
@@ -110,7 +110,7 @@ def write(session: Session, given: Arguments) -> None:
 
 
 def read(session: Session, given: Arguments) -> None:
-    """R: replace the present program by one from a file."""
+    """R: replace the program by one from a file."""
     _check_files(session)
     file = trig_file(Path(given.file or ""))
     program = read_program(file)

@@ -1,9 +1,9 @@
 """Runs the steps of a program, forwards and backwards.
 
-A run follows the sons; a loop goes back to its bloop. A reversal follows the trail: last step first, whatever was
-edited or wherever the cursor was since. A move returns to its start, the hand to its state, positions and counts to
-their old values. Where a hold begins or ends, the fingers must have the gap they had; what was taken up needs a support
-again; and what a guarded step met must still be there.
+A run follows the sons of each step; a loop returns to its bloop. A reversal follows the trail, the last step first,
+regardless of later edits and of the cursor. A move returns to its start, the hand to its earlier state, positions
+and counts to their old values. Where a hold begins or ends, the fingers must have the gap that they had; an object
+that was taken up must find support again; and an object that a guarded step met must still be there.
 """
 
 import math
@@ -24,7 +24,7 @@ _MIN_MOTION: Final = 1e-6  # m that give a step a direction
 
 
 def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Reverse the last step, which stays on the trail; returns what stopped it, or None."""
+    """Reverse the last step, which stays on the trail; returns the reason if the reversal was stopped, else None."""
     done = program.trail[-1]
     node = program.graph[done.node]
     match node.type:
@@ -42,7 +42,7 @@ def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None
 
 
 def _way_back(program: TrigProgram, done: RecordedStep, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Return to the start of a move; set down there what was taken up there."""
+    """Return to the start of a move, and set down there an object that was taken up there."""
     if _took_up(program) and at_least(arm.gap, least_gap(0.0)):
         return arm.set_down(done.place, halted, done.met)
     return arm.back(done.place, halted, done.met)
@@ -60,9 +60,10 @@ def _took_up(program: TrigProgram) -> bool:
 
 
 def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Check that what a guarded step met is still there, before leaving it, unless it was driven away.
+    """Check that the object met by a guarded step is still there before the arm leaves it, unless the step drove
+    the object away.
 
-    If nothing is met, the arm returns to the place of contact, so that the user can put the object back.
+    If the arm meets nothing, it returns to the place of contact, so that the user can put the object back.
     """
     if done.touched is None or node.vector is None or node.threshold is None:
         return None
@@ -79,7 +80,7 @@ def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -
 
 
 def _hand_back(done: RecordedStep, arm: TrigArm) -> HoldOff | None:
-    """Restore the hand; the gap must match at the start or end of a hold."""
+    """Restore the hand; the gap must match that at the start or end of a hold."""
     before, after = done.gaps
     off = _off_hold(after, arm)
     if off is None:
@@ -95,17 +96,19 @@ def _off_hold(kept: float, arm: TrigArm) -> HoldOff | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunResult:
-    """The end of a run."""
+    """The end of a run: number of steps, and reason."""
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]
-    """Count reached, program ended, halted by a key, nothing left, history dropped, step deleted, or an obstacle."""
+    """The reason for the end: number of steps reached, end of the program, halt by a key, nothing left to undo,
+    history dropped, step deleted, or an obstacle.
+    """
     obstacle: Obstacle | None = None  # met while reversing the active step
 
 
 @dataclass(slots=True, kw_only=True)
 class Interpreter:
-    """Runs a program with an arm."""
+    """Executes a program with an arm."""
 
     program: TrigProgram
     arm: TrigArm
@@ -119,7 +122,7 @@ class Interpreter:
         return self._from_top(None)
 
     def forward(self, wanted: int) -> RunResult:
-        """Run a number of steps from the active one."""
+        """Execute a number of steps from the active one on."""
         program = self.program
         halted_here = program.paused == program.cursor or self._is_cut(program.active)
         if program.cursor in (TOP, program.first) and not halted_here:
@@ -142,7 +145,7 @@ class Interpreter:
         return RunResult(steps=steps, end="none" if id == NONE else "count")
 
     def carry_out(self, id: int, came: int) -> int | None:
-        """Execute one node, moving the cursor to a step; arguments and result as for `execute`."""
+        """Execute one node, and move the cursor if it is a step; arguments and result as for `execute`."""
         node = self.program.graph[id]
         if came in node.fathers:
             node.last_father = came
@@ -162,7 +165,7 @@ class Interpreter:
         return not self.halted()
 
     def execute(self, node: Node, came: int) -> int | None:
-        """Execute one node after the node `came`; returns the next node, or None if the arm was halted."""
+        """Execute one node, after the node `came`; returns the next node, or None if the arm was halted."""
         match node.type:
             case "normal" | "guarded":
                 return self._move(node)
@@ -205,7 +208,7 @@ class Interpreter:
         return node.sons[branch]
 
     def _arrive(self, node: Node, goal: Place) -> int | None:
-        """The branch taken after a move; None if it was halted."""
+        """The branch to take after a move; None if the move was halted."""
         if node.threshold is None or node.vector is None:
             return NORMAL if self.arm.go(goal, self.halted) else None
         arrival = self.arm.feel(goal, node.vector, node.threshold, self.halted)
@@ -222,7 +225,7 @@ class Interpreter:
         return self.arm.here().moved(position.data.turned_back() if node.negate else position.data)
 
     def _is_cut(self, node: Node) -> bool:
-        """True if a step was halted on its way, and nothing was done since."""
+        """True if the step was halted on its way, and nothing was done since then."""
         cut, trail = self.program.cut, self.program.trail
         return cut is not None and cut.done.node == node.id and bool(trail) and trail[-1] is cut.done
 
@@ -237,7 +240,7 @@ class Interpreter:
     # -- backwards -------------------------------------------------------------------------------------
 
     def back(self, wanted: int) -> RunResult:
-        """Reverse a number of steps, last first; the cursor ends on the step before them."""
+        """Reverse a number of steps, the last first; the cursor ends on the step before them."""
         steps, program = 0, self.program
         while steps < wanted:
             if not program.trail:
@@ -258,7 +261,7 @@ class Interpreter:
         return RunResult(steps=steps, end="count")
 
     def _come_from(self) -> None:
-        """Move the cursor to the last executed step, if any."""
+        """Move the cursor to the last executed step, if there is one."""
         program = self.program
         steps = (done.node for done in reversed(program.trail) if done.node in program.graph)
         last = next((id for id in steps if program.graph[id].shown), program.first)

@@ -16,7 +16,7 @@ from handeye.systems.trig.language.trig_arm import TrigArm
 
 
 class KillSwitchHit(Refused):
-    """The teach box's kill switch was hit."""
+    """Raised when the user presses the kill switch of the teach box."""
 
     def __init__(self) -> None:
         super().__init__("the kill switch has stopped the arm; nothing was recorded")
@@ -44,7 +44,9 @@ class Session:
     # -- finding ---------------------------------------------------------------------------------------
 
     def position(self, name: str | None, *, negate: bool = False) -> Position:
-        """A defined position; raises NoSuchName, or Refused for the opposite of an absolute one."""
+        """A defined position; raises NoSuchName if it is not defined, and Refused for the opposite of an absolute
+        position.
+        """
         found = self.program.positions.get(name or "")
         if found is None:
             known = suggestion(name or "", filter(is_named, self.program.positions))
@@ -54,7 +56,7 @@ class Session:
         return found
 
     def step(self, name: str) -> Node:
-        """The step of a name, or the top; raises NoSuchName."""
+        """The step with a name, or the top; raises NoSuchName."""
         graph = self.program.graph
         found = graph[TOP] if name == TOP_NAME else graph.named(name)
         if found is None:
@@ -65,12 +67,12 @@ class Session:
     # -- asking ----------------------------------------------------------------------------------------
 
     def confirmed(self, question: str) -> None:
-        """Return if the user says yes; else raise Cancelled."""
+        """Ask a question; return if the user says yes, else raise Cancelled."""
         if not self.desk.ask(question, yes):
             raise Cancelled
 
     def threshold(self) -> float:
-        """Ask for a threshold, N."""
+        """Ask for a threshold; returns it in N."""
         return self.desk.ask("Threshold (oz)? ", read_threshold)
 
     def vector(self) -> Vector3:
@@ -78,7 +80,7 @@ class Session:
         return self.desk.ask("Force vector (x y z)? ", read_vector)
 
     def branch(self, given: int | None, node: Node | None = None) -> int:
-        """The branch of the active or another step that a command concerns."""
+        """The branch, of the active step or another one, that a command concerns."""
         node = self.program.active if node is None else node
         if node.type != "guarded":
             if given is not None:
@@ -91,7 +93,9 @@ class Session:
         return self.desk.ask("Normal or guarded? ", read_branch)
 
     def open_branch(self, given: int | None) -> int:
-        """The branch of the active step for a new step; raises Refused if it is a link."""
+        """The branch of the active step below which a new step is inserted; raises Refused if a link leaves the
+        branch.
+        """
         branch = self.branch(given)
         active = self.program.active
         if branch in active.links:
@@ -106,7 +110,7 @@ class Session:
         return branch
 
     def taught(self) -> Place:
-        """The arm's place after moving it with the teach box until record is pressed; raises KillSwitchHit."""
+        """The arm's place after the user has moved it with the teach box and pressed record; raises KillSwitchHit."""
         while True:
             button = self.desk.press()
             if button == "record":

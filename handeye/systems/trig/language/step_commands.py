@@ -1,4 +1,6 @@
-"""Commands that add a step below the active one, where moves and hand act at once, and that change or delete steps."""
+"""Commands that add a step below the active one (moves and hand steps are executed at once), and commands that
+change or delete steps.
+"""
 
 from collections.abc import Callable
 from typing import Literal
@@ -14,7 +16,7 @@ Acted = Callable[[Session, Arguments], None]
 
 
 def move(kind: Literal["absolute", "relative"] | None, *, guarded: bool = False) -> Acted:
-    """M, MA, MR, MG, MAG and MRG: move to a position, teaching it if it is not defined."""
+    """M, MA, MR, MG, MAG and MRG: move to a position; the user teaches the position if it is not defined."""
 
     def act(session: Session, given: Arguments) -> None:
         branch = session.open_branch(given.branch)
@@ -97,7 +99,7 @@ def check_no_opposite(session: Session, name: str) -> None:
 
 
 def loop(session: Session, given: Arguments) -> None:
-    """LOOP: go back to a step a number of times before continuing."""
+    """LOOP: return to a step a number of times before continuing."""
     target, wanted = session.step(given.step or ""), given.count or 0
     if target.id == TOP:
         raise Refused(f"a loop goes back to a step; {target_hint(session)}")
@@ -111,7 +113,7 @@ def loop(session: Session, given: Arguments) -> None:
 
 
 def target_hint(session: Session) -> str:
-    """A hint on naming the first step."""
+    """A hint on how to name the first step."""
     first = session.program.first
     if first == NONE:
         return "the program is empty"
@@ -184,7 +186,7 @@ def change_vector(session: Session, given: Arguments) -> None:
 
 
 def delete(session: Session, given: Arguments) -> None:
-    """D: delete one step; of a guarded one, keep branch n or g."""
+    """D: delete one step; of a guarded step, keep branch n or g."""
     program, node = session.program, _named_or_active(session, given)
     keep = _kept_branch(session, given, node)
     above = program.above(node.id)
@@ -193,7 +195,7 @@ def delete(session: Session, given: Arguments) -> None:
 
 
 def delete_all(session: Session, given: Arguments) -> None:
-    """DA: delete a step and everything reachable only through it."""
+    """DA: delete a step and all steps that can be reached only through it."""
     program, node = session.program, _named_or_active(session, given)
     above = program.above(node.id)
     delete_below(program.graph, node.id)
@@ -201,7 +203,7 @@ def delete_all(session: Session, given: Arguments) -> None:
 
 
 def unlink(session: Session, given: Arguments) -> None:
-    """DLINK: remove the edge from the active step to a step that others lead to as well."""
+    """DLINK: remove the edge from the active step to a step that has other fathers as well."""
     program, target = session.program, session.step(given.step or "")
     node, graph = active_step(session), program.graph
     entry = graph.entry(target.id)
@@ -230,7 +232,7 @@ def flush(session: Session, given: Arguments) -> None:
 
 
 def ask_if_unsaved(session: Session, deed: str) -> None:
-    """Return if nothing would be lost, or the user agrees; else raise Cancelled."""
+    """Return if nothing would be lost, or if the user agrees; else raise Cancelled."""
     if session.program.changed:
         session.confirmed(f"The program has not been written to a file. {deed}? ")
 
@@ -278,6 +280,6 @@ def _reached_otherwise(program: TrigProgram, node: Node, branch: int, entry: int
 
 
 def _after(program: TrigProgram, above: int) -> None:
-    """Move the cursor above what was deleted."""
+    """Move the cursor to the step above the deleted ones."""
     program.put_cursor(above if above in program.graph else TOP)
     program.taken, program.changed = None, True

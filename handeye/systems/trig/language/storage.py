@@ -1,4 +1,4 @@
-"""Programs as JSON: the properties that define each step, and the invariants that every file is checked for."""
+"""Stores programs as JSON: the properties that define each step, and the invariants that are checked in every file."""
 
 import re
 from collections import Counter
@@ -19,7 +19,7 @@ from handeye.systems.trig.language.program import TrigProgram
 
 
 def faults(graph: Graph, positions: Positions) -> Iterator[str]:
-    """Violations of invariants in words; none if the program is valid."""
+    """Violations of the invariants, in words; none if the program is valid."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
         torn = ["its steps are not all connected to the top"]
@@ -143,19 +143,19 @@ class _File(msgspec.Struct, kw_only=True):
 
 
 def trig_file(path: Path) -> Path:
-    """The file of a name: `pallet` is `pallet.trig.json`."""
+    """The file for a name: `pallet` becomes `pallet.trig.json`."""
     return (
         path if path.name.endswith(ENDING) else path.with_name(f"{path.name}{ENDING}") if path.name else path
     )
 
 
 def write_program(path: Path, program: TrigProgram) -> None:
-    """Write a program, replacing no file of another kind."""
+    """Write a program; it replaces no file of another kind."""
     write_over(path, encoded(program), TRIG_FILE)
 
 
 def read_program(path: Path) -> TrigProgram:
-    """Read a program, its positions as defined; raises BadFile."""
+    """Read a program, with its positions as defined; raises BadFile."""
     return decoded(read_whole(path, LARGEST), str(path))
 
 
@@ -163,7 +163,7 @@ def read_program(path: Path) -> TrigProgram:
 
 
 def encoded(program: TrigProgram) -> bytes:
-    """A program as file content, steps numbered in drawing order."""
+    """A program as the content of a file, with steps numbered in drawing order."""
     graph = program.graph
     numbers = {id: number for number, id in enumerate(graph.order())} | {NONE: NONE}
     used = {node.position for node in graph.nodes.values()}
@@ -213,7 +213,7 @@ def _node_fields(graph: Graph, node: Node, numbers: Mapping[int, int]) -> dict[s
 
 
 def decoded(content: bytes, name: str) -> TrigProgram:
-    """The program from file content; raises BadFile. `name` is for messages."""
+    """The program in the content of a file; raises BadFile. `name` is the file's name for messages."""
     try:
         return _program(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
@@ -223,7 +223,7 @@ def decoded(content: bytes, name: str) -> TrigProgram:
 
 
 class _Fault(Exception):
-    """A fault of a file, as the continuation of its name."""
+    """A fault of a file, worded to follow the name of the file."""
 
 
 def _program(content: bytes) -> TrigProgram:

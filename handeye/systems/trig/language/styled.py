@@ -1,4 +1,4 @@
-"""Styled text for coloured terminals, and drawing characters with a fallback for terminals without them."""
+"""Styled text for terminals with colours, and drawing characters, with substitutes for terminals without them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,7 +7,9 @@ from typing import Final
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Symbols:
-    """Drawing characters: `corner` joins left and below, `turn` above and right, `tee` begins a line below."""
+    """Drawing characters: `corner` joins left and below, `turn` joins above and right, `tee` begins a line
+    downwards.
+    """
 
     cursor: str
     line: str

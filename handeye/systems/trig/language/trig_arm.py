@@ -1,7 +1,7 @@
-"""The interface of an arm for TRIG, and the obstacles that stop it while it reverses a step.
+"""The interface of an arm for TRIG, and the obstacles that stop the arm while it reverses a step.
 
-A reversal assumes the world as it was. A block may have fallen since, or been taken away, so every step is reversed
-under guards, and the first to trip ends it.
+A reversal assumes that the table is as the step left it. A block may have fallen since, or been taken away, so
+every step is reversed with guards, and the first guard that trips ends the reversal.
 """
 
 from abc import ABC, abstractmethod
@@ -17,21 +17,21 @@ from handeye.systems.trig.language.place import AXES, SIZES, UNITS, Place
 
 
 class Resistance(Record, frozen=True, kw_only=True, tag="resisted"):
-    """The finger met a force, N."""
+    """The finger met an unexpected force, N."""
 
     force: float
     limit: float
 
 
 class HoldOff(Record, frozen=True, kw_only=True, tag="hold_off"):
-    """The gap (m) differs from the one kept: the hand holds something else, or nothing."""
+    """The gap (m) differs from the one during the step: the hand holds another object, or none."""
 
     gap: float
     kept: float
 
 
 class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
-    """An axis (from 0, as in AXES) does not follow; m or rad."""
+    """An axis (from 0, as in AXES) lags behind; m or rad."""
 
     axis: int
     off: float
@@ -39,11 +39,11 @@ class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
 
 
 class MissingContact(Record, frozen=True, kw_only=True, tag="missed"):
-    """A guarded move met something here, and meets nothing now."""
+    """A guarded move made contact here, but the arm now meets nothing."""
 
 
 class MissingSupport(Record, frozen=True, kw_only=True, tag="unsupported"):
-    """The object held was taken from a support that is gone."""
+    """The support from which the held object was taken is gone."""
 
 
 Obstacle = Resistance | HoldOff | LeftBehind | MissingContact | MissingSupport
@@ -70,7 +70,7 @@ Halted = Callable[[], bool]  # polled during motion: True to stop the arm
 
 
 class OutOfTravel(Refused):
-    """A place beyond the arm's travel."""
+    """A place is beyond the arm's travel."""
 
     def __init__(self, axis: int, value: float, lower: float, upper: float) -> None:
         told = [f"{number / SIZES[axis]:.4g}" for number in (value, lower, upper)]
@@ -81,7 +81,7 @@ class OutOfTravel(Refused):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrival:
-    """The end of a guarded move; `force` is weighted, N."""
+    """The end of a guarded move; `force` is the weighted force, N."""
 
     kind: Literal["reached", "tripped", "halted"]
     force: float = 0.0
@@ -92,12 +92,12 @@ class TrigArm(ABC):
 
     @abstractmethod
     def here(self) -> Place:
-        """The commanded place, without the servo's sag."""
+        """The commanded place, without the sag of the servos."""
 
     @property
     @abstractmethod
     def closed(self) -> bool:
-        """True if the hand is closed, on something or not."""
+        """True if the hand is closed, on an object or not."""
 
     @property
     @abstractmethod
@@ -106,7 +106,7 @@ class TrigArm(ABC):
 
     @abstractmethod
     def go(self, goal: Place, halted: Halted) -> bool:
-        """Go to a place; False if halted, where it then is."""
+        """Go to a place; False if the move was halted, in which case the arm stays where it is."""
 
     @abstractmethod
     def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
@@ -115,11 +115,13 @@ class TrigArm(ABC):
     @property
     @abstractmethod
     def met(self) -> float:
-        """Greatest force on the finger in the last move, less its initial value, N."""
+        """Greatest change of the force on the finger in the last move, N."""
 
     @abstractmethod
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to an earlier place, guarded by 1.5 times `met` (N); None if reached, else the arm stops there."""
+        """Return to an earlier place with a force limit of 1.5 times `met` (N); returns None if the place is
+        reached, else the reason for which the arm stopped.
+        """
 
     @abstractmethod
     def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
@@ -141,7 +143,7 @@ class TrigArm(ABC):
                 raise OutOfTravel(axis, value, lower, upper)
 
     def within_travel(self, goal: Place) -> Place:
-        """The nearest place within travel, axis by axis."""
+        """The nearest place within the arm's travel, axis by axis."""
         return Place(
             *(min(max(a, lower), upper) for a, (lower, upper) in zip(goal, self.travel, strict=True))
         )

@@ -1,1 +1,1 @@
-"""TRIG programs as runs: taught in the run's world, executed step by step, and reversed by the arm."""
+"""TRIG programs as runs: taught in the world of the run, executed step by step, and reversed by the arm."""

@@ -1,4 +1,4 @@
-"""Executes a taught job, reverses it, and judges both."""
+"""Executes a taught job, reverses it, and has both judged."""
 
 from collections.abc import Callable, Mapping
 from typing import Final, Literal
@@ -21,7 +21,9 @@ from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.run.running_job import RunningJob, plan_of
 
 Outcome = Literal["right", "stopped", "silent", "halted"]
-"""Right; stopped early by program or arm; done, but the referee disagrees; halted by the user."""
+"""The outcome of a job: right; stopped early by program or arm; finished, but the referee disagrees (silent);
+halted by the user.
+"""
 
 When = Literal["taught", "run", "undone"]
 
@@ -69,9 +71,11 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Execute a job from its present state to the end of its program or for `after` steps, and back if possible.
+    """Execute a job from its present state to the end of its program, or for `after` steps, and reverse it if that
+    is possible.
 
-    `go` runs a number of steps, or all, by default without an operator; `tell` gets the end of each leg in words.
+    `go` executes a number of steps, or all, by default without an operator; `tell` gets the end of each leg in
+    words.
     """
     go = go or (lambda steps: advance(runner, steps=steps))
     if job_of(runner).state.turn is None:
@@ -86,20 +90,20 @@ def carry_out(
 
 
 def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
-    """Execute a job without a folder; `after` as for `carry_out`."""
+    """Execute a job without a folder; `after` is as for `carry_out`."""
     pause = carry_out(runner, after=after)
     return account(runner, pause, outcome(runner, pause, Meter(), judged=True), after=after)
 
 
 def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
-    """True if the run is where its reversal starts."""
+    """True if the run is where its reversal begins."""
     there = pause.kind == "end" or (after is not None and pause.kind == "break")
     system = job_of(runner)
     return there and system.job.undoable and not runner.undone and len(system.executed) > 0
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
-    """True if a run is a finished and judged job; not if a user ordered its reversal."""
+    """True if a run is a finished and judged job, and its reversal was not ordered by a user."""
     system = runner.system
     if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):
         return False
@@ -107,7 +111,7 @@ def ends_job(runner: Runner, result: Result) -> bool:
 
 
 def account(runner: Runner, pause: Pause, result: Result, *, after: int | None = None) -> JobReport:
-    """The result of a job that pauses for good; `after` is the number of steps before its reversal, if set."""
+    """The result of a job that has ended; `after` is the number of steps before the reversal, if set."""
     system, world = job_of(runner), runner.setup.world
     job, plan, turn = system.job, plan_of(runner.setup), system.state.turn
     way, told = _way(runner, pause)
@@ -142,7 +146,7 @@ _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"
 
 
 def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
-    """The present leg and its end in words; None if the arm refused a step."""
+    """The present leg, and its end in words; None if the arm refused a step."""
     system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:
         return None, pause.message

@@ -1,4 +1,6 @@
-"""The report page of a taught job, findings, block poses and program, and its files in the run's folder."""
+"""The report page of a taught job (findings, block poses and program), and the job's files in the folder of its
+run.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -106,12 +108,12 @@ def _drawn(done: JobReport) -> Markup:
 
 
 def _off(lying: Sequence[BlockPose], wanted: Sequence[Point]) -> list[Point]:
-    """Errors of blocks against their goals, mm."""
+    """Position errors of blocks relative to their goals, mm."""
     return [(one.at[0] - x, one.at[1] - y) for one, (x, y) in zip(lying, wanted, strict=False)]
 
 
 def _platter(done: JobReport) -> Iterator[Markup]:
-    """The platter from above, X to the right, Y up."""
+    """The platter seen from above, X to the right and Y up."""
     shown = done.lying.get("run", ())
     points = [*done.goals, *(each.at[:2] for each in (*shown, *done.lying.get("taught", ()))), (0.0, 0.0)]
     (west, east), (south, north) = ((min(along), max(along)) for along in zip(*points, strict=True))
@@ -141,7 +143,7 @@ def _square(xs: Scale, ys: Scale, at: Point, turned: float, class_: str) -> Mark
 
 
 def _scatter(title: str, off: Sequence[Point], limit: float | None, panel: Point) -> Iterator[Markup]:
-    """Errors of the blocks, mm, from above."""
+    """Position errors of the blocks seen from above, mm."""
     if not off:
         return
     most = max(math.hypot(*each) for each in off)
@@ -177,7 +179,7 @@ def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
 
 
 def kept_job_page(path: Path) -> bytes | None:
-    """The report of a folder's job, made again; None if it holds no finished one."""
+    """The report of the job in a folder, made again; None if the folder has no finished job."""
     if not (path / JOB).is_file():
         return None
     return job_page(_read_account(path / JOB), read_program(path / TAUGHT))

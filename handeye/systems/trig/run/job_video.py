@@ -1,4 +1,4 @@
-"""A video of a taught job: records moments while the arm works, and draws them at the end."""
+"""A video of a taught job: records the cell while the arm works, and draws the frames at the end."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -47,7 +47,7 @@ class JobVideo:
         self._moments: list[_Moment] = []
 
     def watch(self, job: TaughtJob) -> None:
-        """Start recording after teaching."""
+        """Start recording, after teaching."""
         bench, program = job.bench, job.session.program
 
         def look() -> None:
@@ -59,7 +59,9 @@ class JobVideo:
         bench.after_period.append(look)
 
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
-        """Write the video, whole or not at all; reversal began at `ended` (s), and `told` is called for each frame."""
+        """Write the video completely or not at all; the reversal began at `ended` (s), and `told` is called for
+        each frame.
+        """
         if not self._moments:
             raise Refused(f"the arm has not moved, so {self._path} was not made")
         most = int(MAX_SECONDS * RATE) - _HELD

@@ -1,4 +1,6 @@
-"""Palletising trials: taught, run, reversed and judged in many worlds, complete or interrupted."""
+"""Palletising trials: taught, executed, reversed and judged in many worlds, either completely or with an
+interruption.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -47,7 +49,7 @@ class PalletRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PalletWork:
-    """Palletises, and reverses it."""
+    """Executes and reverses palletising jobs."""
 
     blocks: int
     interrupt: bool  # reverse each run after a drawn number of steps
@@ -69,7 +71,7 @@ def tried(blocks: int, interrupt: bool, seed: int, world: WorldSpec) -> JobRepor
 
 
 def broken_off_after(seed: int, blocks: int) -> int:
-    """Drawn number of steps before a run's reversal, in the world of a seed."""
+    """Number of steps, drawn at random, before a run's reversal in the world of a seed."""
     most = 3 + STEPS * min(blocks, PLACES)
     return int(random_numbers(seed, "pallet.interrupt").integers(1, most, endpoint=True))
 

@@ -1,4 +1,4 @@
-"""The plan of a taught job: its script. Its steps are the same in each world, its places are not."""
+"""The plan of a taught job is its script. The steps are the same in each world, but the places differ."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class TaughtStep:
 
     @property
     def needs(self) -> Device | None:
-        """The hand, for a step of the hand alone."""
+        """The device that the step needs: `hand` for a step that only opens or closes the hand."""
         return "hand" if self.word in ("grasp", "ungrasp") else None
 
     @property
@@ -48,7 +48,7 @@ class TaughtStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaughtListing:
-    """The steps of a program in drawing order, one a line."""
+    """The steps of a program in drawing order, one per line."""
 
     name: str
     steps: Sequence[TaughtStep]
@@ -85,12 +85,14 @@ def decode(data: bytes, name: str) -> TaughtPlan:
 
 
 def imagined(plan: TaughtPlan) -> TrigProgram:
-    """The program that a plan's script teaches an imaginary arm; raises InvalidInput."""
+    """The program that results from teaching a plan's script to an imaginary arm; raises InvalidInput."""
     return typed(plan.script, f"{plan.job}.trig")
 
 
 def typed(text: str, name: str) -> TrigProgram:
-    """The program that a script teaches an imaginary arm; its steps are general, its places are not."""
+    """The program that results from teaching a script to an imaginary arm; its steps hold in every world, but its
+    places do not.
+    """
     session, asked = new_session("none"), 0
 
     def ask() -> bool:
@@ -128,7 +130,7 @@ def _step(program: TrigProgram, node: Node, numbers: Mapping[int, int]) -> Taugh
 
 
 def _text(program: TrigProgram, node: Node, number: int) -> str:
-    """A step's text, independent of loop counts."""
+    """The text of a step, without counts of loops."""
     if node.type == "loop":
         return loop_words(program.graph, node, ASCII)
     shown, deed, _ = step_words(
@@ -138,7 +140,7 @@ def _text(program: TrigProgram, node: Node, number: int) -> str:
 
 
 def text_now(step: TaughtStep, node: Node) -> str:
-    """A step's text now, for a loop with its round."""
+    """The present text of a step; for a loop with its round."""
     if node.type != "loop":
         return step.text
     back = f"goes back ({node.count + 1} of {node.wanted})" if node.count < node.wanted else "goes on"

@@ -1,4 +1,4 @@
-"""A TRIG job under way: taught in the world of its run, executed and undone step by step on a bench."""
+"""A TRIG job during a run: taught in the world of the run, executed and undone step by step on a bench."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -52,10 +52,10 @@ from handeye.systems.trig.run.state import CompletedStep, TaughtState, Turn
 
 
 class RunningJob(RunningSystem):
-    """Teaches a program in the world of a run, and carries it out."""
+    """Teaches a program in the world of a run, and executes it."""
 
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
-        """Build the bench, empty, with nothing taught."""
+        """Build the bench, without blocks and with nothing taught."""
         self._setup, self._around, self._plan = setup, around, plan_of(setup)
         self._steps = listing(self._plan).steps
         self._numbers = listing(self._plan).numbers
@@ -130,7 +130,7 @@ class RunningJob(RunningSystem):
         ]
 
     def _ask(self) -> bool:
-        """Halt check during teaching; raises Halted."""
+        """Check for a halt during teaching; raises Halted."""
         if self._around.halt():
             raise Halted
         return False
@@ -161,7 +161,7 @@ class RunningJob(RunningSystem):
             state.stage = None
 
     def _carried_out(self, step: TaughtStep) -> str | None:
-        """Execute a step and the hidden nodes after it; returns why the arm refuses, if it does."""
+        """Execute a step and the hidden nodes after it; returns the reason if the arm refuses."""
         try:
             next = self.job.session.runner.carry_out(step.node, self._state.came)
         except Refused as error:  # it cannot go where the step wants it
@@ -200,7 +200,7 @@ class RunningJob(RunningSystem):
             self._call(refused, number)
 
     def _undone(self, job: TaughtJob) -> str | None:
-        """Reverse the last step; returns why the arm stopped, if it did."""
+        """Reverse the last step; returns the reason if the arm stopped."""
         try:
             ran = job.session.runner.back(1)
         except Refused as error:  # it cannot go back to where it was
@@ -211,7 +211,7 @@ class RunningJob(RunningSystem):
         return None if ran.obstacle is None else told_obstacle(ran.obstacle)
 
     def _stand_before(self, number: int) -> None:
-        """Update the state after a step's reversal: it is next, or the reversal is complete."""
+        """Update the state after a step was reversed: that step is next, or the reversal is complete."""
         state, program = self._state, self.job.session.program
         assert state.undoing is not None
         self._note()
@@ -237,7 +237,7 @@ class RunningJob(RunningSystem):
         self._around.emit(state.stopped)
 
     def answer(self, choice: Choice) -> None:
-        """Continue: `retry` and `proceed` repeat the step, `skip` ends the program."""
+        """Continue after a call: `retry` and `proceed` repeat the step, `skip` ends the program."""
         state = self._state
         if choice == "skip" and state.undoing is not None:
             raise Refused(
@@ -277,7 +277,7 @@ class RunningJob(RunningSystem):
         return completed
 
     def built(self) -> Findings:
-        """Findings on the finished work, before it was reversed."""
+        """Findings on the finished work before its reversal."""
         turn = self._state.turn
         return self.job.built() if turn is not None and turn.ended else {}
 
@@ -298,7 +298,7 @@ class RunningJob(RunningSystem):
 
     @property
     def shown(self) -> Mapping[str, Any]:
-        """Values in millimetres and degrees."""
+        """The state for display, in millimetres and degrees."""
         program, arm = self.job.session.program, self.job.arm
         told = dict(zip(AXES, arm.here().measures(), strict=True))
         named = {name: p.data.measures() for name, p in program.positions.items() if is_named(name)}
@@ -325,7 +325,7 @@ class RunningJob(RunningSystem):
         self._state.note(self.job.session.program, self.job.arm.memory)
 
     def _hand(self) -> tuple[Vector3, float]:
-        """Hand position over the platter by potentiometers, m, and finger gap."""
+        """Position of the hand relative to the platter by the potentiometers, m, and the gap of the fingers, m."""
         x, y, z = (round(float(value), 6) for value in self.job.axes.read().q[:3])
         return (x, y, z), round(self.job.arm.gap, 6)
 

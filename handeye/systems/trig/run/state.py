@@ -1,4 +1,4 @@
-"""The state of a taught program between steps, as one record; its steps are in its plan."""
+"""The state of a taught program between steps, as one record; the steps are in the plan."""
 
 from typing import Final
 
@@ -35,7 +35,7 @@ class Turn(Record, frozen=True, kw_only=True):
 
 
 class TaughtState(SystemState, kw_only=True):
-    """Everything but the steps."""
+    """The whole state, except the steps."""
 
     came: int = TOP  # node executed before the next step
     undoing: ReversalOrder | None = None  # the reversal in progress
@@ -61,7 +61,7 @@ class TaughtState(SystemState, kw_only=True):
         self.at = executed[-1].step
 
     def executed(self, plan: TaughtPlan) -> list[CompletedStep]:
-        """Executed steps that are not reversed."""
+        """Executed steps that are not reversed, with their stage."""
         numbers = listing(plan).numbers
         found = [numbers[done.node] for done in self.trail if done.node in numbers]
         return [CompletedStep(step=number, enters=not before) for before, number in enumerate(found)]
@@ -78,7 +78,7 @@ class TaughtState(SystemState, kw_only=True):
         self.arm = arm
 
     def check(self, program: TrigProgram, steps: int) -> None:
-        """Raise BadFile unless it fits a program with this many steps."""
+        """Raise BadFile unless the state fits a program with this many steps."""
         nodes, names = {*program.graph.nodes}, {*program.positions}
         ids = {self.came, self.cursor, *self.fathers, *self.rounds, *(done.node for done in self.trail)}
         ids |= {*self.fathers.values()} - {NONE}
