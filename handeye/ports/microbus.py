@@ -102,6 +102,8 @@ class MicrobusPort(ABC):
         new time, microseconds.
 
         The new time may be later than `until` if the machine is simulated in longer steps.
+
+        It may return earlier where a machine is slow to simulate, so that a person can interrupt it: wait again.
         """
 
     @property

@@ -25,7 +25,8 @@ from handeye.systems.sigma.chess.pieces import BY_HEIGHT, LIMITS, drawn
 from handeye.systems.sigma.chess.task import CHESS, HEIGHT
 from handeye.systems.sigma.gantries.machine import Gantries
 from handeye.systems.sigma.gantries.world import GantryWorld
-from handeye.systems.sigma.run.chess_trials import ChessWork, chess_plan, chess_setup
+from handeye.systems.sigma.run.chess_plan import chess_plan, chess_setup
+from handeye.systems.sigma.run.chess_trials import ChessWork
 from handeye.systems.sigma.run.plan import MOST_PIECES, MalPlan, decode, encode
 from handeye.trials.sweep import Case
 

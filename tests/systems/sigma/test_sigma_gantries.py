@@ -179,8 +179,17 @@ def test_a_constant_speed_needs_its_ramp_to_lose_no_pole(ramped: bool) -> None:
 
 
 @pytest.mark.slow
-def test_a_kept_run_goes_on_to_the_same_events() -> None:
-    text = "10 ORIGIN X1, Z1\n20 MOVE X1 TO 60\n30 MOVE Z1 TO 185 SLOW 40\n40 PRINT POS(Z1)\n"
+def test_a_run_kept_anywhere_goes_on_to_the_same_events() -> None:
+    text = """10 ON ABORT GOTO 60
+20 ORIGIN Z1
+30 MOVE Z1 TO 178
+40 MOVE Z1 TO 185 SLOW 20
+50 STOP
+60 PRINT POS(Z1), FORCE(Z1)
+65 ON ABORT GOTO 80
+70 MOVE Z1 BY 1
+80 MOVE Z1 BY -3
+"""
 
     def begun() -> Runner:
         plan = MalPlan(name="kept.mal", text=text, arm="gantries")
@@ -191,13 +200,15 @@ def test_a_kept_run_goes_on_to_the_same_events() -> None:
     whole = begun()
     advance(whole)
     whole.finish()
+    events = [*map(to_line, whole.events)]
+    assert sum(b"MotorAborted" in event for event in events) > 1  # pressed twice: the second time at once
     first = begun()
-    advance(first, steps=2)
-    second = Runner(first.checkpoint())
-    advance(second)
-    second.finish()
-    assert [*map(to_line, second.events)] == [*map(to_line, whole.events)]
-    assert any(b"MotorAborted" in to_line(event) for event in whole.events)
+    for steps in range(1, whole.position):
+        advance(first, steps=1)
+        again = Runner(first.checkpoint())
+        advance(again)
+        again.finish()
+        assert [*map(to_line, again.events)] == events, steps
 
 
 @pytest.mark.sigma_row(35)
@@ -219,6 +230,16 @@ def test_in_the_hand_over_the_arms_never_touch() -> None:
     ran = machine.run(mal("handover"))
     assert ran.printed[0].split()[:2] == ["PIECES", "4"]
     assert touched == []
+
+
+def test_a_seed_is_for_the_machine_that_has_errors(command: Command) -> None:
+    code, _, err = command("sigma", "run", str(ROOT / "plans/handover.mal"), "--seed", "3", "--no-keep")
+    assert (code, "--seed is for `--arm gantries`" in err) == (2, True)
+
+
+def test_time_passes_in_pieces_so_that_a_long_wait_can_be_interrupted() -> None:
+    bus = Machine().bus
+    assert bus.wait(LONG) <= 200_000
 
 
 @pytest.mark.slow

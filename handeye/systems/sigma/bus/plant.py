@@ -33,6 +33,9 @@ class Plant(ABC, Generic[Kept]):
 
     memory: Kept
     predicts = True  # its forces stay as they are until they are set
+    longest: int | None = (
+        None  # microseconds that may pass at once, so that a person can interrupt; None: any time
+    )
 
     def resumed(self) -> None:
         """The state has been restored; all motors and thresholds are queried next."""

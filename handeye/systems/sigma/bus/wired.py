@@ -182,6 +182,8 @@ class WiredBus(MicrobusPort):
         return self._level
 
     def wait(self, until: int) -> int:
+        if self.plant.longest is not None:
+            until = min(until, self.now + self.plant.longest)
         while self.now < until:
             due = self._next()
             moment = until if due is None else min(until, max(self.now, -(-due // PS)))

@@ -61,7 +61,7 @@ def chess(
     from handeye.cli.job import Job, work
     from handeye.runs.snapshot import Checkpoint
     from handeye.systems.sigma.cli.commands import Printer
-    from handeye.systems.sigma.run.chess_trials import chess_setup
+    from handeye.systems.sigma.run.chess_plan import chess_setup
 
     check_kept(no_keep, out)
     _check_pieces(pieces)

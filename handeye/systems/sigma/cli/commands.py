@@ -65,6 +65,7 @@ def run(
     /,
     *,
     arm: Arm = "none",
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the errors of `--arm gantries`.")] = 0,
     statement_us: StatementTime = 2000,
     json: Json = False,
     details: Details = False,
@@ -90,13 +91,15 @@ def run(
     check_kept(no_keep, out)
     if not 0 <= statement_us <= LONGEST_STATEMENT_US:
         raise BadArgument(f"--statement-us takes 0 to {LONGEST_STATEMENT_US}, not {statement_us}")
+    if seed and arm != "gantries":
+        raise BadArgument(f"--seed is for `--arm gantries`: the machine of `--arm {arm}` has no errors")
     source = read_source(file)
     plan = MalPlan(name=file.name, text=source.text, arm=arm, statement_us=statement_us)
     if not reported(source):
         return 2
     sound(plan)
     judged = arm != "gantries"  # what any program does to the gantries is neither right nor wrong
-    setup = Setup(system="sigma", plan=plan, world=WorldSpec(seed=0), camera="auto", judged=judged)
+    setup = Setup(system="sigma", plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=judged)
     return work(
         Job(
             start=Checkpoint(setup=setup), out=out, keep=not (no_keep or step), details=details, overwrite=overwrite,

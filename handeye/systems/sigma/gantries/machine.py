@@ -94,6 +94,7 @@ class Gantries(Plant[GantryMemory]):
     """Two gantries on a bench."""
 
     predicts = False
+    longest = 200_000
     channels = FORCES
 
     def __init__(self, spec: mujoco.MjSpec, world: GantryWorld, *, compensated: bool = True) -> None:
@@ -103,6 +104,7 @@ class Gantries(Plant[GantryMemory]):
             compensated: add the signals of the accelerometers to those of the wrists.
         """
         self.bench, self.memory = Bench(spec.compile()), GantryMemory()
+        assert self.bench.tick * 10**6 * PS == TICK
         model, data = self.bench.model, self.bench.data
         self._low = world.axes(SWITCHES)  # m, where the low switch of each axis is, of its joint
         self._high = self._low + [TRAVEL[axis[0]] * STEP for axis in AXES]

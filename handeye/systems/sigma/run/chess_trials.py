@@ -6,33 +6,17 @@ from typing import Final
 
 import msgspec
 
-from handeye.core.resources import plans
-from handeye.core.source import read_source
 from handeye.core.variation import WorldSpec
 from handeye.results.finishing import finished
 from handeye.results.result import Check
 from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
-from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.sigma import ENTRY
-from handeye.systems.sigma.run.plan import MalPlan
+from handeye.systems.sigma.run.chess_plan import chess_setup
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
-PROGRAM: Final = "chess.mal"
 _OUTCOMES: Final = {0: "right", 1: "stopped", 3: "silent"}
-
-
-def chess_plan(pieces: int) -> MalPlan:
-    """The plan for a board with this number of pieces."""
-    text = read_source(plans() / PROGRAM).text
-    return MalPlan(name=PROGRAM, text=text, arm="gantries", pieces=pieces)
-
-
-def chess_setup(pieces: int, world: WorldSpec) -> Setup:
-    """The setup of a run of the chess experiment."""
-    return Setup(system=ENTRY.name, plan=chess_plan(pieces), world=world, camera="auto", judged=True)
 
 
 class ChessRow(TrialRow, frozen=True, kw_only=True):

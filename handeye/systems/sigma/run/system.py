@@ -10,10 +10,12 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, RunCallbacks, StepperWords, System
 from handeye.systems.sigma import ENTRY
+from handeye.systems.sigma.run.chess_plan import chess_plan
 from handeye.systems.sigma.run.plan import MalPlan, decode, encode, listing, sound
 from handeye.systems.sigma.run.running import RunningMal
 from handeye.systems.sigma.run.state import MalState
 
+OWN_PIECES: Final = 2  # of a board where no number is given
 OWN: Final = "handover.mal"  # the program that is run where none is named
 
 
@@ -55,7 +57,10 @@ class SigmaSystem(System):
         return RunningMal(setup, around)
 
     def own_plan(self, task: str) -> MalPlan:
-        return MalPlan(name=OWN, text=read_source(plans() / OWN).text)
+        if task == "chess":
+            return chess_plan(OWN_PIECES)
+        text = read_source(plans() / OWN).text
+        return MalPlan(name=OWN, text=text, arm="gantries" if task == "gantries" else "none")
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {
