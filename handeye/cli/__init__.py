@@ -1,4 +1,4 @@
-"""The command line: parses arguments, connects the parts, prints."""
+"""The command line: parses arguments, calls the other packages, and prints results."""
 
 import codecs
 import io
@@ -56,7 +56,7 @@ def main() -> NoReturn:
 
 
 def _carried_out() -> int:
-    """The exit code of the command as typed; raises OSError if its output cannot be written."""
+    """Execute the typed command; returns its exit code. Raises OSError if the output cannot be written."""
     try:
         with heard(break_in):
             code = app(result_action="return_value", exit_on_error=False, print_error=False)
@@ -86,7 +86,7 @@ def _carried_out() -> int:
 
 
 def _complained(sentence: object) -> int:
-    """Print the error, if standard error is still open; return the exit code of bad input."""
+    """Print an error if standard error is still open; returns the exit code for bad input."""
     with suppress(OSError):
         complain(sentence)
     return BAD_INPUT
@@ -102,7 +102,8 @@ _PLAIN: Final = "handeye.plain"
 
 
 def prepare_streams() -> None:
-    """Make the standard streams accept every character: one that the encoding lacks becomes a similar one, or `?`.
+    """Make the standard streams accept every character: a character that the encoding lacks becomes a similar one,
+    or `?`.
 
     A stream that was closed before the start becomes the null device.
     """
@@ -116,7 +117,7 @@ def prepare_streams() -> None:
 
 
 def let_go_of_streams() -> None:
-    """Drop output that can no longer be written, so that the interpreter does not try again at exit."""
+    """Drop output that can no longer be written, so that the interpreter does not try again when it exits."""
     for stream in (sys.stdout, sys.stderr):
         if stream.closed:
             continue

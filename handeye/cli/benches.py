@@ -113,7 +113,9 @@ def insertion(
 def _conditions(
     clearance: float | None, chamfer: float | None, sd: float | None, search: Literal["gentle", "1973"]
 ) -> "list[Condition]":
-    """The condition that the options give, or the grid; raises InvalidInput if it is out of range."""
+    """The condition given by the options, or the grid of conditions; raises InvalidInput if a value is out of
+    range.
+    """
     from handeye.trials.insertion import Condition, grid
 
     if clearance is None and chamfer is None and sd is None:

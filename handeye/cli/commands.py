@@ -1,4 +1,6 @@
-"""The commands by name, each loaded when it is called or asked for its help; lists of commands load none."""
+"""The commands by name; each is imported when it is called or when its help is requested. Lists of commands import
+none.
+"""
 
 from contextlib import suppress
 from types import FunctionType
@@ -61,20 +63,25 @@ bench: Measure timing and insertion.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 """  # noqa: E501 - a command a line
-"""`NAME = MODULE:FUNCTION: SENTENCE` of each command, with the sentence that lists say of it, which is the first one of
-its docstring; a group of commands has no function. Modules are those of this folder."""
+"""Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first
+sentence of the command's docstring; a group of commands has no function. Modules are those of this folder.
+"""
 
 
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
-        """Import the command. Its own help is its docstring: the sentence is for lists, which do not import it."""
+        """Import the command. Its help is its docstring; the sentence in the table is for lists, which do not
+        import it.
+        """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))
         return super().resolve(parent_app)
 
 
 def restore_docstring(command: object) -> None:
-    """Restore the docstring of a command from its source: it is the help, and Python drops it with -OO."""
+    """Restore the docstring of a command from its source, because the docstring is the help and Python -OO drops
+    it.
+    """
     if isinstance(command, App):
         for part in (command.default_command, *command._commands.values()):
             restore_docstring(part)
@@ -91,7 +98,7 @@ def restore_docstring(command: object) -> None:
 
 
 def add_commands(app: App, table: str, folder: str = "") -> None:
-    """Add the commands of a table to those there are, which stay; modules are full names where no `folder` is given."""
+    """Add the commands of a table; existing commands stay. Without `folder`, the names of modules are full names."""
     for line in table.strip().splitlines():
         named, sentence = line.split(": ", 1)
         name, _, path = named.partition(" = ")

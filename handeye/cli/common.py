@@ -47,14 +47,14 @@ CameraKind = Literal["auto", "gl", "ray"]
 
 
 def camera_here(kind: CameraKind) -> Literal["gl", "ray"]:
-    """What `auto` stands for on this computer: a batch records how its pictures are really made."""
+    """The renderer that `auto` means on this computer; a batch records which renderer its pictures were made with."""
     from handeye.cell.camera import renderer_here
 
     return kind if kind != "auto" else renderer_here(kind)
 
 
 def whole(_: type, tokens: Sequence[Token]) -> int:
-    """A whole number as typed; raises ValueError if it is not one, like 1.5, or is too large."""
+    """A whole number as typed; raises ValueError if the text is no whole number, such as 1.5, or is too large."""
     typed = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", typed):
         raise ValueError(f"{quoted(typed)} is not a whole number")
@@ -64,7 +64,7 @@ def whole(_: type, tokens: Sequence[Token]) -> int:
 
 
 def width_and_height(size: str) -> tuple[int, int]:
-    """Width and height of a picture; raises BadArgument unless they are written as 480x360."""
+    """Width and height of a picture; raises BadArgument unless they are written like 480x360."""
     found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", size)
     if found is None:
         raise BadArgument(f"{quoted(size)} is not a size; write it as 480x360")
@@ -72,7 +72,7 @@ def width_and_height(size: str) -> tuple[int, int]:
 
 
 def positive(count: int, what: str) -> None:
-    """See that a count is at least 1 and at most MOST; `what` is the singular of what is counted."""
+    """Raises BadArgument unless a count is from 1 to MOST; `what` is the singular of the counted noun."""
     many = counted(0, what).removeprefix("0 ")
     if count < 1:
         raise BadArgument(f"the number of {many} must be at least 1, not {count}")
@@ -123,7 +123,7 @@ NoKeep = Annotated[
     ),
 ]
 CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")
-"""How handeye was called, for sentences that say what to type next; run.py sets it."""
+"""The name under which handeye was called, for sentences that suggest a command; run.py sets it."""
 
 
 class _Screen(Console):
@@ -133,7 +133,7 @@ class _Screen(Console):
             self.width = _USUAL_WIDTH
 
     def on_broken_pipe(self) -> None:
-        """Leave it to the command line, which has an exit code for it."""
+        """Raise the error, which the command line handles with an exit code."""
         raise BrokenPipeError
 
 
@@ -144,7 +144,8 @@ notes = _Screen(stderr=True)
 def say(text: str, to: Console = screen, *, style: str | None = None, whole: bool = False) -> None:
     """Print plain text, which may come from an untrusted file.
 
-    On a terminal, lines break between words; a `whole` one, meant to be copied, breaks where the terminal breaks it.
+    On a terminal, lines are wrapped between words. Lines of a `whole` text, which is meant to be copied, are left
+    to the terminal.
     """
     shown = visible(text)
     if to.is_terminal and not whole:
@@ -153,13 +154,13 @@ def say(text: str, to: Console = screen, *, style: str | None = None, whole: boo
 
 
 def put(answer: bytes) -> None:
-    """Write an answer for programs, or the content of a file: UTF-8, whatever the terminal's encoding is."""
+    """Write the answer for a program, or the content of a file: UTF-8, whatever the encoding of the terminal."""
     sys.stdout.buffer.write(answer)
     sys.stdout.flush()
 
 
 def put_line(text: str) -> None:
-    """Write one line of an answer for programs."""
+    """Write one line of an answer for a program."""
     put(f"{text}\n".encode())
 
 
@@ -183,7 +184,7 @@ def note(text: str) -> None:
 
 
 def complain(error: object) -> None:
-    """Print why a command failed."""
+    """Print the reason why a command failed."""
     say(f"handeye: {error}", notes, style="red")
 
 
@@ -199,7 +200,9 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
 
 
 def show_unreadable(file: Path, error: InvalidInput) -> None:
-    """Print as JSON, instead of diagnostics, why there are none: the script or the taught file cannot be used."""
+    """Print, as JSON in place of diagnostics, the reason why there are none: the script or the taught file cannot
+    be used.
+    """
     place = {"file": str(file), "line": 1, "column": 1, "end": 1, "text": ""}
     said = {"code": "unreadable-file", "severity": "error", "message": str(error), "file": str(file)}
     put_json([{**said, "primary": place, "secondary": [], "notes": [], "help": None}])

@@ -1,4 +1,4 @@
-"""The command that lists and prints the pages of the documentation, which come with every installation."""
+"""The command that lists and prints the pages of the documentation, which every installation includes."""
 
 import re
 from collections.abc import Iterator
@@ -55,13 +55,13 @@ def docs(
 
 
 def pages(folder: Path) -> dict[str, Path]:
-    """The pages of the documentation by the names of their topics, the index apart."""
+    """The pages of the documentation by topic, without the index."""
     files = (file for file in sorted(folder.rglob("*.md")) if file != folder / INDEX)
     return {(file.parent if file.name == INDEX else file).stem: file for file in files}
 
 
 def page_named(topic: str, folder: Path) -> Path:
-    """The page of a topic, which may be given with its folder; raises NoSuchName."""
+    """The page of a topic, which may be given with its folder; raises NoSuchName if there is none."""
     from difflib import get_close_matches
 
     found = pages(folder)
@@ -78,7 +78,7 @@ def page_named(topic: str, folder: Path) -> Path:
 
 
 def _list(index: str) -> None:
-    """Print the index as topics with a sentence each, under what one wants to do."""
+    """Print the index: topics with one sentence each, grouped by purpose."""
     from rich.text import Text
 
     for heading, entries in sections(index):

@@ -113,7 +113,7 @@ def faults(
 
 
 def _sound(setup: Setup, folder: Path, seeds: Sequence[int], jobs: int) -> None:
-    """Run what a folder lacks of runs without faults."""
+    """Execute the fault-free runs that a folder lacks."""
     from handeye.trials.sound_run import sound_runs
 
     worlds = [msgspec.structs.replace(setup.world, seed=seed) for seed in seeds]

@@ -1,4 +1,4 @@
-"""A job of the commands that move the arm: build, run, save, judge, print."""
+"""A job of a command that moves the arm: build the cell, run, save, judge, print."""
 
 import shlex
 import sys
@@ -57,7 +57,7 @@ NOT_KEPT: Final = "the run is not kept and cannot be resumed; --out FOLDER would
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Job:
-    """A run to begin or to resume, and the options for it."""
+    """A run to begin or to resume, and its options."""
 
     start: Checkpoint
     folder: RunFolder | None = None  # Folder of a run that is resumed
@@ -79,12 +79,12 @@ class Job:
     referee: bool = False
     listening: Sequence[Observer] = ()  # Observers that the system's own command adds
     then: Sequence[Then] = ()
-    """Actions after work that the referee finds right, in order."""
+    """Actions after work that the referee accepts, in order."""
     planning_cpu_s: float = 0.0
 
 
 class _StageKeeper(Observer):
-    """Keeps the states at the beginning of stages in a folder."""
+    """Keeps the states at the beginnings of stages in a folder."""
 
     def __init__(self, folder: Path, setup: Setup) -> None:
         try:
@@ -100,7 +100,7 @@ class _StageKeeper(Observer):
 
 
 class _Forgiving(Observer):
-    """Keeps an unnamed run. If the disk is full, the run continues without it."""
+    """Keeps an unnamed run. If the disk is full, the run continues without being kept."""
 
     def __init__(self, work: "_Work") -> None:
         self._work = work
@@ -123,7 +123,7 @@ class _Forgiving(Observer):
 
 
 class _Work:
-    """One job under way."""
+    """A job in progress."""
 
     def __init__(self, job: Job, panic: PanicButton) -> None:
         self.job = job
@@ -148,10 +148,10 @@ class _Work:
         self.newest: Newest | None = None
         self.refused = False
         self.left: Path | None = None
-        """The checkpoint that was saved last, outside the folder of the run."""
+        """The last checkpoint that was saved outside the folder of the run."""
 
     def _unnamed(self) -> UnnamedRun | None:
-        """A folder for an unnamed run; if it cannot be made, the run continues without one."""
+        """A folder for an unnamed run; None if it cannot be made, in which case the run continues without one."""
         home = runs_folder()
         if home is None:
             return None
@@ -163,7 +163,7 @@ class _Work:
 
     @contextmanager
     def keeping(self) -> Iterator[Observer]:
-        """The folder of the run. That of an unnamed run is given up where it cannot be written any more."""
+        """The observer that keeps the run. The folder of an unnamed run is given up if it can no longer be written."""
         try:
             yield Observer() if self.folder is None else self.folder
         except (InvalidInput, OSError) as fault:
@@ -173,7 +173,7 @@ class _Work:
             self.folder = None
 
     def close(self) -> None:
-        """Let go of the files."""
+        """Close the files."""
         if self.unnamed is not None:
             with suppress(InvalidInput):
                 self.unnamed.close()
@@ -198,7 +198,7 @@ class _Work:
         return code or 2 * (self.refused and not sys.stdin.isatty())
 
     def _built(self) -> Runner | None:
-        """The cell, ready for its first step; None if the panic button was hit meanwhile."""
+        """The runner, ready for its first step; None if the panic button was pressed during set-up."""
         try:
             with self.progress:
                 runner = Runner(
@@ -226,7 +226,7 @@ class _Work:
         return runner
 
     def _halted(self) -> bool:
-        """The panic button was pressed, here or in the browser."""
+        """True if the panic button was pressed, here or in the browser."""
         return self.panic() or (self.job.server is not None and self.job.server.link.panic())
 
     def _observers(self, runner: Runner) -> list[Observer]:
@@ -251,7 +251,7 @@ class _Work:
     # -- carrying out ---------------------------------------------------------------------------------
 
     def _parts(self, runner: Runner) -> Pause:
-        """Assemble, and then undo and assemble as often as is wanted, as long as the referee finds each right."""
+        """Assemble, then undo and assemble again as often as requested, as long as the referee accepts each."""
         pause = runner.kind.carry_out(runner, lambda: self._attended(runner))
         for part in self.job.then:
             if pause.kind != "end" or not all_right(findings(runner, pause)):
@@ -318,14 +318,14 @@ class _Work:
 
     @contextmanager
     def _waiting(self) -> Iterator[None]:
-        """While a line is waited for."""
+        """In this context, the user is asked for a line, with the progress bar hidden and Ctrl-C as usual."""
         with self.panic.aside(), self.progress.aside():
             yield
         if sys.stdin.isatty():
             self.panic()  # what was pressed while nothing moved must not stop what comes
 
     def _kept(self, position: int) -> Checkpoint | None:
-        """The newest state of this run on disk at a position or before it."""
+        """The newest state of this run on disk with at most that many steps done; None if there is none."""
         if self.folder is not None:
             return self.folder.kept.at_or_before(position)
         if self.job.checkpoints is None:
@@ -334,7 +334,7 @@ class _Work:
         return CheckpointStore(self.job.checkpoints).at_or_before(min(position, begun))
 
     def _keep(self, checkpoint: Checkpoint) -> Path | None:
-        """Save a state to the path on the command line; None if it gives none."""
+        """Save a state to the path given on the command line; None if there is no such path."""
         if self.folder is not None:
             self.folder.check_traced()
             return self.folder.kept.save(checkpoint)
@@ -399,7 +399,7 @@ class _Work:
             say(f"all tables: {CALLED} {shlex.join(('show', *named))}", notes, whole=True)
 
     def _report(self) -> None:
-        """Leave a page of the run in its folder, if that is wanted; the run is what it is, whatever comes of that."""
+        """Write the report of the run to its folder if requested; a failure does not affect the run."""
         if not self.job.report or self.folder is None:
             return
         place = self.folder.path / REPORT
@@ -412,7 +412,7 @@ class _Work:
 
 
 def work(job: Job) -> int:
-    """Do a job; returns the exit code. Raises InvalidInput if a file cannot be used or written."""
+    """Execute a job; returns the exit code. Raises InvalidInput if a file cannot be used or written."""
     with PanicButton() as panic, ExitStack() as closing:
         if job.folder is not None:
             closing.enter_context(held(job.folder.path))

@@ -1,5 +1,5 @@
-"""Ctrl-C as the panic button of the cell: polled at every servo period instead of interrupting anywhere. `kill` has
-the same effect as Ctrl-C.
+"""Ctrl-C as the panic button of the cell: it is polled in every servo period, instead of interrupting the program
+anywhere. `kill` has the same effect as Ctrl-C.
 """
 
 import signal
@@ -12,7 +12,9 @@ from handeye.core.signals import ToldToEnd, break_in, heard
 
 
 class PanicButton:
-    """While entered, Ctrl-C presses the button; if the first press had no effect, the second interrupts as usual."""
+    """In this context, Ctrl-C presses the panic button; if a first press has no effect, the second one interrupts
+    as usual.
+    """
 
     def __init__(self) -> None:
         self._pressed = False
@@ -28,14 +30,14 @@ class PanicButton:
         self._hearing.__exit__(*how)
 
     def __call__(self) -> bool:
-        """True if it was pressed since the last call."""
+        """True if the button was pressed since the last call."""
         pressed, self._pressed = self._pressed, False
         return pressed
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While the user answers a question: Ctrl-C interrupts as usual, and after a `kill` there are no more
-        questions.
+        """In this context, the user answers a question: Ctrl-C interrupts as usual. After a `kill`, no more
+        questions are asked.
         """
         if self._told:
             raise ToldToEnd
@@ -44,7 +46,7 @@ class PanicButton:
 
     @contextmanager
     def released(self) -> Iterator[None]:
-        """While nothing moves any more: Ctrl-C interrupts as usual."""
+        """In this context, nothing moves: Ctrl-C interrupts as usual."""
         self._asking = True
         try:
             yield

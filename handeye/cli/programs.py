@@ -1,4 +1,4 @@
-"""Scripts and plans as commands name them: by file, or by the name of a program of a task."""
+"""Scripts and plans as commands name them: by file, or by the name of an included program."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -18,7 +18,9 @@ _LEAVE_OUT: Final = "leave out --task, or give the right one"
 
 
 def compiled(file: Path, work: "Task | None" = None) -> Plan:
-    """The plan of a script for a task, by default its own; prints diagnostics and exits if there is none."""
+    """The plan of a script for a task, by default the script's own task; prints diagnostics and exits if there is
+    no plan.
+    """
     made = plan_script(file, work=work)
     show(made.diagnostics, made.source, json=False)
     if made.plan is not None:
@@ -29,7 +31,7 @@ def compiled(file: Path, work: "Task | None" = None) -> Plan:
 
 
 def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
-    """The script in a file, or the program of that name, and its task; raises InvalidInput if there is none."""
+    """The script in a file, or the program with that name, and its task; raises InvalidInput if there is neither."""
     wanted = None if task_words is None else planned(named(task_words))
     program = None if given.is_file() else _program(given)
     if program is None:
@@ -46,10 +48,10 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan in a file, or that of a script or of the program of that name.
+    """The plan in a file, or the plan of a script, or of the program with that name.
 
     Raises:
-        InvalidInput: there is none for the task.
+        InvalidInput: there is no such plan for the task.
     """
     wanted = None if task_words is None else planned(named(task_words))
     if is_program(given) or (given.suffix.lower() in LANGUAGES and given.is_file()):
@@ -72,12 +74,14 @@ def plan_or_own(given: Path | None, task_words: str | None) -> Plan:
 
 
 def is_program(given: Path) -> bool:
-    """True if a name is a program's, False if a file's; raises NoSuchName if neither."""
+    """True if a name is that of a program, False if it is that of a file; raises NoSuchName if it is neither."""
     return not given.is_file() and _program(given) is not None
 
 
 def _program(given: Path) -> "tuple[Path, Task] | None":
-    """The program of a name; None for a path; raises NoSuchName if it can only be a name, and no program has it."""
+    """The program with a name; None for a path. Raises NoSuchName if the text can only be a name, and no program
+    has it.
+    """
     if not _is_name(given):
         return None
     found = program_named(given.name)
@@ -90,7 +94,7 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
 
 
 def _note_file(given: Path) -> None:
-    """Note that the file is used, if a program has the same name."""
+    """Print a note that the file is used, if there is also a program with the same name."""
     if _is_name(given) and given.is_file() and program_named(given.name) is not None:
         note(f"{given}: using this file, not the program of the same name")
 
@@ -100,7 +104,7 @@ def _is_name(given: Path) -> bool:
 
 
 def made_known(words: str | None) -> str | None:
-    """The name of the task that `--task` gives; None if it was left out. The task is registered from here on."""
+    """The name of the task that `--task` gives, which is registered by this call; None if the option was left out."""
     return None if words is None else named(words).name
 
 

@@ -1,4 +1,4 @@
-"""Lines typed at a terminal, with history and completion, or piped in."""
+"""Lines typed at a terminal, with history and completion, or lines from a pipe."""
 
 import os
 import select
@@ -28,9 +28,9 @@ def typed_lines(
     """The lines of standard input, without their ends; at a terminal, Ctrl-D ends them.
 
     Args:
-        aside: entered while a line is waited for.
-        words: completions.
-        droppable: at a terminal, Ctrl-C drops the line instead of breaking in.
+        aside: context that is entered while waiting for a line.
+        words: the words offered as completions.
+        droppable: at a terminal, Ctrl-C drops the line instead of interrupting the program.
     """
     terminal = sys.stdin.isatty()
     if terminal:
@@ -52,7 +52,7 @@ def typed_lines(
 
 
 def typed_already() -> str | None:
-    """A line typed at the terminal before the prompt; None if there is none, or no way to know."""
+    """A line typed at the terminal before the prompt; None if there is none, or if this cannot be determined."""
     if sys.platform == "win32":
         return None
     if not select.select([sys.stdin], [], [], 0)[0]:
@@ -61,15 +61,15 @@ def typed_already() -> str | None:
 
 
 class PipedLines:
-    """The lines of a file as they arrive: waited for, or taken only if they have arrived."""
+    """Reads the lines of a file in the background; they can be waited for, or taken only if they have arrived."""
 
     def __init__(self, file: int) -> None:
-        """Read a file, by its descriptor."""
+        """Start to read a file, given by its descriptor."""
         self._lines = SimpleQueue[str | None]()
         Thread(target=self._read, args=(file,), daemon=True).start()
 
     def wait(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
-        """Lines not yet taken; `aside` is entered while waiting for one."""
+        """Lines not yet taken; the context `aside` is entered while waiting for one."""
         while True:
             with aside():
                 line = self._lines.get()
@@ -88,7 +88,9 @@ class PipedLines:
         return line
 
     def _read(self, file: int) -> None:
-        """Without the buffer of `sys.stdin`, whose lock an interpreter that ends would wait for."""
+        """Read lines without the buffer of `sys.stdin`, because an interpreter that exits would wait for the
+        buffer's lock.
+        """
         rest = b""
         while more := os.read(file, 65536):
             *lines, rest = (rest + more).split(b"\n")
@@ -100,7 +102,7 @@ class PipedLines:
 
 
 def _edit(words: Callable[[], Iterable[str]]) -> None:
-    """History, editing and completion, where the platform has them."""
+    """Set up history, editing and completion, if the platform supports them."""
     if editing is not None:
         editing.set_completer(lambda start, number: completion(start, number, words()))
         editing.set_completer_delims(" \t[],")
@@ -108,6 +110,6 @@ def _edit(words: Callable[[], Iterable[str]]) -> None:
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:
-    """The completion of a beginning with a given number, from 0; None after the last."""
+    """The completion of a beginning, by its number from 0; None after the last completion."""
     found = sorted({word for word in words if word.upper().startswith(start.upper())})
     return f"{found[number]} " if number < len(found) else None

@@ -1,4 +1,4 @@
-"""Worlds of recorded runs, for other plans: what would have happened with this plan."""
+"""Worlds of recorded runs for other plans, to see how another plan would have done in the same world."""
 
 from pathlib import Path
 from typing import Final
@@ -20,7 +20,9 @@ _CAMERAS: Final[dict[str, CameraKind]] = {"opengl": "gl", "rays": "ray"}
 
 
 def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
-    """The setup of a plan in a recorded run's world, faults and camera; raises InvalidInput if it cannot be built."""
+    """The setup of a plan in the world of a recorded run, with its faults and camera; raises InvalidInput if that
+    is impossible.
+    """
     events = _events(path)
     if not events or not isinstance(events[0], RunStarted):
         raise BadFile(f"{path} does not contain the start of the run, which records its world")
@@ -41,7 +43,7 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
 
 
 def _events(path: Path) -> tuple[AnyEvent, ...]:
-    """The events of a run: from its event list if there is one, which is shorter than the trace."""
+    """The events of a run, from its event list if there is one, because that is shorter than the trace."""
     file = path / EVENTS if (path / EVENTS).is_file() else trace_file(path)
     if file.suffix == ".jsonl":
         return tuple(read_events(file, growing=True))
@@ -49,7 +51,7 @@ def _events(path: Path) -> tuple[AnyEvent, ...]:
 
 
 def _check_drawing(path: Path, begun: RunStarted) -> None:
-    """Raises InvalidInput if this version draws another world from the seed of a run."""
+    """Raises InvalidInput if this version generates another world from the seed of the run."""
     world = begun.world
     if world.drawing != DRAWING:
         raise Refused(
@@ -59,7 +61,7 @@ def _check_drawing(path: Path, begun: RunStarted) -> None:
 
 
 def _check_faults(path: Path, begun: RunStarted, plan: Plan) -> None:
-    """Raises InvalidInput if a fault begins with a stage that a plan does not have."""
+    """Raises InvalidInput if a fault begins with a stage that the plan does not have."""
     stages = len(plan.program.stages)
     for fault in begun.world.faults:
         if fault.stage is not None and fault.stage > stages:

@@ -1,4 +1,4 @@
-"""Commands that show a run, make a page of it, or compare two."""
+"""Commands that show a run, make a page of it, or compare two runs."""
 
 import shlex
 import sys
@@ -79,7 +79,7 @@ def report(
 
 
 def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
-    """Write the report of a run, by its folder or trace; raises InvalidInput if it cannot be made or written there."""
+    """Write the report of a run, given by its folder or trace; raises InvalidInput if it cannot be made or written."""
     from handeye.core.files import check_place, write_over
     from handeye.report.page.document import REPORT
 
@@ -158,7 +158,7 @@ def compare(
 
 
 def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comparison":
-    """Write the page of two runs, by their folders or traces; raises InvalidInput if it cannot be written there."""
+    """Write the page for two runs, given by their folders or traces; raises InvalidInput if it cannot be written."""
     from handeye.comparison.comparison import comparison
     from handeye.comparison.page import PAGE, comparison_page
     from handeye.core.files import check_place, write_over
@@ -171,7 +171,7 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
 
 
 def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
-    """The animations of both runs, or why there are none."""
+    """The animations of both runs, or the reason why there are none."""
     from handeye.report.animation import animation
     from handeye.report.recorded import check_scene
 
@@ -202,7 +202,7 @@ def show(run: Run = None, /, *, json: Json = False) -> int:
 
 
 def _way_on(folder: Path, result: "Result") -> str:
-    """Print how to continue a run: from Python, if it uses code of its caller."""
+    """The command that continues a run; a run with Python code of its caller is continued from Python."""
     from handeye.runs.parts import deciding
     from handeye.tasks import known_any, option
 

@@ -318,19 +318,21 @@ def resume(
 
 
 def check_kept(no_keep: bool, out: Path | None) -> None:
-    """Raises InvalidInput if a run is to be kept and not to be kept."""
+    """Raises InvalidInput if the options both keep the run and do not keep it."""
     if no_keep and out is not None:
         raise BadArgument("--no-keep cannot be given with --out")
 
 
 def _check_live(live: bool, step: bool) -> None:
-    """Raises InvalidInput if the run has no live display."""
+    """Raises InvalidInput for --live without --step."""
     if live and not step:
         raise BadArgument("--live needs --step: it shows the lines of a stepped run as they begin")
 
 
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
-    """Where to end a run; breakpoints are only parsed, so that a wrong one is refused before anything moves."""
+    """The conditions at which a run ends; breakpoints are only parsed, so that a wrong one is refused before
+    anything moves.
+    """
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
     from handeye.runs.advance import AfterStage, BeforeStep
 
@@ -346,7 +348,7 @@ def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: lis
 
 
 def _check_order(listing: "Listing", first: str | None, last: str | None) -> None:
-    """Raises InvalidInput if a run that begins with one stage cannot end with another."""
+    """Raises InvalidInput if a run that begins with stage `first` cannot end with stage `last`."""
     from handeye.debugger.breakpoints import stage_number
 
     if first is None or last is None:
@@ -358,7 +360,9 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
-    """Note breakpoints that a run cannot reach from its start; raises Refused if the step to stop at is one."""
+    """Print notes on breakpoints that a run cannot reach from its start; raises Refused if the place at which the
+    run is to end is one of them.
+    """
     from handeye.debugger.breakpoints import breakpoint, is_ahead
     from handeye.runs.advance import BeforeStep
     from handeye.runs.systems import listing_of
@@ -372,7 +376,7 @@ def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str])
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
-    """Folder to search for checkpoints: the given one, or the one inside the folder of a run."""
+    """The folder in which checkpoints are searched: the given one, or the one inside the folder of a run."""
     from handeye.runs.folder import CHECKPOINTS
 
     folder = checkpoints or out
@@ -382,7 +386,7 @@ def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | Non
 
 
 def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | None) -> "Checkpoint":
-    """The checkpoint with the fewest steps before a stage."""
+    """The checkpoint from which the fewest steps lead to a stage."""
     from handeye.debugger.breakpoints import stage_number
     from handeye.runs.checkpoint_store import CheckpointStore
     from handeye.runs.folder import EVENTS

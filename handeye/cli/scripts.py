@@ -1,4 +1,4 @@
-"""Commands for scripts and plans: check, compile, list, inspect; nothing moves."""
+"""Commands for scripts and plans: check, compile, list, inspect; nothing is executed."""
 
 import time
 from collections.abc import Callable
@@ -113,7 +113,7 @@ def _files(file: Path) -> list[Path]:
 
 
 def _version(path: Path) -> Version:
-    """Version of a file: changes with its contents, and when an editor replaces the file."""
+    """Identifies the version of a file: it changes when the file is edited or replaced."""
     try:
         status = path.stat()
     except OSError:

@@ -1,4 +1,4 @@
-"""The options that name the worlds of a batch: --seed and --n, or --seeds."""
+"""The options for the worlds of a batch: --seed and --n, or --seeds."""
 
 import re
 from collections import Counter
@@ -41,7 +41,7 @@ def seeds_of(n: int | None, seed: int | None, seeds: str | None, *, usual: int) 
 
 
 def _range(text: str) -> range:
-    """The seeds of a number or a range as typed; raises BadArgument if it is neither."""
+    """The seeds for a number or a range, as typed; raises BadArgument if the text is neither."""
     found = re.fullmatch(f"([0-9]{{1,{LONGEST_NUMBER}}})(?:-([0-9]{{1,{LONGEST_NUMBER}}}))?", text.strip())
     first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
     if last < first:
@@ -60,5 +60,5 @@ def _seeds(first: int, last: int) -> range:
 
 
 def following(seeds: Sequence[int]) -> bool:
-    """Each seed is one more than the previous one."""
+    """True if each seed is one more than the previous one."""
     return all(seed == seeds[0] + k for k, seed in enumerate(seeds))

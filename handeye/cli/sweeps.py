@@ -1,4 +1,4 @@
-"""What sweep commands share: options, progress, the folder, and the summary at the end."""
+"""Parts common to all commands for sweeps: options, progress, the folder, and the summary at the end."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -56,7 +56,7 @@ class SweepOptions:
 
     @property
     def folder(self) -> Path | None:
-        """The folder in which trials are kept."""
+        """The folder in which trials are kept; None if there is none."""
         return None if self.out is None or self.out.suffix.lower() in (".html", ROWS) else self.out
 
     def check(self) -> None:
@@ -101,7 +101,7 @@ def carry_out_sweep(
     exit code.
 
     Args:
-        again: the command that repeats the trial of a row.
+        again: a function that gives the command to repeat the trial of a row.
         more: further fields of the JSON.
     """
     from handeye.trials.figures import figures
@@ -186,14 +186,14 @@ def _tell(
 
 
 def json_of(sweep: "Sweep[Any]", rows: "Sequence[Any]", found: "Figures") -> dict[str, object]:
-    """The figures of a sweep for programs."""
+    """The figures of a sweep, for JSON."""
     from msgspec.structs import asdict
 
     return asdict(found) | {each.name: each.rows for each in sweep.details(rows)} | dict(sweep.more(rows))
 
 
 class _Progress(Tally):
-    """Trials counted and reported as they end."""
+    """Counts and reports trials as they end."""
 
     def __init__(
         self, sweep: "Sweep[Any]", total: int, kept: "list[Any]", timer: HostTimer, *, json: bool
@@ -234,7 +234,9 @@ class _Progress(Tally):
 
 
 def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
-    """A command that runs a sweep without options of its own, `n` trials by default: for a system's entry."""
+    """Make a command that runs a sweep without options of its own, with `n` trials by default, for the entry of a
+    system.
+    """
 
     def command(
         *,

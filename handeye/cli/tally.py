@@ -1,4 +1,4 @@
-"""Progress of a batch on standard error: trials that have ended, and the estimated time left."""
+"""Progress of a batch on standard error: finished trials, and the estimated remaining time."""
 
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -17,7 +17,7 @@ LINES: Final = 20  # Lines told of all trials together where there is no termina
 
 
 class Tally:
-    """A bar on a terminal; elsewhere a line now and then."""
+    """A progress bar on a terminal; without one, an occasional line."""
 
     def __init__(
         self,
@@ -29,7 +29,7 @@ class Tally:
         silent: bool = False,
         kept: int = 0,
     ) -> None:
-        """Count trials, of which `kept` were there from earlier; `silent`: the caller reports each."""
+        """Count `total` trials, of which `kept` are finished already; `silent`: the caller reports each trial."""
         self._silent, self._kept = silent, kept
         self._total, self._what, self._console, self._clock = total, what, console, clock
         self._ended, self._began = kept, clock()
@@ -49,7 +49,7 @@ class Tally:
         self._bar.stop()
 
     def counting(self, trials: Iterable[T], tell: Callable[[T], None] | None = None) -> Iterator[T]:
-        """Trials as they end; each is passed to `tell`, if given, and counted once it has been kept."""
+        """Trials as they end; each is passed to `tell`, if given, and then counted."""
         with self:
             for trial in trials:
                 yield trial
@@ -69,7 +69,7 @@ class Tally:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While something else is printed: hide the bar, if there is one."""
+        """In this context, the bar is hidden so that other output can be printed."""
         self._bar.stop()
         try:
             yield
@@ -85,7 +85,7 @@ class Tally:
 
 
 def duration(seconds: float) -> str:
-    """A duration in words: `about 40 s`, `about 12 min`."""
+    """A duration in words, such as `about 40 s` or `about 12 min`."""
     if seconds < 90:
         return f"about {max(10, round(seconds, -1)):.0f} s"
     return f"about {seconds / 60:.0f} min"

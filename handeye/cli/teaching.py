@@ -1,4 +1,4 @@
-"""Commands for programming by doing: instructions run at once, and the two modes of the arm program."""
+"""Commands for programming by doing: instructions executed at once, and the two modes of the arm program."""
 
 import sys
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ Keep = Annotated[Path | None, Parameter(help="At the end, save the cell to this 
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CellOptions:
-    """The cell to work in, and its faults and taught positions."""
+    """The cell for the work, with its faults and taught positions."""
 
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     fault: Faults = None
@@ -55,7 +55,7 @@ class CellOptions:
         taught: Taught | None,
         observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
     ) -> "Workplace":
-        """The cell; raises InvalidInput if a file, an option or the camera cannot be used."""
+        """Build the workplace; raises InvalidInput if a file, an option or the camera cannot be used."""
         from handeye.execution.servo import Halted
         from handeye.runs.checkpoint_file import read_checkpoint
         from handeye.teaching.workplace import Workplace
@@ -201,7 +201,9 @@ def teacher_of(
     cell: CellOptions,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Teacher":
-    """A cell, and the given taught file, or the one next to a script; raises InvalidInput if either cannot be used."""
+    """A teacher for a cell and a taught file, given directly or as the one next to a script; raises InvalidInput if
+    either cannot be used.
+    """
     from handeye.teaching.teacher import Teacher
 
     path = file if file.suffix == ".toml" else beside(file, ".toml")
@@ -212,21 +214,21 @@ def teacher_of(
 
 
 def left_unsaved(teacher: "Teacher") -> bool:
-    """True if taught names are missing from the file; prints them."""
+    """True if the file lacks taught names, which are then printed."""
     if teacher.unsaved:
         note(f"not saved: {', '.join(teacher.unsaved)}")
     return bool(teacher.unsaved)
 
 
 def _kept(file: Path | None) -> str:
-    """Advice when the program called the operator and there is no one to ask."""
+    """Advice for the case that the program called the operator and no person can be asked."""
     if file is None:
         return "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from it"
     return f"`handeye do --from {file}` continues from there"
 
 
 def _code(failed: "Answer | None") -> int:
-    """The exit code of the first answer that was not a success."""
+    """The exit code for the first answer that was not a success."""
     if failed is None:
         return 0
     if failed.refused:

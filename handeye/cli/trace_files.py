@@ -1,4 +1,4 @@
-"""The file to read the trace of a run from, as far as it exists."""
+"""Finds the file from which the trace of a run can be read."""
 
 from pathlib import Path
 from typing import Annotated, Final
@@ -23,7 +23,7 @@ RunOrEvents = Annotated[
 
 
 def run_or_newest(given: Path | None) -> Path:
-    """The run that was named, else the newest one, which is noted; raises InvalidInput if there is none."""
+    """The named run, else the newest one, with a note; raises InvalidInput if there is none."""
     if given is not None:
         return given
     from handeye.runs.unnamed_runs import newest_runs
@@ -34,7 +34,7 @@ def run_or_newest(given: Path | None) -> Path:
 
 
 def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
-    """Two runs to compare: those that were named; the newest one instead of the second, or the newest two."""
+    """Two runs to compare: the named ones; the newest one if the second is not named; or the newest two."""
     from handeye.runs.unnamed_runs import newest_runs
 
     if a is not None and b is not None:
@@ -47,7 +47,9 @@ def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
 
 
 def trace_file(path: Path) -> Path:
-    """The trace of a run's folder, or its event list; a file itself; raises InvalidInput if the run has not begun."""
+    """The trace in the folder of a run, or the run's event list; a file is returned itself. Raises InvalidInput if
+    the run has not begun.
+    """
     from handeye.runs.folder import EVENTS, TRACE, check_holds_run
     from handeye.trace.recorder import part
 
@@ -66,7 +68,7 @@ def trace_file(path: Path) -> Path:
 
 
 def motion_file(path: Path) -> Path:
-    """The same for a caller that needs positions; raises InvalidInput if there is only an event list."""
+    """Like `trace_file`, for a caller that needs positions; raises InvalidInput if there is only an event list."""
     file = trace_file(path)
     if file.suffix == ".jsonl":
         raise Refused(f"{file} is an event list, which holds no positions; use the trace.mcap")

@@ -147,7 +147,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
 
 
 def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
-    """The trace in a file or folder, and the events that count."""
+    """The trace in a file or folder, and the events that were not undone."""
     from handeye.trace.eventlist import effective, read_events
     from handeye.trace.reading import read_trace
 

@@ -54,7 +54,7 @@ class AttemptOptions:
     camera: Camera = "auto"
 
     def carry_out(self, name: str, count: int, options: SweepOptions) -> int:
-        """Run `count` trials of the task; raises NoSuchName if it has none of that name."""
+        """Run `count` trials of the task; raises NoSuchName if the task has no trial with that name."""
         from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
         from handeye.trials.folder import head_of
 
@@ -158,7 +158,7 @@ def disturbed_trials(
 
 
 def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[Disturbance]":
-    """The disturbances of some names; all if there are no names."""
+    """The disturbances with these names; all disturbances if no names are given."""
     names = [each.name for each in known]
     if not names:
         raise Refused("this task has no disturbances")
@@ -247,7 +247,7 @@ def _folder(named: Path | None) -> Iterator[Path]:
 
 
 def _own_setup(words: str | None, camera: str) -> Setup:
-    """A run of a task by its own plan, in any system; its world is still open."""
+    """A run of a task by its own plan, with the world still to be chosen."""
     work = any_task(DEFAULT) if words is None else named(words)
     if isinstance(work, Task):
         return Setup(plan=plan_or_own(None, words), world=WorldSpec(seed=0), camera=camera)
@@ -258,7 +258,7 @@ def _own_setup(words: str | None, camera: str) -> Setup:
 
 
 def _drawn(setup: Setup, folder: Path, seed: int, count: int, worlds: int, jobs: int) -> "list[Schedule]":
-    """Schedules, once the runs that they start from exist."""
+    """Draw schedules, after executing the fault-free runs from which they start."""
     from handeye.trials.chaos import trials
     from handeye.trials.sound_run import sound_runs
 

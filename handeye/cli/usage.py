@@ -1,4 +1,4 @@
-"""One sentence for each kind of mistake in a command line, from the facts of the parser."""
+"""One sentence for each kind of mistake in a command line, from the data of the parser."""
 
 from collections.abc import Iterable
 from typing import Final, Literal, get_args, get_origin
@@ -25,7 +25,7 @@ FORMER: Final = {
     "--svg": ("--out", "--out, or -o, names every file or folder that is written"),
     "--height": ("--size", "--size gives both, as 1280x960"),
 }
-"""Options of earlier versions: the one that does the same today, and a sentence on it."""
+"""Options of earlier versions, each with its present name and a sentence about it."""
 
 
 def usage_sentence(error: CycloptsError) -> str:
@@ -63,7 +63,7 @@ def _fault(error: CycloptsError, command: str) -> str:
 
 
 def _options(error: CycloptsError) -> set[str]:
-    """The options of the command in question."""
+    """The options of the command concerned."""
     if error.app is None or error.app.default_command is None:
         return set()
     return {name for each in error.app.assemble_argument_collection() for name in each.names}

@@ -1,4 +1,4 @@
-"""Command that makes a video of a run."""
+"""The command that makes a video of a run."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -102,7 +102,7 @@ def _trace(run: Path) -> "Trace":
 
 @contextmanager
 def drawing() -> Iterator["Progress"]:
-    """Shows how many frames have been drawn: as a bar, or without a terminal as a line now and then."""
+    """In this context, the number of drawn frames is shown: as a bar or, without a terminal, as an occasional line."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("drawing"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())

@@ -1,4 +1,4 @@
-"""Command that shows the cell in a browser: a live run, or a recorded one."""
+"""The command that shows a cell in a browser: a live run, or a recorded one."""
 
 from pathlib import Path
 from threading import Event
@@ -86,7 +86,9 @@ def view(
 
 
 def _play(run: Path, port: int) -> int:
-    """Show the report of a run until Ctrl-C; raises InvalidInput if there is no such run, or the port cannot be had."""
+    """Show the report of a run until Ctrl-C; raises InvalidInput if there is no such run, or the port is
+    unavailable.
+    """
     from handeye.view.link import Link
     from handeye.view.server import Server
 
@@ -102,7 +104,7 @@ def _play(run: Path, port: int) -> int:
 
 
 def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: CameraKind) -> int:
-    """Let positions be taught in a browser; raises InvalidInput if a file, an option or the port cannot be used."""
+    """Serve a page for teaching positions; raises InvalidInput if a file, an option or the port cannot be used."""
     from handeye.debugger.live import Pace
     from handeye.teaching.teach_commands import TeachSession
     from handeye.view.link import Link

@@ -76,11 +76,11 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """The same for the task recorded in a plan or run, which never causes a module to be imported."""
+        """The same options for the task recorded in a plan or run; no task module is imported for it."""
         return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
-        """The world of a seed with these errors; raises InvalidInput if there is no such seed, name, unit or value."""
+        """The world of a seed with these errors; raises InvalidInput if a seed, name, unit or value is invalid."""
         checked_seed(seed)
         off = self._names()
         if "" in off:
@@ -98,7 +98,7 @@ class ErrorOptions:
         return spec
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """The errors alone, and the senses and macros that the program is to do without, each once."""
+        """The error options alone, and the senses and macros to be switched off in the program, each once."""
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
         errors = [name for name in names if name not in spared]
@@ -108,7 +108,7 @@ class ErrorOptions:
         return [name.strip() for names in self.without or () for name in names.split(",")]
 
     def words(self) -> list[str]:
-        """The options as they would be typed."""
+        """The options as they are typed."""
         task = [] if self.task is None else option(self.task) or ("--task", self.task)
         level = [] if self.level == "nominal" else ["--level", self.level]
         without = [word for names in self.without or () for word in ("--without", names)]
@@ -124,7 +124,7 @@ class ErrorOptions:
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OwnErrorOptions(ErrorOptions):
-    """The same for commands with a fixed task."""
+    """The error options for commands with a fixed task."""
 
     task: Annotated[str | None, Parameter(parse=False)] = None
 
@@ -132,7 +132,7 @@ class OwnErrorOptions(ErrorOptions):
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldOptions:
-    """A world, or the first of several."""
+    """A world, or the first of several worlds."""
 
     seed: Annotated[
         int | None,
@@ -146,7 +146,7 @@ class WorldOptions:
 
     @property
     def task(self) -> str | None:
-        """The task as given; None if it was not."""
+        """The task as given; None if the option was left out."""
         return self.errors.task
 
     @property
@@ -160,21 +160,21 @@ class WorldOptions:
         return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
 
     def of(self, name: str) -> Self:
-        """The same for the task of a name."""
+        """The same options for the task with a name."""
         return replace(self, errors=self.errors.of(name))
 
     @property
     def spec(self) -> WorldSpec:
-        """The world; raises InvalidInput if there is no such seed, name, unit or value."""
+        """The world; raises InvalidInput if a seed, name, unit or value is invalid."""
         return self.errors.spec(self.seed or 0)
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """The world, and the senses and macros that the program is to do without in it."""
+        """The world options alone, and the senses and macros to be switched off in the program."""
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared
 
     def words(self) -> list[str]:
-        """The options as they would be typed."""
+        """The options as they are typed."""
         return ["--seed", str(self.seed or 0), *self.errors.words()]
 
 
@@ -184,7 +184,7 @@ def broken(
     """A world of a task with faults; raises InvalidInput if there is no such fault, value or stage.
 
     Args:
-        listing: lists the stages at which faults may begin; None: there are none.
+        listing: the program's stages, at which faults may begin; None: faults cannot begin at stages.
     """
     if not options:
         return world
@@ -194,7 +194,7 @@ def broken(
 
 
 def stage_of(listing: "Listing") -> StageNumber:
-    """A function from a stage of a program, as written, to its number."""
+    """A function that converts the name of a stage, as written, to the stage's number."""
     from handeye.debugger.breakpoints import stage_number
 
     return lambda text: stage_number(text, listing) + 1

@@ -1,4 +1,4 @@
-"""Commands that show a world, its quantities or a picture of it, and options of photographs."""
+"""Commands that show a world: its quantities, or a picture of its cell; and the options for photographs."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Final, Literal
@@ -31,7 +31,7 @@ _GROUP: Final = Group("Fine photographs", sort_key=2)
 @Parameter(name="*", group=_GROUP)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FineOptions:
-    """Options of a fine photograph."""
+    """Options for a fine photograph."""
 
     fine: Annotated[
         bool,
@@ -52,8 +52,8 @@ class FineOptions:
     ] = None
 
     def take(self, posed: "Posed", camera: str, width: int, height: int) -> "Photograph":
-        """The photograph, and its progress on the terminal; raises InvalidInput if the camera does not exist or the
-        size is not possible.
+        """Take the photograph, and show the progress on the terminal; raises InvalidInput if the camera does not
+        exist, or the size is impossible.
         """
         from handeye.cell.exposures import exposing, photographed
 
