@@ -78,7 +78,7 @@ def test_as_json_the_referee_tells_how_far_each_part_is_from_where_it_was(
     code, out, _ = command("dismantle", str(taken), "--json")
     told = json.loads(out)
     assert (code, told["apart"], told["assembled"], told["completed"]) == (0, True, None, True)
-    assert told["message"] == "the arm has undone what it was asked to undo"
+    assert told["message"] == "the arm has undone all the steps that it was asked to undo"
     assert told["referee"]["pins"]["value"] < 0.5
     assert {stage["status"] for stage in told["stages"]} == {"undone"}
 

@@ -126,8 +126,8 @@ def test_python_is_told_its_own_word_for_replacing_one(kept: Path) -> None:
     [
         ({"first": True}, "a stage is given by its number or its name, not True"),
         ({"camera": 3}, "a camera is given by its name, not 3"),
-        ({"seconds": "14"}, "a video takes up to 600 s, and not 14 s"),
-        ({"width": 64.5}, "a video of 64.5 x 360 cannot be made; a side has 8 to 2048 pixels"),
+        ({"seconds": "14"}, "the length of a video must be more than 0 and at most 600 s, not 14 s"),
+        ({"width": 64.5}, "a video of 64.5 x 360 cannot be made; each side must have 8 to 2048 pixels"),
         ({"path": 7}, "a video is written to a file that ends in .webp, .webm or .mp4, not 7"),
     ],
 )
@@ -139,11 +139,16 @@ def test_a_wrong_argument_is_told_in_a_sentence(kept: Path, wrong: dict[str, Any
 
 REFUSALS = {
     ("--size", "480"): "`480` is not a size; write it as 480x360",
-    ("--size", "4x4"): "a video of 4 x 4 cannot be made; a side has 8 to 2048 pixels",
-    ("--seconds", "0"): "a video takes up to 600 s, and not 0.0 s",
-    ("--speed", "nan"): "a video is some times as fast as the run, and not nan times",
-    ("--speed", "2", "--seconds", "2"): "a video has a length or a speed; the other follows",
-    ("--speed", "1e-9"): "at 1e-09 times the speed of the run the video would take ",
+    ("--size", "4x4"): "a video of 4 x 4 cannot be made; each side must have 8 to 2048 pixels",
+    ("--seconds", "0"): "the length of a video must be more than 0 and at most 600 s, not 0.0 s",
+    ("--speed", "nan"): "the speed of a video must be more than 0 times the speed of the run, not nan",
+    (
+        "--speed",
+        "2",
+        "--seconds",
+        "2",
+    ): "give either the length or the speed of a video: each follows from the other",
+    ("--speed", "1e-9"): "at 1e-09 times the speed of the run, the video would take ",
     ("--camera", "nowhere"): "no camera nowhere; there are orbit, follow, tv, studio, pump, work, belt",
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",

@@ -243,8 +243,8 @@ def test_a_run_records_its_world_and_goes_on_in_it(command: Command, half_run: P
 @pytest.mark.slow
 def test_checkpoints_of_two_worlds_do_not_mix(command: Command, half_run: Path) -> None:
     code, _, err = command("run", "job.plan.json", "--seed", "3", "--stage", "2", "--checkpoints", "half")
-    told = "is of another run (seed 3, level high, without base.x, camera, part_mass set, unsourced scaled by 0.5, "
-    told += "camera auto) than this "
+    told = "belongs to another run (seed 3, level high, without base.x, camera, part_mass set, unsourced scaled by "
+    told += "0.5, camera auto), not to this run "
     assert (code, told in err.replace("\n", " ")) == (2, True)
 
 

@@ -93,7 +93,7 @@ def _turn(found: Comparison, way: Course) -> Iterator[Markup]:
         return
     turnings = found.parted.a, found.parted.b
     here, there = (None if turning is None else turning.place for turning in turnings)
-    yield element("p", "They diverge at ", _link(way, here, there, place_words(found.parted.place)), ".")
+    yield element("p", "The runs diverge at ", _link(way, here, there, place_words(found.parted.place)), ".")
     for letter, turning in zip(_BOTH, turnings, strict=True):
         yield element("p", element("b", letter), " ", turning_words(turning))
 
@@ -138,8 +138,8 @@ def view(way: Course, lacking: str, opening: float = 0.0) -> Iterator[Markup]:
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     yield element("div", play, slider, speed, views, id="controls", class_="controls", hidden=True)
     yield note(
-        "The runs are aligned step by step. Where one took longer over a step, or did a step that the other did not, "
-        "the other waits."
+        "The runs are aligned step by step. Where one run took longer over a step, or did a step that the other run "
+        "did not do, the view of the other run waits."
     )
 
 

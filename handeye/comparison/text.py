@@ -142,7 +142,10 @@ def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
     """
     for each in differing:
         if each.what == "plan":
-            yield "The plans differ: the runs are compared where they do the same steps. `handeye diff` compares plans."
+            yield (
+                "The plans differ, so the runs are compared only in the steps that both do. `handeye diff` compares "
+                "plans."
+            )
         else:
             yield f"{each.what}: {each.a} in A, {each.b} in B"
 

@@ -27,7 +27,10 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
         yield f"the run began with other versions of {', '.join(changed)}; the result may differ"
     referee = runner.setup.replaced.get("referee")
     if judged and referee is not None:
-        yield f"the run began with another referee, `{referee}`, which is not in a file; the task's own judges it"
+        yield (
+            f"the run began with its caller's own referee, `{referee}`, which is not in a file; the referee of the "
+            "task judges it"
+        )
 
 
 def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
@@ -36,7 +39,8 @@ def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:
         yield (
-            f"the trace in {folder.path} was lost or damaged: it does not hold the motions before {runner.time:.2f} s"
+            f"the trace in {folder.path} was lost or damaged: it does not contain the motions before "
+            f"{runner.time:.2f} s"
         )
     if folder.journal_lost:
         yield (

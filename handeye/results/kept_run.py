@@ -108,7 +108,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     listing = kind.listing(plan)
     stages = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not stages <= set(listing.stages):
-        raise BadFile(f"{path / EVENTS} has stages that the plan next to it does not have")
+        raise BadFile(f"{path / EVENTS} has stages that are not in the plan next to it")
     host, unread = _host(path)
     checkpoint, damaged = CheckpointStore(path / CHECKPOINTS).newest()
     state = None if checkpoint is None or checkpoint.snapshot is None else checkpoint.snapshot.state

@@ -15,7 +15,11 @@ def pause_sentence(pause: Pause) -> str:
     if pause.kind == "panic":
         return f"stopped by the panic button{' while going back' if pause.back else ''}; the brakes are set"
     if pause.kind == "end":
-        return "the arm has undone what it was asked to undo" if pause.undone else "the program finished"
+        return (
+            "the arm has undone all the steps that it was asked to undo"
+            if pause.undone
+            else "the program finished"
+        )
     return call_sentence(pause.message, pause.error, pause.cause)
 
 

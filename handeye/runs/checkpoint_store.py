@@ -65,17 +65,17 @@ class CheckpointStore:
         newest = next((path for path, _ in self.heads()), None)
         for path, head in self.heads():
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
-                raise BadFile(f"{path} is of another plan ({head.program}, {head.plan})")
+                raise BadFile(f"{path} belongs to another plan ({head.program}, {head.plan})")
             if path == newest and not same_plan(read_checkpoint(path).setup, setup):
-                raise BadFile(f"{path} is of another plan of this script, with other motions")
+                raise BadFile(f"{path} belongs to another plan of this script, with other motions")
             if (head.world, head.camera) != (setup.world, setup.camera):
                 raise BadFile(
-                    f"{path} is of another run ({head.world}, camera {head.camera}) than this "
+                    f"{path} belongs to another run ({head.world}, camera {head.camera}), not to this run "
                     f"({setup.world}, camera {setup.camera}); choose another folder"
                 )
             if deciding(head.replaced or {}) != deciding(setup.replaced):
                 raise BadFile(
-                    f"{path} is of a run with other parts ({named(head.replaced or {})}) than this "
+                    f"{path} belongs to a run with other parts ({named(head.replaced or {})}) than this run "
                     f"({named(setup.replaced)}); choose another folder"
                 )
 
@@ -86,7 +86,8 @@ class CheckpointStore:
             raise CannotWrite(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
         if any(head.touched for path, head in self.heads() if _position(path) >= 0):
             raise CannotWrite(
-                f"{self.folder} is of a run with interventions by a person, which would be lost; choose another folder"
+                f"{self.folder} belongs to a run with interventions by a person, which would be lost; choose "
+                "another folder"
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:

@@ -229,7 +229,7 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False, unnamed:
         for place in inner:
             place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise CannotWrite(f"{path} cannot be made: {error.strerror}") from None
+        raise CannotWrite(f"the folder {path} cannot be created: {error.strerror}") from None
     if not all(os.access(place, os.W_OK) for place in (path, *inner)):
         raise CannotWrite(f"{path} cannot be written to")
     if not unnamed:
@@ -289,7 +289,7 @@ def _check_plan(path: Path, setup: Setup) -> None:
         return
     plan = system_of(setup).decode(read_whole(beside), str(beside))
     if not same_plan(msgspec.structs.replace(setup, plan=plan), setup):
-        raise BadFile(f"the runs in {path} are of another plan, according to {beside}")
+        raise BadFile(f"the runs in {path} belong to another plan, according to {beside}")
 
 
 def _holds_run(path: Path) -> bool:

@@ -38,8 +38,8 @@ class Parts:
             was, now = begun.get(part), here.get(part)
             if was is not None and now is None:
                 raise Refused(
-                    f"the run has a {part} of its own, `{was}`, which is code and not in a file; in Python, pass it "
-                    f"to `handeye.begin` as {part}=..."
+                    f"the run uses its caller's own {part}, `{was}`, which is code and not in a file; in Python, "
+                    f"pass it to `handeye.begin` as {part}=..."
                 )
             if was != now:
                 before = "handeye's own" if was is None else f"`{was}`"

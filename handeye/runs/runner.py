@@ -52,7 +52,9 @@ RECENT: Final = 400  # steps whose states are kept in memory; of older ones thos
 
 def reach(first: int) -> str:
     """A sentence on how far a run can go back if its earliest state has `first` steps done."""
-    return f"this run begins with {counted(first, 'step')} done: there is nothing before that"
+    return (
+        f"this run begins with {counted(first, 'step')} already done: there is no earlier state to go back to"
+    )
 
 
 class Runner:
@@ -163,7 +165,7 @@ class Runner:
     def cell(self) -> SnapshotCell:
         """The simulated cell; raises Refused if the system has none."""
         if self.system.cell is None:
-            raise Refused(f"the system {self.setup.system} acts on no cell")
+            raise Refused(f"the system {self.setup.system} has no work cell")
         return self.system.cell
 
     @property

@@ -84,7 +84,7 @@ def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> 
     runner.repeat(happened)
     if runner.events[: len(happened)] != list(happened):
         raise Refused(
-            f"what {name} did since its newest checkpoint gives a different result here: `handeye resume {name}` "
-            f"continues from that checkpoint"
+            f"the steps of {name} after its newest checkpoint give a different result here; `handeye resume "
+            f"{name}` continues from that checkpoint"
         )
     return runner.checkpoint()

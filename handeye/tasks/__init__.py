@@ -49,7 +49,7 @@ def register(task: AnyTask) -> None:
         raise BadArgument(f"a task is an instance of a class derived from handeye.Task, not {task!r}")
     name = getattr(task, "name", None)
     if not isinstance(name, str) or not name.strip():
-        raise BadArgument(f"a task needs a name, which is a text; {name!r} is none")
+        raise BadArgument(f"a task needs a text as its name, not {name!r}")
     if name in _ours() or _REGISTERED.get(name, task) is not task:
         raise BadArgument(f"there is already a task called {quoted(name)}")
     if isinstance(task, Task):

@@ -70,7 +70,7 @@ def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
     """Make the arrays from messages about the hand, one per servo period; raises ValueError if some are missing."""
     told = [read_hand(message.data) for message in messages]
     if len(told) != len(times):
-        raise ValueError("the number of servo periods and of hand forces differ")
+        raise ValueError("the number of servo periods and the number of hand forces differ")
     first = [message.guards[0] if message.guards else None for message in told]
     guard = np.array(["" if one is None else one.guard.value for one in first], dtype="<U7")
     force, moment = _vectors(message.force for message in told), _vectors(message.moment for message in told)

@@ -91,7 +91,7 @@ def write_thinned(trace: Trace, path: Path) -> int:
     if trace.thinned:
         raise Refused(f"{trace.name} is already thinned")
     if not len(trace.times):
-        raise Refused(f"{trace.name} holds no motion to thin")
+        raise Refused(f"{trace.name} contains no motion to thin")
     kept = kept_periods(trace)
     file = GrowingFile(path.with_name(f".{path.name}.new"))
     try:

@@ -268,7 +268,7 @@ class Trace:
             InvalidInput: nothing was recorded between the events.
         """
         if not len(self.times):
-            raise Refused(f"{self.name} holds no motion to show")
+            raise Refused(f"{self.name} contains no motion to show")
         return self.begins, max(float(self.times[-1]), self.events[-1].time)
 
     def _read(self, make: Callable[[Iterator[RawMessage]], Read]) -> Read:

@@ -310,8 +310,9 @@ INSERTION: Final = Sweep(
     noun="insertion",
     details=_details,
     summary=lambda _: [
-        "Holes: clearance in diameter, chamfer, standard deviation of the position along each axis. Peak: true force "
-        "between pin and plate at any physics step; felt: as measured by the hand. Times are simulated."
+        "A hole is given by its clearance in diameter, its chamfer, and the standard deviation of its position "
+        "along each axis. The peak is the greatest true force between pin and plate in any physics step; felt is "
+        "the greatest force that the hand measured. Times are simulated."
     ],
     shared_worlds=True,
 )

@@ -125,7 +125,7 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
         if answer.value is None:
             raise WorkerLost(
                 f"the process of a trial was killed {counted(answer.killed, 'time')}, probably for lack of memory: "
-                f"run fewer at a time"
+                "run fewer trials at the same time (--jobs)"
             )
         yield answer.value
 

@@ -94,7 +94,7 @@ def _writer(path: Path, width: int, height: int) -> cv2.VideoWriter:
             str(path), cv2.CAP_FFMPEG, cv2.VideoWriter.fourcc(*"VP80"), RATE, (width, height)
         )
     if not writer.isOpened():
-        raise Refused("OpenCV on this machine cannot write WebM; make a .webp")
+        raise Refused("OpenCV on this machine cannot write WebM; choose a name that ends in .webp")
     return writer
 
 
@@ -160,7 +160,7 @@ class Format:
         if self.largest is not None and frames * width * height * 3 > self.largest:
             raise BadArgument(
                 f"{frames} frames of {width} x {height} are too many for a {self.kind.name}, "
-                "which is built in memory; make a .webm, or a shorter or smaller one"
+                "which is built in memory; make a .webm, or a shorter or smaller video"
             )
 
 
@@ -197,5 +197,5 @@ FORMATS: Final = {
 REFUSED: Final = {
     (".gif",): "a GIF would be seven times as large, with only 256 colours",
     (".png", ".apng"): "an animated PNG would be twenty times as large",
-    (".m4v", ".mov"): "that is H.264 in another wrapping",
+    (".m4v", ".mov"): "this format is H.264 in another container",
 }

@@ -44,7 +44,7 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
         if end in pictures:
             found.append(Passage(begin=end, end=end, stage=stage, looked_at=pictures[end]))
     if not found:
-        raise Refused(f"{trace.name} has no motion in what the video is to show")
+        raise Refused(f"{trace.name} has no motion in the part that the video would show")
     return tuple(found)
 
 

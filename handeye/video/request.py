@@ -32,14 +32,19 @@ class VideoRequest:
         sides = [whole(side) for side in (self.width, self.height)]
         if not all(side is not None and SMALLEST <= side <= LARGEST for side in sides):
             raise BadArgument(
-                f"a video of {self.width} x {self.height} cannot be made; a side has {SMALLEST} to {LARGEST} pixels"
+                f"a video of {self.width} x {self.height} cannot be made; each side must have {SMALLEST} to "
+                f"{LARGEST} pixels"
             )
         if self.seconds is not None and self.speed is not None:
-            raise BadArgument("a video has a length or a speed; the other follows")
+            raise BadArgument("give either the length or the speed of a video: each follows from the other")
         if self.seconds is not None and not (_is_number(self.seconds) and 0 < self.seconds <= LONGEST):
-            raise BadArgument(f"a video takes up to {LONGEST:g} s, and not {self.seconds} s")
+            raise BadArgument(
+                f"the length of a video must be more than 0 and at most {LONGEST:g} s, not {self.seconds} s"
+            )
         if self.speed is not None and not (_is_number(self.speed) and self.speed > 0):
-            raise BadArgument(f"a video is some times as fast as the run, and not {self.speed} times as fast")
+            raise BadArgument(
+                f"the speed of a video must be more than 0 times the speed of the run, not {self.speed}"
+            )
         for stage in (self.first, self.last):
             if isinstance(stage, bool) or not isinstance(stage, str | int | None):
                 raise BadArgument(f"a stage is given by its number or its name, not {stage!r}")

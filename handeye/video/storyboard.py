@@ -202,8 +202,8 @@ def _paced(shown: tuple[Passage, ...], wanted: VideoRequest) -> tuple[Array, int
     lasts = at_speed(shown, wanted.speed)
     if lasts.sum() > LONGEST:
         raise BadArgument(
-            f"at {wanted.speed:g} times the speed of the run the video would take {lasts.sum():.0f} s; "
-            f"it may take {LONGEST:g} s"
+            f"at {wanted.speed:g} times the speed of the run, the video would take {lasts.sum():.0f} s; the limit "
+            f"is {LONGEST:g} s"
         )
     return lasts, round(min(share * lasts.sum(), most) * RATE)
 

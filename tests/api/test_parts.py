@@ -94,7 +94,7 @@ def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        (None, r"^the run has a search of its own, `.*\.row`, which is code and not in a file; "),
+        (None, r"^the run uses its caller's own search, `.*\.row`, which is code and not in a file; "),
         (column, r"^the run began with `.*\.row` as its search, but `.*\.column` was given$"),
     ],
 )
@@ -119,13 +119,13 @@ def test_a_run_with_code_of_its_own_is_shown_with_how_python_goes_on_with_it(
 
 
 def test_a_run_that_is_not_taken_up_leaves_no_folder(searched: handeye.Run, tmp_path: Path) -> None:
-    with pytest.raises(InvalidInput, match=r"^the run has a search of its own, "):
+    with pytest.raises(InvalidInput, match=r"^the run uses its caller's own search, "):
         handeye.begin(searched.out, out=tmp_path / "again")
     assert [*tmp_path.iterdir()] == []
 
 
 def test_a_run_with_code_of_its_own_is_not_verified(searched: handeye.Run, tmp_path: Path) -> None:
-    with pytest.raises(InvalidInput, match=r"^the run has a search of its own, "):
+    with pytest.raises(InvalidInput, match=r"^the run uses its caller's own search, "):
         difference(searched.trace, tmp_path / "again")
 
 

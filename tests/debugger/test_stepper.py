@@ -426,7 +426,7 @@ def test_an_experiment_is_something_that_was_done(stepper: Stepper) -> None:
 def test_a_run_that_begins_at_a_checkpoint_says_so_to_those_who_go_back_behind_it(runner: Runner) -> None:
     Stepper(runner).do("until 14")
     again = Stepper(Runner(runner.checkpoint()))
-    reach = "this run begins with 7 steps done: there is nothing before that"
+    reach = "this run begins with 7 steps already done: there is no earlier state to go back to"
     assert [again.do(text).error for text in ("b", "bs", "b 1000")] == [reach] * 3
     again.do("s 2")
     assert [again.do(text).error for text in ("b 3", "b 2")] == [reach, None]
@@ -441,7 +441,10 @@ def test_going_back_behind_the_beginning_of_a_run_uses_earlier_checkpoints(
     stepper.do("until 14")
     again = Stepper(Runner(runner.checkpoint()), kept=folder.at_or_before)
     assert [again.do(text).position for text in ("bs", "s 3", "b 2")] == [2, 5, 3]
-    assert again.do("b 3").error == "this run begins with 2 steps done: there is nothing before that"
+    assert (
+        again.do("b 3").error
+        == "this run begins with 2 steps already done: there is no earlier state to go back to"
+    )
     again.do("c")
     assert history(again.session.runner.events) == whole
 

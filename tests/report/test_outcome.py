@@ -115,7 +115,7 @@ def test_work_that_is_not_right_leads_with_what_is_wrong(run: RecordedRun) -> No
     came = result(completed=True, assembled=False, checks={"gap": WRONG})
     head = tree(page_of(ending(run, DONE, came))).all("header")[0]
     assert head.all("h1")[0].text == "The program reported success, but the pump is not right."
-    assert reasons(head) == ["Gap under a head: 5 mm; right is at most 0.2 mm."]
+    assert reasons(head) == ["Gap under a head: 5 mm; allowed: at most 0.2 mm."]
 
 
 def test_the_panic_button_is_told_where_it_was_hit(run: RecordedRun) -> None:

@@ -159,7 +159,7 @@ DAMAGE: dict[str, tuple[str, Damage]] = {
     "deep events": ("is not an event", lambda run: (run / EVENTS).write_bytes(b"[" * 90_000 + b"\n")),
     "no start": ("without the start of a run", lambda run: (run / EVENTS).write_bytes(
         (run / EVENTS).read_bytes().partition(b"\n")[2])),
-    "other stages": ("stages that the plan next to it does not have", lambda run: (run / EVENTS).write_bytes(
+    "other stages": ("stages that are not in the plan next to it", lambda run: (run / EVENTS).write_bytes(
         (run / EVENTS).read_bytes().replace(b'"stage":"count"', b'"stage":"moon"'))),
     "a damaged result": ("is not the result of a run", lambda run: (run / RESULT).write_bytes(b"{}")),
     "no result at all": ("is not the result of a run", lambda run: (run / RESULT).write_bytes(b"[" * 90_000)),

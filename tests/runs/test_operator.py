@@ -334,7 +334,9 @@ def test_going_back_behind_what_was_kept_is_told_and_asked_for_again(runner: Run
     pause = attend(Runner(runner.checkpoint()), talk.operator)
     assert pause.kind == "operator"
     assert (
-        talk.said[1].splitlines()[1] == "    this run begins with 9 steps done: there is nothing before that"
+        talk.said[1].splitlines()[1]
+        == "    this run begins with 9 steps already done: there is no earlier state "
+        "to go back to"
     )
 
 

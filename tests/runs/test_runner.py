@@ -88,7 +88,8 @@ def test_going_back_behind_all_that_was_kept_is_refused() -> None:
         runner.step()
     late = Runner(runner.checkpoint())
     with pytest.raises(
-        InvalidInput, match=r"^this run begins with 3 steps done: there is nothing before that$"
+        InvalidInput,
+        match=r"^this run begins with 3 steps already done: there is no earlier state to go back to$",
     ):
         late.back_to(1)
     assert late.position == 3
@@ -215,7 +216,8 @@ def test_a_refused_way_back_leaves_the_run_as_it_was() -> None:
     runner.step()
     late = Runner(runner.checkpoint())
     with pytest.raises(
-        InvalidInput, match=r"^this run begins with 1 step done: there is nothing before that$"
+        InvalidInput,
+        match=r"^this run begins with 1 step already done: there is no earlier state to go back to$",
     ):
         late.back_to(0)
     assert history(through(late).events) == history(through(runner).events)

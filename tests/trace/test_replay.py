@@ -70,5 +70,5 @@ def test_a_time_outside_the_run_is_refused(trace: Trace, time: float) -> None:
 
 def test_a_trace_without_motion_is_refused(tmp_path: Path) -> None:
     Recording(tmp_path / "short.mcap").begin().play(last=2).close()
-    with pytest.raises(InvalidInput, match=r"short\.mcap holds no motion to show$"):
+    with pytest.raises(InvalidInput, match=r"short\.mcap contains no motion to show$"):
         read_trace(tmp_path / "short.mcap").at(0.0)

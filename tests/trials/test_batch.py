@@ -453,7 +453,9 @@ def test_batches_of_other_worlds_or_other_work_are_not_compared() -> None:
     rows = carry_out(cases(5, range(2)), Canned())
     head, other = TRIAL.head(ASSEMBLY), TRIAL.head(DISMANTLING)
     drawn = msgspec.structs.replace(head, world=msgspec.structs.replace(WORLD, drawing=WORLD.drawing - 1))
-    with pytest.raises(InvalidInput, match=r"^other comes from another version, whose seeds give "):
+    with pytest.raises(
+        InvalidInput, match=r"^other comes from another version of handeye, whose seeds give "
+    ):
         paired(["first", "other"], [(head, rows), (drawn, rows)])
     with pytest.raises(InvalidInput, match=r"^other holds trials of another kind"):
         paired(["first", "other"], [(head, rows), (other, rows)])

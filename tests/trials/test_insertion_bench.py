@@ -265,9 +265,9 @@ def test_what_has_ended_is_told_when_it_is_broken_off(
     [
         (("--n", "0"), "the number of trials must be at least 1"),
         (("--jobs", "0"), "the number of processes must be at least 1"),
-        (("--clearance", "2"), "0.05 to 1 mm"),
-        (("--sd", "-1"), "0 to 5 mm"),
-        (("--sd", "nan"), "0 to 5 mm"),
+        (("--clearance", "2"), "between 0.05 and 1 mm"),
+        (("--sd", "-1"), "between 0 and 5 mm"),
+        (("--sd", "nan"), "between 0 and 5 mm"),
         (("--seed", "-1"), "from 0 to"),
     ],
 )

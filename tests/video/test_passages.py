@@ -67,7 +67,9 @@ def test_a_picture_taken_as_a_stage_ends_is_of_that_stage(trace: Trace, begun: f
 
 
 def test_where_nothing_was_recorded_there_is_nothing_to_show(trace: Trace) -> None:
-    with pytest.raises(InvalidInput, match=r"^.*short\.mcap has no motion in what the video is to show$"):
+    with pytest.raises(
+        InvalidInput, match=r"^.*short\.mcap has no motion in the part that the video would show$"
+    ):
         passages(trace, (10.5, 10.5), looks=False)
 
 

@@ -73,7 +73,7 @@ def test_options_of_a_run_do_not_go_with_one_that_was_carried_out(
 
 def test_the_demo_takes_no_plan(command: Command) -> None:
     code, _, err = command("view", "--demo", "kept")
-    assert (code, "give a plan or --demo" in err) == (2, True)
+    assert (code, "give either a plan or --demo" in err) == (2, True)
 
 
 def test_a_port_in_use_is_told(command: Command) -> None:

@@ -24,8 +24,8 @@ class How(StrEnum):
 
     RECORDED = ""
     THINNED = (
-        f" This trace is thinned: the curves are within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} N m "
-        "of the recorded ones, and keep the maximum."
+        f" This trace is thinned: the curves are within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} "
+        "N m of the recorded ones, and keep the maximum."
     )
 
 
@@ -52,7 +52,8 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
     yield note(
         f"{counted(len(motions), 'guarded motion')}, of which a guard stopped {met}. Each curve is the guarded "
         "quantity: the force of the hand along an axis, a moment, or the torque of the screwdriver. The dashed line "
-        f"is the limit; the dot is where the guard tripped and ended the motion.{how} Click a figure to see its moment."
+        f"is the limit; the dot is where the guard tripped and ended the motion.{how} Click a figure to show that "
+        "moment of the run."
     )
     stages = [(stage, list(those)) for stage, those in groupby(motions, lambda motion: motion.stage)]
     for number, (stage, those) in enumerate(stages):
@@ -91,7 +92,7 @@ def _said(motion: GuardedMotion) -> str:
         return f"{_short(motion.guard, motion.trip.value)}; guard {limit}"
     known = motion.values[np.isfinite(motion.values)]
     most = _short(motion.guard, float(known.max())) if len(known) else "no estimate"
-    return f"not stopped: {most} at most; guard {limit}"
+    return f"not stopped: maximum {most}; guard {limit}"
 
 
 def _drawn(motion: GuardedMotion) -> Markup:

@@ -36,10 +36,10 @@ _CLASSES: Final = {
     EndReason.CARRIED: "carried",
 }
 _MEANING: Final = {
-    EndReason.PLANNED: "ended as planned",
-    EndReason.MOVED: "its goal was moved by earlier measurements",
-    EndReason.GUARD: "a guard ended it",
-    EndReason.CARRIED: "began off its plan, and stayed off",
+    EndReason.PLANNED: "the motion ended as planned",
+    EndReason.MOVED: "earlier measurements had moved its goal",
+    EndReason.GUARD: "a guard stopped it",
+    EndReason.CARRIED: "it began away from the planned start, and ended away from the planned end",
 }
 _DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)  # mm
 
@@ -65,8 +65,9 @@ def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Iterator[Markup
         yield note("No motion of this run ended.")
         return
     yield note(
-        f"The distance of {counted(len(ends), 'motion end')} from the plan, in millimetres, by the arm’s own sensors. "
-        "The plan is made before any measurement; the working phase then moves its goals."
+        f"How far each of {counted(len(ends), 'motion')} ended from its planned end, in millimetres, as the arm’s "
+        "own sensors measure it. The plan is made before any measurement; measurements in the working phase then "
+        "move the goals of motions."
     )
     yield region(_chart(ends, stages), label="chart", class_="chart")
     counts = {why: sum(end.why is why for end in ends) for why in EndReason}
@@ -85,7 +86,7 @@ def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Markup:
     x = Scale(min(begin, *(stage.begin for stage in stages)) if stages else begin, end, _LEFT, _WIDE - 8)
     y = _Decades(min(decades), max(decades))
     strokes = [*_grid(decades, y), *_bands(stages, x), *(_dot(each, x, y) for each in ends)]
-    label = f"distance of {counted(len(ends), 'motion end')} from the plan, against time"
+    label = f"distance of {counted(len(ends), 'motion end')} from the planned end, against time"
     return drawing(*strokes, wide=_WIDE, high=_HIGH, label=label, role="group")
 
 
@@ -159,7 +160,9 @@ def searched(searches: Sequence[Search]) -> Iterator[Markup]:
     if not searches:
         yield note("No search needed a second place.")
         return
-    yield note("The places that were tried, from above: the ring marks the first, the dot the last.")
+    yield note(
+        "The places that each search tried, seen from above: the ring marks the first place, the dot the last."
+    )
     yield element("div", *map(_search, searches), class_="figures")
 
 

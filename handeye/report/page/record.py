@@ -37,11 +37,11 @@ def record_section(run: RecordedRun) -> Markup:
 def _again(run: RecordedRun) -> Iterator[Markup]:
     typed = command(run)
     if typed is None:
-        yield note("This run used Python code of its own; the same call from Python repeats it.")
+        yield note("This run used Python code of its caller; the same call from Python repeats it.")
         return
     yield element("pre", element("code", typed), class_="command")
     if any(isinstance(event, OperatorAnswered | ExperimentMade | LineTyped) for event in run.trace.events):
-        yield note("This run had commands from a user; `handeye trace verify` repeats them, too.")
+        yield note("A user gave commands during this run; `handeye trace verify` repeats them as well.")
     if "plan.json" in typed:
         yield note("plan.json is in the folder of the run.")
 

@@ -22,14 +22,18 @@ def referee_section(run: RecordedRun) -> Markup:
 def _content(run: RecordedRun) -> Iterator[Markup]:
     if run.result is None:
         yield note(
-            "The findings of the referee are in the folder of a run, not in its trace. Make the report from the folder."
+            "The findings of the referee are in the folder of a run, not in its trace. To show them, make the "
+            "report from the folder."
         )
     elif not run.result.referee:
-        yield note("The referee was not called: it judges a finished program, on request (--judge).")
+        yield note(
+            "The referee did not judge this run. It judges only finished programs, and only on request "
+            "(--judge)."
+        )
     else:
         yield note(
-            "Measured on the finished work in the simulator, hidden from the program. A bar shows the used share "
-            "of a limit; counts have no bar."
+            "The referee measured the finished work in the simulator; the program does not see these values. A "
+            "bar shows the used share of a limit; counts have no bar."
         )
         yield findings_table(run.result.referee.values())
         for name, limit in (run.result.limits or {}).items():

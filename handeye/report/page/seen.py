@@ -26,14 +26,16 @@ def seen_section(pictures: Sequence[SeenPicture], *, lost: int) -> Markup:
 
 def _content(pictures: Sequence[SeenPicture], lost: int) -> Iterator[Markup]:
     if lost:
-        yield note(f"{counted(lost, 'picture')} from before this trace begins.")
+        yield note(
+            f"{counted(lost, 'picture')} {'was' if lost == 1 else 'were'} taken before this trace begins."
+        )
     if not pictures:
-        yield note("There are no others." if lost else "This run took no picture.")
+        yield note("No other picture was taken." if lost else "This run took no picture.")
         return
     rows, columns = pictures[0].picture.shape
     yield note(
-        f"Every picture as the program had it: {columns} x {rows} pixels in 16 levels. The features that the program "
-        "detected are drawn over it."
+        f"Each picture is shown as the program had it: {columns} x {rows} pixels in 16 grey levels. The features "
+        "that the program detected are drawn over it."
     )
     box = element("input", type="checkbox", id="marks", checked=True, aria_keyshortcuts="m")
     yield element(

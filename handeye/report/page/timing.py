@@ -70,7 +70,7 @@ def _row(
 
 def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
     """Remarks on times that the table does not contain."""
-    yield "Minutes and seconds of simulated time."
+    yield "Times are in minutes and seconds of simulated time."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
     calibration = run.trace.head.prepared - friction
     before = [
@@ -85,9 +85,9 @@ def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
         yield f" Before the program began, {' and '.join(before)}."
     if then is not None:
         yield (
-            f" In {then.year} planning took {duration(then.times['planning'])} and vision "
-            f"{then.times['vision']:g} s of a processor; here they take well under a second, recorded in the result of "
-            "the run."
+            f" In {then.year}, planning took {duration(then.times['planning'])} and vision "
+            f"{then.times['vision']:g} s of processor time; here both take well under a second, which the result "
+            "of the run records."
         )
 
 

@@ -95,8 +95,8 @@ def _unseen(run: RecordedRun) -> Iterator[Markup]:
     """Notes on parts of the run that the page cannot show."""
     if run.begins > 0:
         yield note(
-            f"This run was resumed from a checkpoint, and its trace begins at {clock(run.begins)}. Earlier events come "
-            "from the checkpoint; earlier motions, pictures and forces were not recorded."
+            f"This run was resumed from a checkpoint, and its trace begins at {clock(run.begins)}. Events before "
+            "that time come from the checkpoint; motions, pictures and forces before it were not recorded."
         )
     if not run.whole:
         yield note(f"The trace is truncated: it ends at {clock(run.ends)}.")
@@ -106,10 +106,10 @@ def _course(run: RecordedRun) -> Iterator[str]:
     """Sentences on progress and duration of the run."""
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
-    yield f"{steps} in {stages}, {duration(run.ends)} min of simulated time."
+    yield f"The run did {steps} in {stages} and took {duration(run.ends)} min of simulated time."
     then = run.period
     if then is not None:
-        yield f" In {then.year} it took {clock(then.times['manipulation'] + then.times['lens'])}."
+        yield f" In {then.year} the work took {clock(then.times['manipulation'] + then.times['lens'])}."
 
 
 def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
@@ -167,7 +167,7 @@ def _reasons(outcome: Outcome) -> Iterator[str]:
         yield _called(outcome.call)
     yield from map(_finding, outcome.wrong)
     if outcome.kind == "broken off":
-        yield "The trace file is incomplete; this page shows what it holds."
+        yield "The trace file is incomplete; this page shows the part that exists."
     if outcome.kind == "panic":
         yield "The user stopped the run. The drives are off and the brakes are set."
 
@@ -182,7 +182,7 @@ def _called(call: OperatorCalled) -> str:
 
 def _finding(check: Check) -> str:
     """A failed finding as a sentence."""
-    right = f"right is {check.relation} {check.limit:.3g} {check.unit}"
+    right = f"allowed: {check.relation} {check.limit:.3g} {check.unit}"
     return f"{_capital(check.subject)}: {check.value:.3g} {check.unit}; {right}."
 
 

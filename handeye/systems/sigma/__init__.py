@@ -5,12 +5,12 @@ from handeye.core.entries import Entry
 ENTRY = Entry(
     name="sigma",
     title="SUPERSIGMA",
-    help="Write parallel tasks in MAL, and try every order in which they may go (Milan, 1981).",
+    help="Write parallel tasks in MAL, and try every order in which they may run (Milan, 1981).",
     system="handeye.systems.sigma.run.system:SIGMA",
     can=("levels", "video", "console", "chaos"),
     reasons={
-        "plans": "`handeye sigma run FILE.mal` carries its programs out",
-        "undo": "its motors know no way back; `back` in the stepper takes the run itself back",
+        "plans": "`handeye sigma run FILE.mal` runs its programs",
+        "undo": "its motors cannot undo their motions; `back` in the stepper returns to an earlier state of the run",
     },
     commands="""
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.

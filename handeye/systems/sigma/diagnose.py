@@ -16,7 +16,8 @@ from handeye.systems.sigma.protocol import ANSWERS, Op, echo, name_of, self_test
 PATTERNS: Final = (b"\x55\xaa\x33", b"\xaa\x55\xcc")
 """Test patterns for ECHO: each line low and high, and neighbouring bytes that differ."""
 DEAD: Final = (
-    "nothing on it answers: its interface is dead, or a data line low in all its addresses is stuck high"
+    "no microcomputer on it answers: its interface is dead, or a data line that is low in all its addresses is "
+    "stuck high"
 )
 _ALL: Final = 0xFF
 
@@ -104,7 +105,9 @@ def _segment(segment: int, heard: Mapping[int, _Heard]) -> SelfTest:
         return SelfTest(part="segment", number=segment, fault=DEAD)
     if all(one.open for one in heard.values() if not one.silent):
         return SelfTest(
-            part="regenerator", number=segment, fault="it does not turn round: strobes come, and no data"
+            part="regenerator",
+            number=segment,
+            fault="it does not reverse its direction: strobes arrive, but no data",
         )
     stuck = _stuck([one for one in heard.values() if not one.silent])
     return SelfTest(part="segment", number=segment, fault=stuck)
@@ -127,7 +130,7 @@ def _stuck(heard: Sequence[_Heard]) -> str:
             return f"data line {bit} is stuck low"
     if not echoed:
         return "data line 7 is stuck low"  # which ECHO alone needs
-    return "its data lines are wrong: some bytes arrive and others do not"
+    return "its data lines are faulty: some bytes arrive and others do not"
 
 
 def _microcomputer(number: int, heard: Mapping[int, _Heard]) -> SelfTest:
@@ -147,7 +150,9 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard]) -> SelfTest:
     if one.well not in (None, b"\0"):
         return SelfTest(part="microcomputer", number=number, fault="its self-test fails")
     return SelfTest(
-        part="microcomputer", number=number, fault="its clock is wrong: bytes are taken for their neighbours"
+        part="microcomputer",
+        number=number,
+        fault="its clock is wrong: it reads the byte next to the right one",
     )
 
 
@@ -155,7 +160,9 @@ def _status_lines(at_rest: Mapping[int, Status], scanning: Container[int]) -> It
     for number, status in at_rest.items():
         usual = Status.BUSY if number in scanning else Status.FREE
         if status.aborted:
-            yield SelfTest(part="status line", number=number, fault="line A is high, and nothing was aborted")
+            yield SelfTest(
+                part="status line", number=number, fault="line A is high, although no motion was aborted"
+            )
         elif status is not usual:
             level = "high" if status is Status.BUSY else "low"
             yield SelfTest(part="status line", number=number, fault=f"line B is {level} at rest")

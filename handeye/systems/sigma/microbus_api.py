@@ -92,7 +92,9 @@ class Microbus:
         """
         kind = _op(op)
         if count is None and kind not in ANSWERS:
-            raise BadArgument(f"{kind.name} has no answer of a known length; say its bytes by `count`")
+            raise BadArgument(
+                f"the answer to {kind.name} has no known length; give its number of bytes as `count`"
+            )
         length = ANSWERS[kind] if count is None else within(count, 1, 255, "the length of an answer")
         answer = self._bus.ask(_command(name, kind, detail, 0), length)
         return signed(answer) if kind in _SIGNED else int.from_bytes(answer, "big")
@@ -142,7 +144,7 @@ class Microbus:
         last = self._bus.now if end is None else _microseconds(end)
         if last <= first:
             raise BadArgument(
-                f"a diagram ends after it begins; this would be from {begin:g} s to {last / 1e6:g} s"
+                f"a diagram must end after its beginning; this one would be from {begin:g} s to {last / 1e6:g} s"
             )
         return first, last
 

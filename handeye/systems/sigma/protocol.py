@@ -193,5 +193,5 @@ def signed(answer: Sequence[int]) -> int:
 def within(value: int, least: int, most: int, what: str) -> int:
     """Return a number that fits its field; raises BadArgument."""
     if not least <= value <= most:
-        raise BadArgument(f"{what} is from {least} to {most}, not {value}")
+        raise BadArgument(f"{what} must be between {least} and {most}, not {value}")
     return value

@@ -327,7 +327,7 @@ class PlanSystem(System):
     state = ExecutionState
     words = StepperWords(
         about=(
-            "The script runs one step at a time. A step is a line that does something, together with the",
+            "The script runs one step at a time. A step is a line that acts, together with the",
             "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow marks the next one.",
         ),
         places=(

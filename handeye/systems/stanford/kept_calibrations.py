@@ -70,7 +70,7 @@ class KeptCalibrations:
         try:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError as error:
-            raise CannotWrite(f"{self.folder} cannot be made: {error.strerror}") from None
+            raise CannotWrite(f"the folder {self.folder} cannot be created: {error.strerror}") from None
         rest = conditions.line + b"\n" + packed(preparation)
         write_whole(_place(self.folder, conditions), sealed(MAGIC, VERSION, rest))
         self._trim()

@@ -10,7 +10,7 @@ ENTRY = Entry(
     can=("undo", "compare", "faults", "levels", "video", "chaos"),
     reasons={
         "python": "`handeye resume` continues one",
-        "plans": "its programs are taught in the world they work in; run them with `handeye trig palletise`, "
+        "plans": "its programs are taught in the world in which they run; use `handeye trig palletise`, "
         "`handeye trig bucket` and `handeye trig run FILE`",
     },
     commands="""

@@ -18,7 +18,7 @@ def _hole() -> tuple[Quantity, ...]:
     return (
         Quantity(
             name="hole.clearance", unit="mm", distribution=Range(CLEARANCE, CLEARANCE), nominal=CLEARANCE,
-            limits=(0.01, 3.0), source="Diameter of the hole less that of the pin's nose.",
+            limits=(0.01, 3.0), source="Diameter of the hole minus the diameter of the pin's nose.",
         ),
         Quantity(
             name="hole.chamfer", unit="mm", distribution=Range(CHAMFER, CHAMFER), nominal=CHAMFER,

@@ -25,13 +25,13 @@ MOST: Final = {
 }  # fmt: skip
 """Greatest value to which a quantity can be set, by unit: beyond any plausible value."""
 _READING: Final = (
-    "Offset of the potentiometers from the joints, which displaces the hand by .060 in (median), .112 in (95 %); "
+    "The offset of the potentiometers from the joints displaces the hand by .060 in (median) or .112 in (95 %); "
     "layout study, section 4."
 )
 
 
 DOUBLED: Final = (
-    "Bound: twice that, the high level, at which 99 of 100 pumps were assembled and none was wrong."
+    "Bound: twice this size, as at the high level, where 99 of 100 pumps were assembled and none was wrong."
 )
 
 
@@ -73,20 +73,22 @@ def arm() -> Iterator[Quantity]:
     return chain(
         group("arm.offset", numbered(Normal, 0.060, 0.055, 0.027, 0.13, 0.13, 0.27), JOINT_UNITS, _READING),
         group("arm.scale", numbered(Normal, 0.11, 0.22, 0.11, 0.11, 0.22, 0.22), "%",
-            f"Scale of the reading, about the mid-work posture. {_READING}"),
+            "Scale error of the position reading, which is zero at a posture in the middle of the work area. "
+            f"{_READING}"),
         group("arm.wave", numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
-            "Amplitude of the periodic error of the reading, which limits how far from its place a saved correction "
-            "is valid.",
-            unsourced="no data sheet of 1974 gives it. Today's data sheets give the greatest deviation from a line, "
-                      ".15 to "
-            ".25 % of the travel for wire-wound potentiometers and 1 to 2 % for conductive plastic (Bourns 3400 to "
-            "3590, 6537 to 6639), but not its shape. Bound: .18, .16, .59 and .57 deg of joints 1, 2, 4 and 5 and "
-            ".10 in of joint 3, each of which alone makes the .1 in of the whole arm (layout study, section 4)."),
-        group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the reading."),
+            "Amplitude of the periodic error of the position reading. It limits the distance over which a saved "
+            "correction is valid.",
+            unsourced="no data sheet of 1974 gives it. Today's data sheets give the greatest deviation from a "
+                      "line, .15 to .25 % of the travel for wire-wound potentiometers and 1 to 2 % for conductive "
+                      "plastic (Bourns 3400 to 3590, 6537 to 6639), but not its shape. Bound: .18, .16, .59 and "
+                      ".57 deg of joints 1, 2, 4 and 5 and .10 in of joint 3, each of which would by itself "
+                      "explain the error of .1 in of the whole arm (layout study, section 4)."),
+        group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",
-            unsourced="far smaller than a step of the converter (.05 to .08 deg and .009 in), so the converter does "
-                      "not show it. Bound: output smoothness of .1 % of the travel (Bourns 6639), four steps."),
+            unsourced="the noise is far smaller than a step of the converter (.05 to .08 deg and .009 in), so the "
+                "converter does not show it. Bound: output smoothness of .1 % of the travel (Bourns 6639), four "
+                "steps."),
         group("arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
             f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of "
             "1974."),
@@ -95,8 +97,8 @@ def arm() -> Iterator[Quantity]:
             unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, 37 to 146 "
                       "times as large, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
-            f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
-            "Data sheet of 1974; that its range ends at the greatest speed is inferred."),
+            f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both "
+            "directions. Data sheet of 1974; that its range ends at the greatest speed is inferred."),
         group("arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
             f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over its torques in both "
             'directions. Data sheet of 1974: "8 bits or more".'),
@@ -119,11 +121,12 @@ def arm() -> Iterator[Quantity]:
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
             "True distance of each link's centre of mass from its joint, divided by the controller's "
             "value.", least=-90.0,
-            unsourced=f"also published without their accuracy. The arm weighs its links. {DOUBLED}"),
+            unsourced="the centres of mass were also published without their accuracy. The arm weighs its links. "
+                f"{DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
-            "True length of the hand less the controller's value.",
-            unsourced="a length measured with a steel rule, which has divisions of 1/64 in (.016 in). Bound: 1/32 "
-                      "in, a misreading by one whole division."),
+            "True length of the hand minus the controller's value.",
+            unsourced="no drawing gives the tolerance. A length like this is measured with a steel rule, which "
+                "has divisions of 1/64 in (.016 in). Bound: 1/32 in, a misreading by one whole division."),
     )  # fmt: skip
 
 
@@ -131,8 +134,8 @@ def _friction() -> Iterator[Quantity]:
     """Coulomb friction of the joints; for joint 1, which carries no weight, the paper gives no check."""
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, varied by a quarter. Without this error it is the mean; set to 0, there "
-        "is no friction."
+        "Coulomb friction of the joints, varied by a quarter. Without this error, the friction of a joint is its "
+        "mean; a value of 0 means no friction."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
@@ -149,15 +152,17 @@ def _friction() -> Iterator[Quantity]:
 
 def hand() -> Iterator[Quantity]:
     return chain(
-        group("hand", {"gap_offset": Normal(0.01)}, "in", "Error of the gap as read.",
-            unsourced=f"the wear of the finger pads since the gap was last set. {DOUBLED}"),
+        group("hand", {"gap_offset": Normal(0.01)}, "in", "Offset of the gap reading.",
+            unsourced="the offset is the wear of the finger pads since the gap was last set, which nothing "
+                f"measures. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
-            "Error of the gap as read. Between the linearity of wire-wound potentiometers, .15 to .25 %, and of "
-            "conductive plastic, 1 to 2 %: data sheets of Bourns 3400 to 3590 and 6537 to 6639."),
+            "Scale error of the gap reading. Its size lies between the linearity of wire-wound potentiometers, "
+            ".15 to .25 %, and that of conductive plastic, 1 to 2 %: data sheets of Bourns 3400 to 3590 and 6537 "
+            "to 6639."),
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
-            "Noise of the gap as read, before the converter.",
-            unsourced="a third of a step of the converter, so the converter hardly shows it. Bound: output "
-            "smoothness of .1 % of the travel (Bourns 6639), four steps."),
+            "Noise of the gap reading, before the converter.",
+            unsourced="the noise is a third of a step of the converter, so the converter hardly shows it. Bound: "
+                "output smoothness of .1 % of the travel (Bourns 6639), four steps."),
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
@@ -165,7 +170,8 @@ def hand() -> Iterator[Quantity]:
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
             "Position of the lamp in the hand's frame, relative to the drawing that the camera calibration uses.",
-            unsourced="screwed on by hand, with a rule with divisions of 1/64 in. Bound: 1/16 in, two sigma."),
+            unsourced="the lamp is screwed on by hand and set with a rule, which has divisions of 1/64 in. Bound: "
+                "1/16 in, two sigma."),
     )  # fmt: skip
 
 

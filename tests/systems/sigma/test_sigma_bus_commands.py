@@ -50,7 +50,7 @@ def test_with_a_long_strobe_the_late_riser_takes_a_command_that_was_never_sent(c
     [
         ("dead:Y1", "NOANSWER 1"),
         ("clock:Y1:200", "Y1 takes"),
-        ("stuck-high:0:3", "X1 does not act on 00 01 07 01 02"),
+        ("stuck-high:0:3", "X1 does not act on 00 01 07 01 02, which was for it"),
         ("dead-interface", "NOANSWER"),
         ("slow-lines:8", "takes FF"),
         ("address:X1:1", "X1 acts on 01 05 00 00 00, which was for Y1"),
@@ -74,9 +74,12 @@ def test_every_kind_of_fault_can_be_asked_for_by_its_name_alone(fault: str) -> N
         ("demo --fault no-turn", "there is no regenerator before segment 1 on this bus"),
         ("demo --fault dead:Q9", "no microcomputer is called `Q9`"),
         ("demo --fault dead:77", "there is no microcomputer 77 on this bus"),
-        ("demo --fault stuck-low:0:9", "the bit of a fault is from 0 to 7, not 9"),
-        ("demo --fault dead:X1:3", "`dead:X1:3` says more than the fault has: dead:MICROCOMPUTER"),
-        ("errors --clock 80", "clocks may be off by 0 to 50 percent, not by 80"),
+        ("demo --fault stuck-low:0:9", "the bit of a fault must be between 0 and 7, not 9"),
+        (
+            "demo --fault dead:X1:3",
+            "`dead:X1:3` has too many fields for this fault: write dead:MICROCOMPUTER",
+        ),
+        ("errors --clock 80", "the error of the clocks must be between 0 and 50 percent, not 80"),
         ("demo --out a.png", "a.png: the name of the SVG drawing must end in .svg"),
     ],
 )
@@ -149,13 +152,13 @@ def test_the_statistics_are_a_command(command: Command) -> None:
 @pytest.mark.parametrize(
     ("fault", "named"),
     [
-        ("dead-interface:2", "segment 2: nothing on it answers: its interface is dead"),
+        ("dead-interface:2", "segment 2: no microcomputer on it answers: its interface is dead"),
         ("dead:Z1", "Z1: it is dead: it does not answer"),
         ("dead:FORCE2", "FORCE2: it is dead: it does not answer"),
         ("stuck-high:1:3", "segment 1: data line 3 is stuck high"),
         ("clock:HAND2:-100", "HAND2: its clock is wrong"),
         ("address:X1:1", "X1: it answers to the number of Y1"),
-        ("status-a:Y2:1", "status line of Y2: line A is high, and nothing was aborted"),
+        ("status-a:Y2:1", "status line of Y2: line A is high, although no motion was aborted"),
         *((f"stuck-low:0:{bit}", f"segment 0: data line {bit} is stuck low") for bit in range(8)),
     ],
 )
@@ -169,7 +172,7 @@ def test_the_self_tests_of_power_on_name_the_part_that_fails(fault: str, named: 
 @pytest.mark.parametrize("segment", [1, 2])
 def test_a_regenerator_that_does_not_turn_is_named(segment: int) -> None:
     found = told(power_on(LoggedBus(f"no-turn:{segment}", layout=LINE), LINE))
-    assert found == [f"regenerator {segment}: it does not turn round: strobes come, and no data"]
+    assert found == [f"regenerator {segment}: it does not reverse its direction: strobes arrive, but no data"]
 
 
 @pytest.mark.sigma_row(38)
@@ -238,11 +241,11 @@ def test_the_log_from_python_is_that_of_the_port() -> None:
     [
         (lambda bus: bus.command("Q1", steps=1), "no microcomputer is called `Q1`; there are X1, Y1"),
         (lambda bus: bus.command("X1", "JUMP"), "no operation is called `JUMP`; there are MOVE"),
-        (lambda bus: bus.command("X1"), "a move in steps is from 1 to 65535, not 0"),
+        (lambda bus: bus.command("X1"), "a move in steps must be between 1 and 65535, not 0"),
         (lambda bus: bus.command("X1", "POSITION"), "POSITION asks; use ask"),
-        (lambda bus: bus.ask("X1", "MOVE"), "MOVE has no answer of a known length"),
+        (lambda bus: bus.ask("X1", "MOVE"), "the answer to MOVE has no known length"),
         (lambda bus: bus.pause(-1), "a time on the bus is 0 to 86400 s, not -1 s"),
-        (lambda bus: bus.diagram(1, 0), "a diagram ends after it begins"),
+        (lambda bus: bus.diagram(1, 0), "a diagram must end after its beginning"),
         (lambda _: handeye.Microbus(faults=["dead:Q"]), "no microcomputer is called `Q`"),
         (lambda _: handeye.Microbus(clock_spread=2), "clocks are off by a share of 0 to 1"),
     ],

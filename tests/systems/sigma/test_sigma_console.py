@@ -44,7 +44,7 @@ def test_lines_go_into_the_program_by_their_numbers_and_out_of_it() -> None:
 
 def test_a_line_that_is_wrong_is_told_at_once_and_stays_out() -> None:
     typed = Typed()
-    assert typed("10 MOOVE X1 TO 5") == ["`MOOVE` is no statement of MAL; did you mean `MOVE`?"]
+    assert typed("10 MOOVE X1 TO 5") == ["`MOOVE` is not a statement of MAL; did you mean `MOVE`?"]
     assert typed("LIST\n5") == ["there is no line 5"]
 
 
@@ -54,7 +54,7 @@ def test_a_program_is_compiled_and_run_and_its_mistakes_are_shown() -> None:
         "3 statements, 12 instructions; 2 tasks: MAIN, B"
     ]
     assert typed("RUN")[:2] == ["2", "1"]
-    assert typed("50 GOTO 99\nRUN")[-1] == "1 mistake: nothing is run"
+    assert typed("50 GOTO 99\nRUN")[-1] == "1 mistake: the program is not run"
 
 
 def test_a_program_stops_before_a_line_and_goes_on() -> None:
@@ -63,13 +63,13 @@ def test_a_program_stops_before_a_line_and_goes_on() -> None:
     assert typed("RUN")[0].startswith("BREAK before line 30, in the task MAIN, at ")
     assert typed("STATUS")[0] == "  0  X1      0-0  free               49.9875 mm"
     assert typed("CONT") == ["49.9875", "2 commands in 0.450 s; the computer was idle for 99% of it"]
-    assert typed("CONT") == ["no program stands: RUN begins one"]
+    assert typed("CONT") == ["no program is running; RUN starts it"]
     assert typed("BREAK\nRUN")[0] == "49.9875"
 
 
 def test_ctrl_c_breaks_an_endless_loop_and_cont_goes_on() -> None:
     typed = Typed(iter([False] * 20 + [True] + [False] * 20 + [True]))
-    assert typed("10 GOTO 10\nRUN")[0].endswith("s; CONT goes on")
+    assert typed("10 GOTO 10\nRUN")[0].endswith("s; CONT continues")
     assert typed("CONT")[0].startswith("BREAK at ")
 
 
@@ -102,5 +102,5 @@ def test_every_command_does_something_or_tells_why_not(word: str) -> None:
 def test_the_console_takes_lines_from_a_pipe(command: Command) -> None:
     code, out, _ = command("sigma", typed="10 PRINT 6 * 7\nRUN\nFOO\n")
     assert (code, out.splitlines()[0]) == (2, "42")
-    assert "`FOO` is no command; " in out
+    assert "`FOO` is not a command; " in out
     assert command("sigma", str(PLANS / "chess.mal"), typed="RUN\nBYE\n")[1].splitlines()[1] == "DONE"

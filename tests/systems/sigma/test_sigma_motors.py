@@ -313,9 +313,9 @@ def test_a_study_that_loses_steps_has_exit_code_1(command: Command) -> None:
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        ("--mass 0", "a moved mass is over 0 and up to 1000 kg, not 0"),
+        ("--mass 0", "a moved mass must be above 0 and at most 1000 kg, not 0"),
         ("--steps 0", "a move has 1 to 65535 steps, not 0"),
-        ("--curve 9", "there are curves 0 to 4; 9 is none"),
+        ("--curve 9", "there is no curve 9; the curves are 0 to 4"),
         ("--slow 900", "a constant speed is 1 to 562.5 mm/s, not 900"),
         ("--load nan", "a load is 0 N or more"),
         ("--stop-after 5000", "it can be stopped within that, not after 5 s"),

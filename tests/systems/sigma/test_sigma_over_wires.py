@@ -106,9 +106,9 @@ def test_a_drawing_of_a_whole_run_has_every_command_and_a_row_a_receiver(command
     ("words", "why"),
     [
         ("none.mal", "none.mal"),
-        (f"{PLANS}/handover.mal --out a.svg --begin 3 --end 2", "a diagram begins at 0 s or later"),
-        (f"{PLANS}/handover.mal --out a.svg --begin nan", "a diagram begins at 0 s or later"),
-        (f"{PLANS}/handover.mal --out a.svg --end 1e9", "a diagram begins at 0 s or later"),
+        (f"{PLANS}/handover.mal --out a.svg --begin 3 --end 2", "a diagram must begin at 0 s or later"),
+        (f"{PLANS}/handover.mal --out a.svg --begin nan", "a diagram must begin at 0 s or later"),
+        (f"{PLANS}/handover.mal --out a.svg --end 1e9", "a diagram must begin at 0 s or later"),
         (f"{PLANS}/handover.mal --fault dead:77", "there is no microcomputer 77"),
     ],
 )

@@ -222,5 +222,5 @@ def test_what_the_system_cannot_do_is_refused_by_its_name(command: Command) -> N
     assert "SUPERSIGMA cannot run a plan of motions: `handeye sigma run FILE.mal`" in command("plan", file)[2]
     assert command("check", file)[:2] == (0, f"{file}: no errors\n")
     assert "MOVE axis (TO|BY)" in command("sigma", "words", "move")[1]
-    assert "`MOOVE` is no word of MAL; did you mean `MOVE`?" in command("sigma", "words", "MOOVE")[2]
+    assert "`MOOVE` is not a word of MAL; did you mean `MOVE`?" in command("sigma", "words", "MOOVE")[2]
     assert "the arms" not in command("sigma", "words")[1]

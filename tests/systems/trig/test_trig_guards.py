@@ -54,8 +54,8 @@ def test_what_a_guarded_step_has_met_must_still_be_there() -> None:
     typist = Typist(AT_A_BLOCK + "GOTO **TOP**\nRUN")
     typist.type("* CLEAR\nRUN -2")
     assert typist.told[-1] == (
-        "0 steps undone; the arm has stopped at the step before that: "
-        "on the way forward the finger met something here; now it meets nothing"
+        "0 steps undone; the arm has stopped at the step before that: on the way forward the finger met something "
+        "here, but now it meets nothing"
     )
     assert stopped(typist, "RUN -2") == MissingContact()
     typist.type("* STACK 2 X 100 Y 0")

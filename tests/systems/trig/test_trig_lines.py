@@ -55,4 +55,4 @@ def test_without_the_library_of_the_screen_lines_are_enough(
     code, out, err = command("trig")
     assert (code, out) == (0, "\n[ ]\n\n▶\n\nX 0 Y 0 Z 300, hand open\n")
     assert err.startswith("`trig` needs prompt_toolkit, which is not installed")
-    assert err.endswith("without it you can type lines, but there is no screen\n")
+    assert err.endswith("without this package you can type lines, but there is no screen\n")

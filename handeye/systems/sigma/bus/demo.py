@@ -114,7 +114,7 @@ def verdict(shown: Demonstration) -> list[str]:
             f"{name_of(event.number)} acts on {spaced(event.frame)}, which was for {name_of(event.frame[0])}"
         )
     if shown.deaf:
-        out.append(f"{name_of(COMMAND.number)} does not act on {spaced(COMMAND.frame)}")
+        out.append(f"{name_of(COMMAND.number)} does not act on {spaced(COMMAND.frame)}, which was for it")
     if shown.failed:
         out.append(shown.failed)
     elif shown.found != shown.wanted:

@@ -32,17 +32,26 @@ class Defects(Record, frozen=True, kw_only=True):
 KINDS: Final[dict[str, Defects]] = {
     "stuck-low": Defects(help="a data line always reads 0", where="segment", value="bit", amount=5, most=7),
     "stuck-high": Defects(help="a data line always reads 1", where="segment", value="bit", amount=3, most=7),
-    "dead-interface": Defects(help="nothing passes into or out of a segment", where="segment"),
-    "no-turn": Defects(help="a regenerator does not turn round for answers", where="segment", default=1),
+    "dead-interface": Defects(help="no signal passes into or out of a segment", where="segment"),
+    "no-turn": Defects(
+        help="a regenerator does not reverse its direction for answers", where="segment", default=1
+    ),
     "long-strobe": Defects(
-        help="the computer raises /DATA READY late", value="microseconds", amount=35, least=3, most=99
+        help="the computer raises /DATA READY late, by this time",
+        value="microseconds",
+        amount=35,
+        least=3,
+        most=99,
     ),
     "slow-lines": Defects(
-        help="a data line that has changed reads so late", value="microseconds", amount=6, most=19
+        help="a changed data line shows its new level late, by this time",
+        value="microseconds",
+        amount=6,
+        most=19,
     ),
     "dead": Defects(help="a microcomputer does nothing", where="microcomputer"),
     "clock": Defects(
-        help="the clock of a microcomputer is slow, or fast if negative",
+        help="the clock of a microcomputer is slow by this share, or fast if it is negative",
         where="microcomputer",
         value="permille",
         amount=200,
@@ -50,7 +59,7 @@ KINDS: Final[dict[str, Defects]] = {
         most=500,
     ),
     "address": Defects(
-        help="a microcomputer takes another number for its own",
+        help="a microcomputer answers to another number than its own",
         where="microcomputer",
         value="number",
         amount=1,
@@ -76,7 +85,7 @@ def defect(text: str) -> BusDefect:
     fields = [*([kind.where] if kind.where else []), *([kind.value] if kind.value else [])]
     if len(rest) > len(fields):
         form = ":".join([name, *(field.upper() for field in fields)])
-        raise BadArgument(f"{quoted(text)} says more than the fault has: {form}")
+        raise BadArgument(f"{quoted(text)} has too many fields for this fault: write {form}")
     where, value = kind.default, kind.amount
     if kind.where and rest:
         given = rest.pop(0)
@@ -93,9 +102,9 @@ def _number(text: str, what: str, least: int, most: int) -> int:
     try:
         number = int(text)
     except ValueError:
-        raise BadArgument(f"the {what} of a fault is a whole number, not {quoted(text)}") from None
+        raise BadArgument(f"the {what} of a fault must be a whole number, not {quoted(text)}") from None
     if not least <= number <= most:
-        raise BadArgument(f"the {what} of a fault is from {least} to {most}, not {number}")
+        raise BadArgument(f"the {what} of a fault must be between {least} and {most}, not {number}")
     return number
 
 

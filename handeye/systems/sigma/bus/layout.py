@@ -69,7 +69,9 @@ class Layout(Record, frozen=True, kw_only=True):
     def check(self) -> None:
         """Raise BadArgument if the layout cannot be built."""
         if not self.behind or self.behind[0] != -1:
-            raise BadArgument("the first segment of a bus is that of the computer, behind no regenerator")
+            raise BadArgument(
+                "the first segment of a bus is connected to the computer directly, without a regenerator"
+            )
         for segment, towards in enumerate(self.behind[1:], start=1):
             if not 0 <= towards < segment:
                 raise BadArgument(f"segment {segment} must be behind an earlier one, not behind {towards}")
@@ -88,8 +90,8 @@ class Layout(Record, frozen=True, kw_only=True):
         for segment in range(len(self.behind)):
             if (count := sum(place.segment == segment for place in self.places)) > FAN_OUT:
                 raise BadArgument(
-                    f"{count} microcomputers hang on segment {segment}; it drives {FAN_OUT}, "
-                    "and more need a regenerator"
+                    f"segment {segment} has {count} microcomputers, but it can drive only {FAN_OUT}; put the others "
+                    "behind a regenerator"
                 )
 
 

@@ -142,7 +142,7 @@ class WiredBus(MicrobusPort):
     def begin(self, command: Command, answer: int = 0) -> None:
         memory = self._memory
         if not self.free:
-            raise Refused("a command or an answer is on the bus; nothing is sent before it is over")
+            raise Refused("the bus still carries a command or an answer; send the next one after its end")
         sending = Sending(
             start=self.now,
             frame=command.frame,
@@ -164,7 +164,7 @@ class WiredBus(MicrobusPort):
     def answer(self) -> bytes:
         question = self._memory.question
         if question is None or question.phase != "over":
-            raise Refused("no question has been asked whose answer is over")
+            raise Refused("no question has been answered yet")
         if question.failed == "no answer":
             raise NoAnswer(question.number, len(question.got), question.wanted)
         if question.failed:
@@ -173,7 +173,9 @@ class WiredBus(MicrobusPort):
 
     def page(self, number: int) -> int:
         if not 0 <= number < self.layout.pages:
-            raise Refused(f"there are {self.layout.pages} pages of status lines, from 0; {number} is none")
+            raise Refused(
+                f"there is no page {number} of status lines; the pages are 0 to {self.layout.pages - 1}"
+            )
         first = number * PAGE
         return sum(int(self._shown.get(first + place, 0)) << 2 * place for place in range(PAGE))
 
@@ -197,7 +199,7 @@ class WiredBus(MicrobusPort):
 
     def remember(self, memory: MutableRecord) -> None:
         if not isinstance(memory, BusMemory) or not self._fits(memory):
-            raise BadFile("what the bus remembers is that of another bus")
+            raise BadFile("the state belongs to another bus")
         put_back(self._memory, memory)
         self.plant.memory = self._memory.plant
         self.plant.resumed()
@@ -215,7 +217,7 @@ class WiredBus(MicrobusPort):
         """The firmware of a motor; raises Refused if the microcomputer is no motor."""
         device = self._nodes[number].device
         if not isinstance(device, Motor):
-            raise Refused(f"{name_of(number)} is no motor")
+            raise Refused(f"{name_of(number)} is not a motor")
         return device
 
     def touched(self, *numbers: int) -> None:

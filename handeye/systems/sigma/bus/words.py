@@ -25,7 +25,7 @@ def command_text(command: Command) -> str:
     """A command in words, such as `MOVE X1 by -800 steps, curve 3`."""
     name, code = name_of(command.number), command.detail >> 1
     if command.op not in (*Op,):
-        return f"operation {command.op:02X} to {name}, which no microcomputer knows"
+        return f"operation {command.op:02X} to {name}, an operation that no microcomputer has"
     op = Op(command.op)
     way = "-" if command.detail & 1 else ""
     by = f"{way}{counted(command.value, 'step')}"

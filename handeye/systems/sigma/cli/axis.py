@@ -11,32 +11,33 @@ from handeye.systems.sigma.cli.bus import NO_DRAWING, DrawingOptions
 def axis(
     *,
     mass: Annotated[
-        float, Parameter(help="kg that the motor moves: 12 (X), 8 (Y) and 2.5 (Z) in SUPERSIGMA.")
+        float, Parameter(help="Mass that the motor moves, kg; in SUPERSIGMA 12 (X), 8 (Y) and 2.5 (Z).")
     ] = 12.0,
-    steps: Annotated[WholeNumber, Parameter(help="Length of the move; a step is 0.0375 mm.")] = 8000,
+    steps: Annotated[WholeNumber, Parameter(help="Length of the move in steps; a step is 0.0375 mm.")] = 8000,
     curve: Annotated[
         WholeNumber,
         Parameter(
-            help="0: up to 13333 steps/s; 1: up to 15000; 2 and 3: half and a quarter of the acceleration; 4: half of "
-            "the start/stop speed."
+            help="Acceleration curve. 0: up to 13333 steps/s; 1: up to 15000 steps/s; 2 and 3: half and a quarter "
+            "of the acceleration; 4: half of the start/stop speed."
         ),
     ] = 0,
     slow: Annotated[
-        float | None, Parameter(help="Constant speed, mm/s; above 37.5 it begins and ends with ramps.")
+        float | None,
+        Parameter(help="Constant speed, mm/s; above 37.5 mm/s the move begins and ends with ramps."),
     ] = None,
     load: Annotated[float, Parameter(help="Force against the motion, N.")] = 0.0,
     stop_after: Annotated[
-        float | None, Parameter(help="Have an emergency stop the motor after this time, in ms.")
+        float | None, Parameter(help="Stop the motor in an emergency after this time, ms.")
     ] = None,
     cut: Annotated[
-        bool, Parameter(negative=(), help="Stop by leaving the pulses out, and not by the steepest ramp.")
+        bool, Parameter(negative=(), help="Stop by sending no more pulses, instead of by the steepest ramp.")
     ] = False,
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
 ) -> int:
-    """Make one move of one motor: its pulses, the force that they ask for, and whether the rotor follows or slips.
+    """Make one move of one motor: its pulses, the force that they require, and whether the rotor follows or slips.
 
-    Exit code 0: no step was lost; 1: some were; 2: bad input.
+    Exit code 0: no step was lost; 1: steps were lost; 2: bad input.
     """
     from handeye.systems.sigma.motors.drawing import as_svg, as_text
     from handeye.systems.sigma.motors.study import lines, study

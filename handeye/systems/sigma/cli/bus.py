@@ -21,16 +21,19 @@ BusFaults = Annotated[
     Parameter(
         name="--fault",
         negative=(),
-        help="What is wrong with the bus, as KIND, KIND:WHERE or KIND:WHERE:VALUE; `handeye sigma bus faults` lists "
-        "them. May be given again.",
+        help="A fault of the bus, as KIND, KIND:WHERE or KIND:WHERE:VALUE; `handeye sigma bus faults` lists them. "
+        "May be repeated.",
     ),
 ]
 AllLines = Annotated[
-    bool, Parameter(negative=(), help="Show status lines that do not change, too: all twenty.")
+    bool, Parameter(negative=(), help="Show all twenty status lines, including those that do not change.")
 ]
 Seed = Annotated[WholeNumber, Parameter(help="Seed of the world: when each microcomputer begins to poll.")]
 
-bus = App(name="bus", help="The MICROBUS: what is on its lines, what each receiver takes, and how it fails.")
+bus = App(
+    name="bus",
+    help="The MICROBUS: show its signals and the bytes that each receiver takes, and test its faults.",
+)
 
 
 @Parameter(name="*")
@@ -59,7 +62,9 @@ def demo(
     *,
     late_riser: Annotated[
         bool,
-        Parameter(negative=(), help="Let Y1 become free in the middle of a command to X1."),
+        Parameter(
+            negative=(), help="Let the microcomputer of Y1 become free in the middle of a command to X1."
+        ),
     ] = False,
     fault: BusFaults = None,
     all_lines: AllLines = False,
@@ -67,12 +72,12 @@ def demo(
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
 ) -> int:
-    """Send a command and ask a question, and show all lines and what each receiver takes from them.
+    """Send a command and ask a question; show the signals on all lines and the bytes that each receiver takes.
 
-    The bytes of the command to X1 are, from the second on, a command to Y1. A late riser ignores them; with
-    `--fault long-strobe` it takes them for its own.
+    From its second byte on, the command to X1 reads like a command to Y1. If Y1 becomes free in its middle
+    (`--late-riser`), Y1 ignores these bytes; with `--fault long-strobe` too, it takes them for its own.
 
-    Exit code 0: every byte arrived as it was sent; 1: not so; 2: bad input.
+    Exit code 0: every byte arrived as it was sent; 1: a byte was misread; 2: bad input.
     """
     from handeye.systems.sigma.bus.demo import demonstrate, told, verdict
     from handeye.systems.sigma.bus.diagram import as_svg, as_text
@@ -111,12 +116,16 @@ def run(
     /,
     *,
     fault: BusFaults = None,
-    begin: Annotated[float, Parameter(help="Where the diagram begins, s since power-on.")] = 0.0,
-    end: Annotated[float | None, Parameter(help="Where it ends; by default with the run.")] = None,
+    begin: Annotated[float, Parameter(help="Time at which the diagram begins, s since power-on.")] = 0.0,
+    end: Annotated[
+        float | None, Parameter(help="Time at which the diagram ends, s. Default: the end of the run.")
+    ] = None,
     all_lines: AllLines = False,
     statement_us: Annotated[
         WholeNumber,
-        Parameter(name="--statement-us", help="Microseconds that the computer takes for a statement."),
+        Parameter(
+            name="--statement-us", help="Microseconds that the central computer takes for a statement."
+        ),
     ] = 2000,
     seed: Seed = 0,
     json: Json = False,
@@ -126,7 +135,7 @@ def run(
 
     The diagram is drawn only with --out, of the whole run or of a part. `handeye sigma run --arm wired` keeps a run.
 
-    Exit code 0: all tasks have ended; 1: the program stands; 2: bad input; 130: interrupted.
+    Exit code 0: all tasks have ended; 1: the program stopped before; 2: bad input; 130: interrupted.
     """
     from handeye.cli.panic_button import PanicButton
     from handeye.core.source import read_source
@@ -138,7 +147,7 @@ def run(
 
     drawing.check()
     if not 0 <= statement_us <= LONGEST_STATEMENT_US:
-        raise BadArgument(f"--statement-us takes 0 to {LONGEST_STATEMENT_US}, not {statement_us}")
+        raise BadArgument(f"--statement-us must be between 0 and {LONGEST_STATEMENT_US}, not {statement_us}")
     program = MalPlan(name=file.name, text=read_source(file).text).program
     defects = [defect(text) for text in fault or ()]
     with PanicButton() as panic:
@@ -155,7 +164,8 @@ def run(
         last = wired.now / 1e6 if end is None else end
         if not 0 <= begin < last <= _LONGEST_DIAGRAM:
             raise BadArgument(
-                f"a diagram begins at 0 s or later and ends after that, not {begin:g} to {last:g} s"
+                f"a diagram must begin at 0 s or later and end after its beginning; {begin:g} to {last:g} s is not "
+                "possible"
             )
         span = round(begin * 1e6), round(last * 1e6)
         drawn = diagram(file.name, log, *span, wired.timing, all_lines=all_lines)
@@ -173,16 +183,18 @@ def errors(
     clock: Annotated[
         list[float] | None,
         Parameter(
-            help="Percent that clocks are off at most; may be given again. By default 1 to 15.", negative=()
+            help="Greatest error of the clocks, percent; may be repeated. Default: 1 to 15.", negative=()
         ),
     ] = None,
-    commands: Annotated[WholeNumber, Parameter(help="Commands to draw for each.")] = 200_000,
+    commands: Annotated[
+        WholeNumber, Parameter(help="Number of commands to draw for each clock error.")
+    ] = 200_000,
     seed: Annotated[
         WholeNumber, Parameter(help="Seed of the world: bytes, clocks, and when receivers become free.")
     ] = 0,
     json: Json = False,
 ) -> int:
-    """Draw commands, clocks, and moments at which a receiver becomes free, and count what is misread.
+    """Draw random commands, clocks, and moments at which a receiver becomes free, and count the misread bytes.
 
     Exit code 0: counted; 2: bad input.
     """
@@ -192,12 +204,17 @@ def errors(
     percents = tuple(clock) if clock else _PERCENTS
     for percent in percents:
         if not 0 <= percent <= _MOST_PERCENT:
-            raise BadArgument(f"clocks may be off by 0 to {_MOST_PERCENT:g} percent, not by {percent:g}")
+            raise BadArgument(
+                f"the error of the clocks must be between 0 and {_MOST_PERCENT:g} percent, not {percent:g}"
+            )
     rates = [error_rate(percent / 100, commands, seed) for percent in percents]
     if json:
         put_json({"seed": seed, "rates": rates})
         return 0
-    say(f"{counted(commands, 'command')} each, to a receiver that becomes free before or amid it")
+    say(
+        f"{counted(commands, 'command')} for each clock error, to a receiver that becomes free before or in the "
+        "middle of the command"
+    )
     say("clocks within   taken whole   too late   misread   least fast   least slow")
     for percent, rate in zip(percents, rates, strict=True):
         least = "".join(
@@ -208,7 +225,7 @@ def errors(
 
 
 def faults(*, json: Json = False) -> int:
-    """List what can be wrong with the bus.
+    """List the faults that the bus can have.
 
     Exit code 0: listed.
     """
@@ -230,15 +247,16 @@ def self_test(
     line: Annotated[
         bool,
         Parameter(
-            negative=(), help="Test an assembly line: two robots, feeder and remover on three segments."
+            negative=(),
+            help="Test the bus of an assembly line: two robots, a feeder and a remover on three segments.",
         ),
     ] = False,
     seed: Seed = 0,
     json: Json = False,
 ) -> int:
-    """Carry out the self-tests of power-on: the computer, the segments, each microcomputer, status lines.
+    """Run the self-tests of power-on: the computer, the segments, each microcomputer, the status lines.
 
-    Exit code 0: all is well; 1: not so; 2: bad input.
+    Exit code 0: all tests passed; 1: a test failed; 2: bad input.
     """
     from handeye.systems.sigma.bus.faults import defect
     from handeye.systems.sigma.bus.layout import LINE, SUPERSIGMA

@@ -44,7 +44,7 @@ StatementTime = Annotated[
     WholeNumber,
     Parameter(
         name="--statement-us",
-        help="Microseconds that the central computer takes for a statement; a calculation takes a quarter more each.",
+        help="Microseconds that the central computer takes for a statement; each calculation in it adds a quarter.",
     ),
 ]
 Arm = Annotated[
@@ -79,8 +79,8 @@ def run(
 ) -> int:
     """Run a program: a step is one statement of the task whose turn it is.
 
-    Exit code 0: all tasks have ended; 1: the program stands (an abort, a deadlock, a statement that cannot be carried
-    out); 2: bad input; 130: interrupted.
+    Exit code 0: all tasks have ended; 1: the program stopped before (an abort, a deadlock, or a statement that cannot
+    be executed); 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.core.variation import WorldSpec
@@ -90,7 +90,7 @@ def run(
 
     check_kept(no_keep, out)
     if not 0 <= statement_us <= LONGEST_STATEMENT_US:
-        raise BadArgument(f"--statement-us takes 0 to {LONGEST_STATEMENT_US}, not {statement_us}")
+        raise BadArgument(f"--statement-us must be between 0 and {LONGEST_STATEMENT_US}, not {statement_us}")
     if seed and arm != "gantries":
         raise BadArgument(f"--seed is for `--arm gantries`: the machine of `--arm {arm}` has no errors")
     source = read_source(file)
@@ -133,17 +133,20 @@ def check(
     *,
     interleavings: Annotated[
         bool,
-        Parameter(help="Try every order in which the tasks may go on, and show what goes wrong in which."),
+        Parameter(
+            help="Try every order in which the tasks may run, and show what can go wrong in which order."
+        ),
     ] = False,
-    most: Annotated[WholeNumber, Parameter(help="Stop after this number of states.")] = 50_000,
-    json: Annotated[bool, Parameter(help="What was found as JSON.")] = False,
+    most: Annotated[WholeNumber, Parameter(help="Stop after this number of different states.")] = 50_000,
+    json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
     """Check a program as `handeye check` does, and try the orders of its tasks.
 
-    A statement is one act; motions and delays take any time. Sensors answer 0, INPUT gets 0, and no motor is aborted.
+    Statements are executed one at a time; motions and delays may take any time. Sensors answer 0, INPUT reads 0, and no
+    motor is aborted.
 
-    Exit code 0: nothing found; 1: a deadlock, a race, or a statement that cannot be executed; 2: bad input, or a
-    program with errors.
+    Exit code 0: nothing was found; 1: there is a deadlock, a race, or a statement that cannot be executed; 2: bad
+    input, or a program with errors.
     """
     from handeye.systems.sigma.mal.compiler import program_of
     from handeye.systems.sigma.mal.interleavings import interleavings as tried
@@ -175,14 +178,14 @@ def told_orders(name: str, result: "Interleavings") -> Iterator[str]:
         yield f"{finding.kind}: {KINDS[finding.kind]}"
         yield f"    {finding.told}"
         if finding.kind not in shown:
-            yield "  for example when they go on in this order"
+            yield "  for example in this order of the tasks"
             yield from (f"    {line}" for line in schedule_lines(finding.schedule))
         shown.add(finding.kind)
     count = counted(result.states, "state")
     orders = (
         "all orders were tried"
         if result.complete
-        else "not all orders were tried: `--most` sets how many states"
+        else "not all orders were tried; `--most` sets the number of states to try"
     )
     found = counted(len(result.findings), "finding") if result.findings else "no deadlock and no race"
     ends = f"; the program ends in {counted(result.ends, 'different way')}" if result.ends > 1 else ""
@@ -190,12 +193,12 @@ def told_orders(name: str, result: "Interleavings") -> Iterator[str]:
 
 
 def words(word: str | None = None, /) -> int:
-    """Explain a word of MAL; without one, list all.
+    """Explain a word of MAL; without a word, list all.
 
     Parameters
     ----------
     word
-        Such as MOVE, TAKE or BEAM.
+        The word, such as MOVE, TAKE or BEAM.
     """
     from handeye.systems.sigma.mal.words import WORDS, explained
 
@@ -210,7 +213,7 @@ def words(word: str | None = None, /) -> int:
     if text is None:
         near = suggestion(word.upper(), WORDS)
         raise NoSuchName(
-            f"{quoted(word)} is no word of MAL"
+            f"{quoted(word)} is not a word of MAL"
             + (f"; {near}" if near else "; `handeye sigma words` lists them")
         )
     say(text)
@@ -218,11 +221,11 @@ def words(word: str | None = None, /) -> int:
 
 
 def console(
-    file: Annotated[Path | None, Parameter(help="A program to begin with, `.mal`.")] = None, /
+    file: Annotated[Path | None, Parameter(help="A program in MAL to load at the start, `.mal`.")] = None, /
 ) -> int:
     """Open the console of 1981: type a program by numbered lines, and NEW LOAD SAVE LIST COMPILE RUN BREAK STATUS.
 
-    Exit code 0: left; 2: bad input, or a line that was piped in was refused; 130: interrupted.
+    Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
     """
     from handeye.cli.panic_button import PanicButton
     from handeye.cli.prompt import typed_lines

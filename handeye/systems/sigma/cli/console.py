@@ -36,13 +36,15 @@ COMMANDS: Final = {
     "NEW": ConsoleCommand("NEW", "begin with an empty program"),
     "LOAD": ConsoleCommand("LOAD FILE", "read a program"),
     "SAVE": ConsoleCommand("SAVE FILE", "write the program to a new file"),
-    "LIST": ConsoleCommand("LIST [FIRST[-LAST]]", "show its lines"),
-    "COMPILE": ConsoleCommand("COMPILE", "check it, and say how much code it makes"),
-    "RUN": ConsoleCommand("RUN", "run it from the beginning"),
-    "BREAK": ConsoleCommand("BREAK [LINE]", "stop before this line, or before none; Ctrl-C stops at once"),
-    "CONT": ConsoleCommand("CONT", "go on where the program stands"),
+    "LIST": ConsoleCommand("LIST [FIRST[-LAST]]", "show the lines of the program"),
+    "COMPILE": ConsoleCommand("COMPILE", "check the program, and show the size of its code"),
+    "RUN": ConsoleCommand("RUN", "run the program from the beginning"),
+    "BREAK": ConsoleCommand(
+        "BREAK [LINE]", "stop before this line; without a line, remove the stop. Ctrl-C stops at once"
+    ),
+    "CONT": ConsoleCommand("CONT", "continue from where the program has stopped"),
     "STATUS": ConsoleCommand("STATUS", "show the microcomputers"),
-    "HELP": ConsoleCommand("HELP", "show this list"),
+    "HELP": ConsoleCommand("HELP", "show this list of commands"),
     "BYE": ConsoleCommand("BYE", "leave"),
 }
 
@@ -86,9 +88,9 @@ class Console:
         word, rest = word.upper(), rest.strip()
         if word not in COMMANDS:
             near = suggestion(word, COMMANDS) or "HELP lists them"
-            raise NoSuchName(f"{quoted(word)} is no command; {near}")
+            raise NoSuchName(f"{quoted(word)} is not a command; {near}")
         if rest and " " not in COMMANDS[word].usage:
-            raise BadArgument(f"{word} takes nothing behind it, and not {quoted(rest)}")
+            raise BadArgument(f"{word} takes no operand; remove {quoted(rest)}")
         getattr(self, f"_{word.lower()}")(rest)
 
     # -- the program ----------------------------------------------------------------------------------
@@ -105,7 +107,7 @@ class Console:
                 raise BadArgument(f"{wrong.message}; {wrong.help}")
             assert found is not None
             if len(self._lines) >= MOST_LINES and found.number not in self._lines:
-                raise Refused(f"a program has {MOST_LINES} lines at most")
+                raise Refused(f"a program can have at most {MOST_LINES} lines")
             self._lines[found.number] = tidy(found.text)
         self._vm = None
 
@@ -121,7 +123,7 @@ class Console:
             row, _ = source.position(wrong[0].primary.span.start)
             raise BadArgument(f"{name}:{row}: {wrong[0].message}; `handeye check` shows all mistakes")
         if len({line.number for line in lines}) < len(lines):
-            raise BadArgument(f"{name} has two lines of one number")
+            raise BadArgument(f"{name} has two lines with the same number")
         self._new("")
         self._lines = {line.number: line.text for line in lines}
         self._tell(counted(len(lines), "line"))
@@ -139,7 +141,7 @@ class Console:
     def _list(self, which: str) -> None:
         found = re.fullmatch(r"(?:([0-9]{1,5})(?:\s*(-)\s*([0-9]{1,5})?)?)?", which)
         if found is None:
-            raise BadArgument(f"LIST takes a line or two, such as 100-200, and not {quoted(which)}")
+            raise BadArgument(f"LIST takes one line or a range, such as 100-200, not {quoted(which)}")
         first, dash, last = found.groups()
         low = int(first) if first else 0
         high = int(last) if last else low if first and not dash else max(self._lines, default=0)
@@ -154,7 +156,7 @@ class Console:
             self._tell(render(each, source))
         if program is None or has_errors(found):
             raise Refused(
-                f"{counted(sum(each.severity == 'error' for each in found), 'mistake')}: nothing is run"
+                f"{counted(sum(each.severity == 'error' for each in found), 'mistake')}: the program is not run"
             )
         if not program.lines:
             raise Refused("there is no program")
@@ -177,7 +179,7 @@ class Console:
     def _cont(self, _: str) -> None:
         vm = self._vm
         if vm is None or not vm.memory.tasks:
-            raise Refused("no program stands: RUN begins one")
+            raise Refused("no program is running; RUN starts it")
         if vm.memory.fault is not None:
             self._carry_on(vm.proceed)
         elif self._paused:
@@ -189,7 +191,7 @@ class Console:
         if not line:
             self._stop = None
         elif not line.isdigit() or int(line[:6]) not in self._lines:
-            raise BadArgument(f"BREAK takes the number of a line, and not {quoted(line)}")
+            raise BadArgument(f"BREAK takes the number of a line, not {quoted(line)}")
         else:
             self._stop = int(line)
 
@@ -209,13 +211,13 @@ class Console:
                 if number == self._stop:
                     self._paused = True
                     self._tell(
-                        f"BREAK before line {number}, in the task {vm.turn}, at {vm.time:.3f} s; CONT goes on"
+                        f"BREAK before line {number}, in the task {vm.turn}, at {vm.time:.3f} s; CONT continues"
                     )
                     return
                 vm.statement()
                 vm.settle()
         except Halted:
-            self._tell(f"BREAK at {vm.time:.3f} s; CONT goes on")
+            self._tell(f"BREAK at {vm.time:.3f} s; CONT continues")
             return
         if vm.memory.fault is not None:
             self._tell(vm.memory.fault.told)
@@ -260,7 +262,7 @@ class Console:
         width = max(len(each.usage) for each in COMMANDS.values())
         for each in COMMANDS.values():
             self._tell(f"{each.usage:{width}}  {each.help}")
-        self._tell("A line with a number goes into the program; its number alone takes it out.")
+        self._tell("A line with a number is added to the program; the number alone removes the line.")
 
     def _bye(self, _: str) -> None:
         self.over = True

@@ -43,8 +43,8 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
     kept: dict[int, Line] = {}
     for line in lines:
         if line.number in kept:
-            first = Label(span=kept[line.number].span, text="it is here already")
-            found.append(mistake("line-twice", f"there are two lines {line.number}", line.span, first))
+            first = Label(span=kept[line.number].span, text="it is already here")
+            found.append(mistake("line-twice", f"two lines have the number {line.number}", line.span, first))
         else:
             kept[line.number] = line
     ordered = in_order([*kept.values()])
@@ -183,11 +183,11 @@ class _Check:
                 continue
             name = statement.names[0]
             if name.text == MAIN:
-                told = "the task MAIN is that of the lines before the first TASK"
+                told = "the lines before the first TASK are the task MAIN; choose another name"
                 yield mistake("task-twice", told, name.span)
             elif name.text in seen:
                 first = Label(span=seen[name.text].span, text="it begins here")
-                yield mistake("task-twice", f"there are two tasks {name.text}", name.span, first)
+                yield mistake("task-twice", f"two tasks have the name {name.text}", name.span, first)
             elif name.text not in started and self._complete:
                 yield mistake("task-never-started", f"no line starts the task {name.text}", name.span)
             seen.setdefault(name.text, name)
@@ -213,7 +213,7 @@ class _Check:
                 "line-missing", told, statement.target.span, help=f"the nearest line of {line.task} is {near}"
             )
         elif goal.task != line.task:
-            told = f"line {number} belongs to the task {goal.task}, and this one to {line.task}"
+            told = f"line {number} belongs to the task {goal.task}, but this line to {line.task}"
             where = Label(span=goal.span, text=f"a line of {goal.task}")
             yield mistake("other-task", told, statement.target.span, where)
 
@@ -229,12 +229,14 @@ class _Check:
                 elif statement.word == "NEXT":
                     opened.pop(name, None)
                     if name not in begun:
-                        told = f"no FOR {name} stands before this"
+                        told = f"there is no FOR {name} before this NEXT"
                         yield mistake("next-without-for", told, statement.span)
         for name, loops in opened.items():
             for statement in loops:
                 yield mistake(
-                    "for-without-next", f"no NEXT {name} follows in the task {task.name}", statement.span
+                    "for-without-next",
+                    f"there is no NEXT {name} after this FOR in the task {task.name}",
+                    statement.span,
                 )
 
     def _pairs(self, task: _Task) -> Iterator[Diagnostic]:
@@ -254,7 +256,7 @@ class _Check:
                 continue
             for flag in statement.names:
                 if flag.text not in set_somewhere:
-                    told = f"no line sets the flag {flag.text}: this waits for ever"
+                    told = f"no line sets the flag {flag.text}, so this statement waits for ever"
                     near = self._near(flag.text, set_somewhere)
                     yield mistake("flag-never-set", told, flag.span, meant=near)
 
@@ -265,7 +267,7 @@ class _Check:
             for name in reads(statement):
                 if name.text not in set_somewhere | seen:
                     seen.add(name.text)
-                    told = f"no line sets the variable {name.text}: it holds 0"
+                    told = f"no line sets the variable {name.text}, so its value is 0"
                     near = self._near(name.text, set_somewhere)
                     yield mistake("variable-never-set", told, name.span, meant=near)
             if statement.word == "NEXT" and statement.names[0].text in seen:
@@ -289,12 +291,12 @@ class _Check:
         seen: set[str] = set()
         for axis in driven(statement):
             if axis.text in seen:
-                yield mistake("axis-twice", f"{axis.text} stands here twice", axis.span)
+                yield mistake("axis-twice", f"{axis.text} is named twice in this statement", axis.span)
             seen.add(axis.text)
         for goal in statement.goals:
             most, place = TRAVEL_MM[goal.axis.text[0]], constant(goal.distance)
             if goal.mode == "TO" and place is not None and not 0 <= place <= most:
-                told = f"{goal.axis.text} reaches from 0 to {most:g} mm, and not to {place:g}"
+                told = f"{goal.axis.text} reaches from 0 to {most:g} mm, but the goal is {place:g} mm"
                 yield mistake("beyond-rail", told, goal.axis.span)
 
     def _values(self, statement: Statement) -> Iterator[Diagnostic]:
@@ -303,15 +305,17 @@ class _Check:
                 if isinstance(part, Call) and part.function == "BEAM":
                     arm = None if isinstance(part.argument, Token | None) else constant(part.argument)
                     if arm not in (None, 1, 2):
-                        yield mistake("wrong-value", f"the arms are 1 and 2, and not {arm:g}", statement.span)
+                        yield mistake(
+                            "wrong-value", f"the arms are 1 and 2; there is no arm {arm:g}", statement.span
+                        )
         for word, (least, most, what) in _RANGES.items():
             value = constant(statement.values[0]) if statement.word == word and statement.values else None
             if value is not None and not least <= value <= most:
-                told = f"{what} is from {least:g} to {most:g}, and not {value:g}"
+                told = f"{what} must be between {least:g} and {most:g}, not {value:g}"
                 yield mistake("wrong-value", told, statement.span)
         slow = None if statement.slow is None else constant(statement.slow)
         if slow is not None and not SLOWEST <= slow <= FASTEST_SLOW:
-            told = f"a constant speed is from {SLOWEST:g} to {FASTEST_SLOW:g} mm/s, and not {slow:g}"
+            told = f"a constant speed must be between {SLOWEST:g} and {FASTEST_SLOW:g} mm/s, not {slow:g}"
             yield mistake("wrong-value", told, statement.span)
 
 

@@ -33,8 +33,8 @@ KINDS: Final[dict[FindingKind, str]] = {
     "deadlock": "no task can go on",
     "axis": "two tasks drive one axis at once",
     "hands": "the hands of both arms may meet",
-    "variable": "which task comes first at a variable depends on time",
-    "flag": "a flag is set before it was taken: one of the two signals is lost",
+    "variable": "two tasks use a variable, and the result depends on which comes first",
+    "flag": "a flag is set again before a task has taken it: one of the two signals is lost",
     "stops": "a statement cannot be executed",
 }
 _SHARED_WORDS: Final = {"SET", "RESET", "WAIT", "TAKE", "START", "KILL", "STOP", "END"}
@@ -281,7 +281,7 @@ class _Search:
             owner = state.memory.owners.get(axis)
             if owner is not None and owner.task != name:
                 there = self.program.line_of(owner.address).number
-                told = f"{axis} is driven by the task {owner.task}, line {there}, and by the task {name}, line {here}"
+                told = f"both the task {owner.task}, line {there}, and the task {name}, line {here}, drive {axis}"
                 self._find("axis", told, [there, here], key)
 
     def _see_hands(self, key: bytes, state: _State) -> None:
@@ -296,7 +296,7 @@ class _Search:
                 f"{axis} by the task {owner.task}, line {line}"
                 for axis, owner, line in zip(("X1", "X2"), owners, lines, strict=True)
             )
-            told = f"X1 and X2 may reach {near:.0f} mm together ({HANDS_MEET_MM:.0f} mm is the most): {who}"
+            told = f"X1 and X2 may add up to {near:.0f} mm (the limit is {HANDS_MEET_MM:.0f} mm): {who}"
             self._find("hands", told, lines, key)
 
     def _see_variables(self, key: bytes, state: _State, one: str, other: str) -> None:

@@ -34,7 +34,7 @@ def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
     for row, text in enumerate(source.text.split("\n"), 1):
         here, length = text.removesuffix("\r"), len(text)
         if len(lines) == MOST_LINES and here.strip(" \t"):
-            told = f"a program has {MOST_LINES} lines at most"
+            told = f"a program can have at most {MOST_LINES} lines"
             return lines, [*found, mistake("too-many-lines", told, Span(start=start, end=start + 1))]
         if here.strip(" \t"):
             line, wrong = parsed_line(here, start, row, task)
@@ -69,7 +69,7 @@ def parsed_line(text: str, start: int, row: int, task: str) -> tuple[Line | None
 def _line_number(token: Token) -> int:
     number = float(token.text) if token.kind == "number" else 0
     if not token.text.isdigit() or not 1 <= number <= LARGEST_NUMBER:
-        told = f"a line begins with its number, from 1 to {LARGEST_NUMBER}, and not with {quoted(token.text)}"
+        told = f"a line must begin with its number, from 1 to {LARGEST_NUMBER}, not with {quoted(token.text)}"
         raise Mistaken(mistake("line-number", told, token.span))
     return int(token.text)
 
@@ -120,7 +120,7 @@ class _Parser(ExpressionReader):
             raise Mistaken(mistake("arrays-dropped", told, name.span))
         if following is None or following.text != "=":
             near = nearest(name.text, STATEMENTS, max(1, len(name.text) // 3))
-            told = f"{quoted(name.text)} is no statement of MAL"
+            told = f"{quoted(name.text)} is not a statement of MAL"
             raise Mistaken(
                 mistake("unknown-statement", told, name.span, meant=SimilarName(near) if near else None)
             )
@@ -212,7 +212,7 @@ class _Parser(ExpressionReader):
             taken = {each.text for each in options}
             if option.text in taken or {"SLOW", "LINE"} <= {option.text, *taken}:
                 told = (
-                    f"{option.text} stands here twice"
+                    f"{option.text} is given twice"
                     if option.text in taken
                     else "SLOW and LINE exclude each other: both choose the speed"
                 )

@@ -47,13 +47,13 @@ def tokens(line: str, start: int) -> tuple[list[Token], Diagnostic | None]:
         if match is None:
             span = Span(start=start + at, end=start + at + 1)
             if line[at] == '"':
-                told = 'a text ends with `"` on the line on which it begins'
+                told = 'a text must end with `"` on the line on which it begins'
                 return found, mistake("text-unclosed", told, Span(start=span.start, end=start + len(line)))
             return found, mistake("stray-character", f"{quoted(line[at])} is not a character of MAL", span)
         kind, text, at = match.lastgroup, match[match.lastgroup or 0], match.end()
         if kind == "number" and not float(text) <= LARGEST_NUMBER:
             span = Span(start=start + match.start(), end=start + at)
-            return found, mistake("number-too-large", f"numbers reach to {LARGEST_NUMBER:g}", span)
+            return found, mistake("number-too-large", f"the largest number is {LARGEST_NUMBER:g}", span)
         if kind != "blank":
             upper = text.upper() if kind == "name" else text
             found.append(Token(kind, upper, start + match.start(), start + at))  # type: ignore[arg-type]  # a group's name

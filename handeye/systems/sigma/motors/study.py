@@ -113,11 +113,11 @@ def study(
 
 def _check(mass: float, steps: int, curve: int, slow: float | None, load: float) -> None:
     if not 0 < mass <= _HEAVIEST:
-        raise BadArgument(f"a moved mass is over 0 and up to {_HEAVIEST:g} kg, not {mass:g}")
+        raise BadArgument(f"a moved mass must be above 0 and at most {_HEAVIEST:g} kg, not {mass:g}")
     if not 1 <= steps <= LONGEST_MOVE:
         raise BadArgument(f"a move has 1 to {LONGEST_MOVE} steps, not {steps}")
     if not 0 <= curve < len(CURVES):
-        raise BadArgument(f"there are curves 0 to {len(CURVES) - 1}; {curve} is none")
+        raise BadArgument(f"there is no curve {curve}; the curves are 0 to {len(CURVES) - 1}")
     if slow is not None and not 1 <= slow <= CURVES[1].top * STEP_MM:
         raise BadArgument(f"a constant speed is 1 to {CURVES[1].top * STEP_MM:g} mm/s, not {slow:g}")
     if not (math.isfinite(load) and load >= 0):
@@ -167,14 +167,18 @@ _INTERRUPTED: Final = {"": "", "stop": ", stopped by the steepest ramp", "cut": 
 def verdict(found: AxisStudy) -> list[str]:
     """Sentences on whether the rotor follows."""
     out = [
-        f"the least pull-out force is {found.margin:.2f} times what is asked for, at {1000 * found.tightest:.0f} ms"
+        f"the smallest ratio of the pull-out force to the required force is {found.margin:.2f}, at "
+        f"{1000 * found.tightest:.0f} ms"
     ]
     if not found.starts:
         out.append(
-            "its pole is too shallow for the jump to start/stop speed, except for what the damping takes"
+            "without its damping, the motor could not hold the rotor in the jump to the start/stop speed"
         )
     if found.kept:
-        out.append(f"the rotor follows each pulse, at most {found.lag:.2f} steps away; it would slip at 2")
+        out.append(
+            f"the rotor follows each pulse, at most {found.lag:.2f} steps behind or ahead; it would slip at "
+            "2 steps"
+        )
     elif not found.lost:
         out.append(
             f"the rotor slips on its way, by up to {counted(round(found.lag), 'step')}, and ends in step by chance"

@@ -27,7 +27,7 @@ class SigmaSystem(System):
     state = MalState
     words = StepperWords(
         about=(
-            "A step is one statement of the task whose turn it is. Each task has its own place; the arrow",
+            "A step is one statement of the task whose turn it is. Each task has its own position; the arrow",
             "stands before the statement that comes next. `back` takes all tasks back together.",
         ),
         places=(
@@ -36,8 +36,8 @@ class SigmaSystem(System):
         ),
         units="millimetres, newtons, seconds",
         commands={
-            "proceed": "go on behind the statement at which the program stands",
-            "retry": "execute that statement again",
+            "proceed": "continue after the statement at which the program has stopped",
+            "retry": "execute the statement again",
             "skip": "end the program here",
         },
     )
@@ -64,7 +64,7 @@ class SigmaSystem(System):
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {
-            "proceed": "proceed: go on behind this statement",
+            "proceed": "proceed: continue after this statement",
             "retry": "retry: execute it again",
             "skip": "skip: end the program here",
         }

@@ -40,7 +40,7 @@ def edit(
 ) -> int:
     """Open the editor: type commands, drive the arm with the teach box, and see the program. HELP lists the commands.
 
-    Exit code 0: left; 2: bad input, or a line that was piped in was refused; 130: interrupted.
+    Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
     """
     from handeye.systems.trig.cli.sessions import opened
 
@@ -56,12 +56,12 @@ def run(
     /,
     *,
     arm: ArmKind = "none",
-    back: Annotated[bool, Parameter(help="Then run it backwards to its start.")] = False,
+    back: Annotated[bool, Parameter(help="Then run the program backwards to its start.")] = False,
     json: Json = False,
 ) -> int:
-    """Run a program from the top; a script is typed first, line by line, as at the editor.
+    """Run a program from the top; the lines of a script are first typed one by one, as in the editor.
 
-    Exit code 0: the program has ended, and with --back everything is undone; 1: the arm was stopped before;
+    Exit code 0: the program has ended, and with --back everything is undone; 1: the arm stopped before that;
     2: bad input; 130: interrupted.
     """
     from handeye.systems.trig.cli.sessions import opened, watched
@@ -97,7 +97,7 @@ def show(
         WholeNumber, Parameter(help="Characters per line. Default: the width of the terminal.")
     ] = 0,
 ) -> int:
-    """Show both displays of a program: all of it in miniature, and its steps in full.
+    """Show both displays of a program: the whole program in miniature, and its steps in full.
 
     Exit code 0: shown; 2: bad input.
     """
@@ -106,7 +106,7 @@ def show(
     from handeye.systems.trig.language.styled import plain, symbols_for
 
     if width and not 20 <= width <= 1000:
-        raise BadArgument(f"a display is 20 to 1000 characters wide, not {width}")
+        raise BadArgument(f"a display must be 20 to 1000 characters wide, not {width}")
     with PanicButton() as panic:
         program = opened("none", file, panic).program
     symbols, wide = symbols_for(sys.stdout.encoding), width or screen.width
@@ -144,7 +144,7 @@ def _conversed(session: "Session", arm: str) -> int:
         from handeye.systems.trig.cli.lines import converse
 
         missing = MissingExtra("trig", "prompt_toolkit", "terminal")
-        note(f"{missing}; without it you can type lines, but there is no screen")
+        note(f"{missing}; without this package you can type lines, but there is no screen")
         with PanicButton() as panic:
             converse(session, panic)
         return 0

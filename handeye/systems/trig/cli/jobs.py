@@ -31,7 +31,9 @@ if TYPE_CHECKING:
     from handeye.systems.trig.run.job_video import JobVideo
 
 
-Seed = Annotated[WholeNumber, Parameter(help="Seed of the world: errors of teaching, machine and blocks.")]
+Seed = Annotated[
+    WholeNumber, Parameter(help="Seed of the world: it decides the errors of teaching, machine and blocks.")
+]
 
 
 @Parameter(name="*")
@@ -72,7 +74,7 @@ class _Progress(Observer):
 def palletise(
     *,
     blocks: Annotated[
-        WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20; the pallet takes 15.")
+        WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20; the pallet has room for 15.")
     ] = 20,
     seed: Seed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
@@ -80,18 +82,19 @@ def palletise(
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
-    """Put a stack of blocks into a pallet, and back: the paper's second example, with physics, in a drawn world.
+    """Move a stack of blocks into a pallet, and back: the paper's second example, with physics, in a random world.
 
-    Its 26 lines are typed into a new editor, by a person whose places are off by .3 mm. Then the program is run from
-    the top, a referee looks, it is run backwards, and the referee looks again. Twenty blocks take some minutes.
+    The 26 lines of the example are typed into a new editor by a simulated person, whose taught positions are off by
+    .3 mm. Then the program runs forwards and a referee judges it; it runs backwards, and the referee judges again.
+    Twenty blocks take some minutes.
 
-    Exit code 0: placed, and every block back where it was; 1: the arm has stopped before; 3: done, and the referee
+    Exit code 0: every block was placed and taken back; 1: the arm stopped before that; 3: done, but the referee
     disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.systems.trig.jobs.benches import MOST_BLOCKS
 
     if not 0 <= blocks <= MOST_BLOCKS:
-        raise BadArgument(f"a stack has 0 to {MOST_BLOCKS} blocks, not {blocks}")
+        raise BadArgument(f"a stack must have 0 to {MOST_BLOCKS} blocks, not {blocks}")
     return _work("palletise", _world("palletise", seed, errors, fault), blocks, kept, json=json)
 
 
@@ -103,12 +106,13 @@ def bucket(
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
-    """Drop a block into a bucket, and put another one in its place: the paper's first example, with physics.
+    """Drop a block into a bucket, and put another block in its place: the paper's first example, with physics.
 
-    It is taught and run in a drawn world, and a referee looks. It is not run backwards: what lies in a bucket cannot be
-    taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows where that stops).
+    The program is taught and run in a random world, and a referee judges it. It is not run backwards, because a block
+    in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows where that
+    stops).
 
-    Exit code 0: done and right; 1: the arm has stopped before; 3: done, and the referee disagrees; 2: bad input;
+    Exit code 0: done and right; 1: the arm stopped before that; 3: done, but the referee disagrees; 2: bad input;
     130: interrupted.
     """
     return _work("bucket", _world("bucket", seed, errors, fault), None, kept, json=json)
@@ -247,13 +251,13 @@ def pallet_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Palletise in many worlds, and take everything back: how often it comes out right, and how far off blocks are.
+    """Palletise in many worlds and undo it: success rate, and position errors of the blocks.
 
-    Each trial is that of `handeye trig palletise`: taught, run, judged, undone, judged. Ctrl-C ends the batch and
-    prints what has finished.
+    Each trial does what `handeye trig palletise` does: the program is taught, run, judged, undone and judged again.
+    Ctrl-C ends the batch and prints the trials that have finished.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial all was said to be done, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program reported success, but the
+    referee disagrees.
     """
     from handeye.systems.trig.jobs.benches import MOST_BLOCKS
     from handeye.systems.trig.run.pallet_trials import PALLET, PalletWork
@@ -263,7 +267,7 @@ def pallet_trials(
     positive(n, "trial")
     options.check()
     if not 0 <= blocks <= MOST_BLOCKS:
-        raise BadArgument(f"a stack has 0 to {MOST_BLOCKS} blocks, not {blocks}")
+        raise BadArgument(f"a stack must have 0 to {MOST_BLOCKS} blocks, not {blocks}")
     settings = {"blocks": str(blocks), "interrupted runs": "yes" if interrupt else "no"}
     world = errors.of("palletise").spec(seed)
     words = shlex.join(errors.words())

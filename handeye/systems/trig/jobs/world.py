@@ -36,7 +36,7 @@ VARIATION: Final = Variation(
         "mm",
         Noise(0.3),
         5.0,
-        "Standard deviation of a stack's position along X and Y. Chosen: as placed at a mark.",
+        "Standard deviation of a stack's position along X and Y. Chosen: as if the stack is placed at a mark.",
     ),
     _quantity(
         ALIGNED,
@@ -69,9 +69,9 @@ FAULTS: Final = Catalogue(
         size=Size(unit="N", usual=0.1, limits=(0.001, 30.0)),
     ),
     FaultKind(
-        name=HEAVY, meaning="Blocks weigh this many times as much as aluminium ones.", when="before",
+        name=HEAVY, meaning="The blocks weigh this many times as much as aluminium blocks.", when="before",
         size=Size(unit="", usual=10.0, limits=(1.0, 100.0)),
-        expected=ExpectedDetection(harmless="The hand holds a hundred times the weight of a block."),
+        expected=ExpectedDetection(harmless="The hand can hold a hundred times the weight of a block."),
     ),
     FaultKind(
         name=SLIPPERY, meaning="Blocks and platter are oiled: this is their friction.", when="before",

@@ -42,7 +42,7 @@ def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -
     if len(words) < needs:
         raise BadArgument(f"`{usage}` needs {_NOUNS[takes[len(words)]]}")
     if len(words) > len(takes):
-        raise BadArgument(f"`{usage}` has no use for {quoted(words[len(takes)])}")
+        raise BadArgument(f"`{usage}` takes no further operand; remove {quoted(words[len(takes)])}")
     for kind, word in zip(takes, words, strict=False):
         if kind == "signed":
             given.negate, word = word.startswith("-"), word.removeprefix("-")
@@ -63,7 +63,7 @@ def read_threshold(word: str) -> float:
     """A threshold typed in ounces, converted to N; raises BadArgument."""
     ounces = number(word.strip())
     if ounces < 0:
-        raise BadArgument(f"a threshold must be 0 oz or more, not {quoted(word.strip())} is")
+        raise BadArgument(f"a threshold must be 0 oz or more, not {quoted(word.strip())}")
     return ounces * OUNCE_FORCE
 
 

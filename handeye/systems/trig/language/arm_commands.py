@@ -62,7 +62,7 @@ def here_relative(session: Session, given: Arguments) -> None:
     """SR: store the offset from the end of the last step to the arm's present place under a name."""
     start = session.program.ended_at
     if start is None:
-        raise Refused("no step has moved the arm yet; CALPOS and ENDCAL measure any distance")
+        raise Refused("no step has moved the arm yet; use CALPOS and ENDCAL, which measure any distance")
     _define(session, given.position or "", session.arm.here().seen_from(start), relative=True)
 
 

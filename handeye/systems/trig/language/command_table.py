@@ -38,14 +38,14 @@ RUNS: Final = "run, save, leave"
 
 TABLE: Final = (
     TrigCommand(
-        usage="FREE", group=ARM, act=arm_commands.free, help="drive it with the teach box until you press save"
+        usage="FREE", group=ARM, act=arm_commands.free, help="drive the arm with the teach box until you press save"
     ),
     TrigCommand(
         usage="GOPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.go, help="go to a position"
     ),
     TrigCommand(
         usage="GOGPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.feel,
-        help="go there slowly, until a force stops the arm",
+        help="go to a position slowly, until a force stops the arm",
     ),
     TrigCommand(usage="GOGRASP", group=ARM, act=arm_commands.close, help="close the hand"),
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
@@ -63,7 +63,8 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="MG [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None, guarded=True),
-        help="as M, slowly and guarded: a force on the finger stops it, and the program continues on the other branch",
+        help="like M, but slow and guarded: a force on the finger stops the move, and the program continues on the "
+            "guarded branch",
     ),
     TrigCommand(
         usage="MAG [POS [n|g]]", group=STEPS, takes=("position", "branch"),
@@ -101,11 +102,11 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="CV (X Y Z)", group=CHANGES, takes=("vector",), needs=1, act=step_commands.change_vector,
-        help="change its force vector",
+        help="change the force vector of the active guarded step",
     ),
     TrigCommand(
         usage="D [STEP [n|g]]", group=CHANGES, takes=("step", "branch"), act=step_commands.delete,
-        help="delete a step; for a guarded one, n or g is the branch to keep",
+        help="delete a step; for a guarded step, n or g is the branch to keep",
     ),
     TrigCommand(
         usage="DA [STEP]", group=CHANGES, takes=("step",), act=step_commands.delete_all,
@@ -113,7 +114,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=step_commands.unlink,
-        help="remove the link from the active step to one that others also lead to",
+        help="remove the link from the active step to a step that other steps also lead to",
     ),
     TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(
@@ -132,21 +133,21 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="ENDCAL POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.end_way,
-        help="name the move from there to the place of the arm",
+        help="name the move from the place of CALPOS to the present place of the arm",
     ),
     TrigCommand(
         usage="N [COUNT]", group=CURSOR, takes=("count",), act=program_commands.next_step, help="go down COUNT steps"
     ),
     TrigCommand(
         usage="P [COUNT]", group=CURSOR, takes=("count",), act=program_commands.previous_step,
-        help="go up COUNT steps, along those that were active last",
+        help="go up COUNT steps, along the steps that were active last",
     ),
     TrigCommand(
         usage="GOTO STEP", group=CURSOR, takes=("step",), needs=1, act=program_commands.goto, help="go to a named step"
     ),
     TrigCommand(
         usage="RUN [COUNT]", group=RUNS, takes=("count",), act=program_commands.run,
-        help="run the program from the top, or COUNT steps from the active one; with a minus, backwards",
+        help="run the program from the top, or COUNT steps from the active step; with a minus, backwards",
     ),
     TrigCommand(usage="W [FILE]", group=RUNS, takes=("file",), act=program_commands.write,
         help="write the program to a file"),

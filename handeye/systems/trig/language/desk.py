@@ -109,7 +109,9 @@ def _jog(word: str, words: deque[str]) -> Jog:
     if by:
         words.popleft()
     if not words:
-        raise BadArgument(f"{word} needs a number: `{word} 30` is a place, `{word} BY 30` a distance")
+        raise BadArgument(
+            f"{word} needs a number: `{word} 30` goes to a place, `{word} BY 30` goes by a distance"
+        )
     axis = AXES.index(word)
     return Jog(axis, number(words.popleft()) * SIZES[axis], by)
 
@@ -148,7 +150,7 @@ def arrange(table: Tabletop, line: str) -> str:
         case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MAX_STACK:
             table.stack(int(count), _at(x), _at(y))
         case ["STACK", count, "X", _, "Y", _]:
-            raise BadArgument(f"a stack has 1 to {MAX_STACK} blocks, not {quoted(count)}")
+            raise BadArgument(f"a stack must have 1 to {MAX_STACK} blocks, not {quoted(count)}")
         case ["BUCKET", "X", x, "Y", y]:
             table.bucket(_at(x), _at(y))
         case ["CLEAR"]:

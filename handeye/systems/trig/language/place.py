@@ -90,9 +90,11 @@ Positions = dict[str, Position]  # by name; those of single steps by names that 
 def name_of(word: str) -> str:
     """A name in capitals; raises BadArgument if it is not possible."""
     if len(word) > LONGEST:
-        raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name has {LONGEST} at most")
+        raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name can have at most {LONGEST}")
     if not NAME.fullmatch(word.upper()) or not word.isascii():
-        raise BadArgument(f"{quoted(word)} is not a name: a letter, then letters, digits, `-` and `_`")
+        raise BadArgument(
+            f"{quoted(word)} is not a name: a name is a letter, then letters, digits, `-` and `_`"
+        )
     return word.upper()
 
 

@@ -61,9 +61,9 @@ def told_obstacle(obstacle: Obstacle) -> str:
             far, allowed = distinct_digits((off / SIZES[axis], limit / SIZES[axis]), 1)
             return f"{AXES[axis]} is {far} {UNITS[axis]} from its commanded place; the limit is {allowed}"
         case MissingContact():
-            return "on the way forward the finger met something here; now it meets nothing"
+            return "on the way forward the finger met something here, but now it meets nothing"
         case MissingSupport():
-            return "the hand picked its part up from something here, and now there is nothing here"
+            return "the hand had picked up its part from a support here, but now there is no support"
 
 
 Halted = Callable[[], bool]  # polled during motion: True to stop the arm

@@ -80,10 +80,10 @@ def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
 
 def _blocks(done: JobReport) -> Iterator[Markup]:
     above = (
-        "Ground truth, which neither arm nor program sees, from above: outlines of the wanted and the actual places "
-        "of the blocks, numbers in the order of grasping, and a cross at the centre of the platter."
+        "The ground truth, which neither arm nor program sees, from above: outlines of the wanted and the actual "
+        "places of the blocks, numbered in the order of grasping, and a cross at the centre of the platter."
     )
-    off = " On the right: the centre of each block, relative to its wanted place."
+    off = " The chart on the right shows the centre of each block, relative to its wanted place."
     yield note(above + (off if _placed(done) or done.checks_back else ""))
     yield element("figure", _drawn(done), class_="chart")
 

@@ -38,9 +38,9 @@ class TaughtSystem(System):
         places=("PLACE is a line (8), the name of a step, or what steps do (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={
-            "proceed": "try the step that called again, forwards or backwards",
+            "proceed": "try again the step that called the operator, forwards or backwards",
             "retry": "the same as `proceed`",
-            "skip": "end the program here; going back, no step can be skipped",
+            "skip": "end the program here; on the way back, no step can be skipped",
         },
     )
 
@@ -77,10 +77,10 @@ class TaughtSystem(System):
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         if undoing(runner):
-            return {"proceed": "proceed: have the step undone again", "retry": "retry: the same"}
+            return {"proceed": "proceed: try again to undo the step", "retry": "retry: the same as proceed"}
         return {
-            "proceed": "proceed: have the step done again",
-            "retry": "retry: the same",
+            "proceed": "proceed: try the step again",
+            "retry": "retry: the same as proceed",
             "skip": "skip: end the program here",
         }
 

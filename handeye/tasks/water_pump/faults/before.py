@@ -114,10 +114,11 @@ def _gasket() -> Iterator[PartFault]:
         Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
     )  # fmt: skip
     yield from _moved(part, "the gasket", {
-        "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless="The hand searches for it around its place."),
+        "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless="The hand searches for the gasket around its "
+        "place."),
         "y": ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_OFF, detect.ON_PINS),
-            harmless="The search finds the pins even with the gasket held .25 in off.",
+            harmless="The search finds the pins even if the hand holds the gasket .25 in off its centre.",
         ),
     })  # fmt: skip
     yield _fault(
@@ -149,7 +150,7 @@ def _top() -> Iterator[PartFault]:
     )
     yield from _moved("top", "the top", {"x": off, "y": off})
     yield _fault(
-        "top.tilted", "A chip of this height lies under one end of the top, on its stand.", _chip,
+        "top.tilted", "On the stand, a chip of this height lies under one end of the top.", _chip,
         ExpectedDetection(
             errors=(WRONG_HEIGHT, SEARCH_EXHAUSTED),
             calls=(detect.NOT_FLAT, "PIN {number} DOES NOT STAND: THE TOP HAS DRAWN IT OUT", detect.ON_PINS),
@@ -176,7 +177,7 @@ def _pins() -> Iterator[PartFault]:
         meaning = f"Aligning pin {number} is not in its holder."
         yield _fault(f"pin.{number}.missing", meaning, partial(_missing, pin), detect.NO_PIN)
         yield _fault(
-            f"pin.{number}.thick", f"The nose of aligning pin {number} is thicker by this radius.",
+            f"pin.{number}.thick", f"The radius of the nose of aligning pin {number} is larger by this amount.",
             partial(_thick_nose, pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
         )  # fmt: skip
 
@@ -194,7 +195,8 @@ def _screws(count: int) -> Iterator[PartFault]:
         )  # fmt: skip
         yield _fault(
             f"screw.{number}.burred",
-            f"A burr adds this radius to the point of screw {number}: from .35 mm on it enters no tapped hole.",
+            f"A burr adds this radius to the point of screw {number}: from .35 mm on, the screw enters no tapped "
+            "hole.",
             partial(_thick_point, screw), calls(detect.misfit_screw(number), loose),
             Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
@@ -221,8 +223,8 @@ def _holes(count: int) -> Iterator[PartFault]:
             (f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only to this depth below its mouth.",
              partial(_block, hole, "plug"), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
             (f"thread.{number}.scarred",
-             f"An earlier screw was cross-threaded in tapped hole {number}: another crosses there more "
-             f"easily.", _as_drawn,
+             f"An earlier screw was cross-threaded in tapped hole {number}, so that the next screw cross-threads "
+             "more easily.", _as_drawn,
              ExpectedDetection(
                  harmless="A screw that enters straight also seats in a scarred thread; the referee adds a caution."
              ), None),

@@ -59,14 +59,17 @@ _FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
 _WITHIN_AGREEMENT: Final = (
-    "The senses of a joint agree within their errors, 2 % of a long motion; near zero no factor shows."
+    "The two sensors of the joint agree within their errors, 2 % of a long motion, and near zero a factor has no "
+    "effect."
 )
-_WITHIN_SEARCHES: Final = "The searches and CENTER find parts that are displaced by less."
-_WITHIN_DRIVES: Final = "The drives overcome it, and the error of the felt force is below its guard's limit."
+_WITHIN_SEARCHES: Final = "The searches and CENTER find parts in spite of small displacements."
+_WITHIN_DRIVES: Final = (
+    "The drives overcome the friction, and the error of the felt force stays below the limit of the guard."
+)
 
 _WITHIN_WEIGHTS: Final = (
-    "Only joints 2 and 3 carry weight, which the arm knows to 6 and 17 %; an error from the start is taken for the "
-    "weight of the links."
+    "Only joints 2 and 3 carry weight, and the arm knows their weights to 6 and 17 %. It takes an error that is "
+    "present from the start for the weight of the links."
 )
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
 
@@ -110,7 +113,7 @@ def _switches() -> Iterator[DeviceFault]:
     for state, tells in told.items():
         stuck = Stuck(float(state == "closed"))
         yield _fault(
-            f"finger_switch.stuck_{state}", f"The switch of either finger {tells}.", _FINGERS, stuck, expected
+            f"finger_switch.stuck_{state}", f"The switch of each finger {tells}.", _FINGERS, stuck, expected
         )
         for line in _FINGERS:
             side = "+y" if line.endswith("plus_y") else "-y"
@@ -121,10 +124,10 @@ def _switches() -> Iterator[DeviceFault]:
         replace(expected, harmless="Only CENTER depends on which finger touches; both may touch at once."),
     )  # fmt: skip
     yield _fault(
-        "finger_switch.hard", "The switches of both fingers need a multiple of their force.",
+        "finger_switch.hard", "The switches of both fingers need this many times their usual force.",
         ("switch_force.plus_y", "switch_force.minus_y"), GainEffect,
-        replace(expected, harmless="Up to five times its force, a switch still closes when fingers press with 10 oz; "
-                                   "only CENTER depends on a lighter touch."),
+        replace(expected, harmless="A switch that needs up to five times its usual force still closes when the "
+                                   "fingers press with 10 oz; only CENTER depends on a lighter touch."),
         Size(unit="", usual=10.0, limits=(0.0, 100.0)),
     )  # fmt: skip
 
@@ -133,13 +136,13 @@ def _hand() -> Iterator[DeviceFault]:
     gap, expected = "gap_potentiometer", ExpectedDetection(errors=(GAP_WRONG,))
     yield _fault(f"{gap}.stuck", "The gap reading is frozen.", gap, Stuck(), expected)
     yield _fault(
-        f"{gap}.off", "The gap reads too large by this amount.", gap, OffsetEffect, expected,
+        f"{gap}.off", "The gap reading is too large by this amount.", gap, OffsetEffect, expected,
         Size(unit="in", usual=0.5, limits=(-4.0, 4.0)),
     )  # fmt: skip
     yield _fault(
-        f"{gap}.factor", "The gap reads a multiple of its true value.", gap, GainEffect,
-        replace(expected, harmless="The switches feel parts between the fingers: a gap that is wrong by less than a "
-                                   "tenth holds them equally well."),
+        f"{gap}.factor", "The gap reading is the true gap times this factor.", gap, GainEffect,
+        replace(expected, harmless="The switches feel parts between the fingers; if the gap is wrong by less than "
+            "a tenth, the fingers hold a part equally well."),
         Size(unit="", usual=1.15, limits=(0.1, 5.0)),
     )  # fmt: skip
     expected = ExpectedDetection(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG))
@@ -169,42 +172,44 @@ def _joints() -> Iterator[DeviceFault]:
         joint = f"of joint {number}"
         yield _fault(f"{pot}.stuck", f"The position reading {joint} is frozen.", pot, Stuck(), wrong)
         yield _fault(
-            f"{pot}.jump", f"The position {joint} reads too large by this amount.", pot, OffsetEffect,
+            f"{pot}.jump", f"The position reading {joint} is too large by this amount.", pot, OffsetEffect,
             replace(wrong, errors=(JOINT_SENSE_WRONG, FORCE_WRONG), calls=(detect.JOINT_OR_PLACE,)), _JUMP[unit],
         )  # fmt: skip
         yield _fault(
-            f"{pot}.drift", f"The reading of the position {joint} drifts by this amount per second.", pot, DriftEffect,
+            f"{pot}.drift", f"The position reading {joint} drifts by this amount per second.", pot, DriftEffect,
             wrong, _DRIFT[unit],
         )  # fmt: skip
         yield _fault(
-            f"{pot}.factor", f"The position {joint} reads a multiple of its true value.", pot, GainEffect,
+            f"{pot}.factor", f"The position reading {joint} is the true position times this factor.", pot, GainEffect,
             replace(wrong, harmless=_WITHIN_AGREEMENT), _FACTOR,
         )  # fmt: skip
         yield _fault(
-            f"{tachometer}.factor", f"The rate {joint} reads a multiple of its true value.", tachometer, GainEffect,
+            f"{tachometer}.factor", f"The rate reading {joint} is the true rate times this "
+            "factor.", tachometer, GainEffect,
             replace(wrong, harmless=_WITHIN_AGREEMENT), replace(_FACTOR, usual=1.3),
         )  # fmt: skip
         yield declared(
             f"gear.{number}.slips",
-            f"The gear {joint} slips by this amount within {SLIP_S:g} s; neither sense shows it.",
+            f"The gear {joint} slips by this amount within {SLIP_S:g} s; neither sensor of the joint shows it.",
             ((pot, _slipped), (tachometer, _slipping)),
             ExpectedDetection(
                 calls=(detect.JOINT_OR_PLACE,), harmless=_WITHIN_SEARCHES
             ), _SLIP[unit], stage=8,
         )  # fmt: skip
         yield _fault(
-            f"joint.{number}.stiff", f"The friction {joint} is a multiple of what it was.", f"friction.{number}",
+            f"joint.{number}.stiff", f"The friction {joint} is this many times its earlier "
+            "value.", f"friction.{number}",
             GainEffect, ExpectedDetection(errors=(JOINT_STIFF,), at_setup=True, harmless=_WITHIN_DRIVES),
             Size(unit="", usual=5.0, limits=(0.0, 20.0)), stage=3,
         )  # fmt: skip
-        yield _fault(f"{tachometer}.dead", f"The rate {joint} reads zero.", tachometer, DEAD, wrong)
+        yield _fault(f"{tachometer}.dead", f"The rate reading {joint} is zero.", tachometer, DEAD, wrong)
         yield _fault(
             f"{drive}.weak", f"The drive {joint} gives this fraction of the commanded torque.", drive, GainEffect,
             ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True),
             Size(unit="%", usual=50.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
         yield _fault(
-            f"{drive}.factor", f"The drive {joint} gives a multiple of the commanded torque.", drive, GainEffect,
+            f"{drive}.factor", f"The drive {joint} gives the commanded torque times this factor.", drive, GainEffect,
             ExpectedDetection(
                 errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS,
             ),
@@ -212,13 +217,13 @@ def _joints() -> Iterator[DeviceFault]:
         )  # fmt: skip
         yield _fault(
             f"brake.{number}.slips",
-            f"The brake {joint} holds this fraction of its torque.", f"brake.{number}", GainEffect,
-            replace(wrong, harmless="The brakes hold for as long as a picture takes, and the potentiometers show "
-                                    "where the arm sank."),
+            f"The brake {joint} holds only this fraction of its torque.", f"brake.{number}", GainEffect,
+            replace(wrong, harmless="The brakes need to hold only while a picture is taken, and the potentiometers "
+                "show how far the arm has sunk."),
             Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
     yield _fault(
-        "drives.factor", "All drives give a multiple of the commanded torque.",
+        "drives.factor", "All drives give the commanded torque times this factor.",
         [f"drive.{number}" for number in range(1, len(JOINT_UNITS) + 1)], GainEffect,
         ExpectedDetection(errors=(FORCE_WRONG, JOINT_STIFF), at_setup=True, harmless=_WITHIN_WEIGHTS), _GAIN, stage=4,
     )  # fmt: skip
@@ -240,20 +245,26 @@ def _slipping(way: float) -> Effect:
 def _screwdriver() -> Iterator[DeviceFault]:
     current, motor = "screwdriver.current", "screwdriver.motor"
     yield _fault(
-        f"{current}.dead", "The current of the screwdriver's motor reads zero, and so does its torque.", current, DEAD,
+        f"{current}.dead", "The current of the screwdriver's motor reads zero, and so does the torque computed from "
+        "it.", current, DEAD,
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
-    within = "A factor of 1.1 is within the noise of the current as the screw comes home, and .7 as the motor starts."
+    within = (
+        "A factor of 1.1 is within the noise of the current when a screw seats, and .7 is within the noise"
+        " when the motor starts."
+    )
     yield _fault(
-        f"{current}.factor", "The current of the screwdriver's motor reads a multiple of its torque.", current,
+        f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
+        "factor.", current,
         GainEffect,
         ExpectedDetection(errors=(CURRENT_WRONG,), harmless=within), Size(unit="", usual=0.5, limits=(0.0, 10.0)),
     )  # fmt: skip
     yield _fault(
-        f"{motor}.slow", "The screwdriver's motor turns at a multiple of the commanded speed.", motor, GainEffect,
+        f"{motor}.slow", "The screwdriver's motor turns at the commanded speed times this factor.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns more slowly seats as well; half the speed shows in a shorter start.",
+            harmless="A screw that turns more slowly seats equally well; half the speed shows, because the motor "
+                "starts sooner.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip
@@ -269,8 +280,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
                 "SCREW {number} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE",
                 "NO SCREW AT S{number}",  # it is fetched once more, and may lie elsewhere by then
             ),
-            harmless="A screw weighs .06 N, a hundredth of that force: a magnet that carries it also holds it "
-                     "straight.",
+            harmless="A screw weighs .06 N, a hundredth of the magnet's usual force: a magnet that carries a screw "
+                "also holds it straight.",
         ),
         Size(unit="%", usual=1.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
@@ -291,7 +302,8 @@ def _sight() -> Iterator[DeviceFault]:
     yield _fault("picture.dark", "Every picture is black.", PICTURE, DEAD, wrong)
     yield _fault(
         "camera.bumped",
-        "The camera has been bumped: it points this far to the side of its mount's direction, and below it.",
+        "The camera has been bumped: it points by this angle to the side of its mounting direction, and by this "
+        "angle below it.",
         ("camera.pan", "camera.tilt"), OffsetEffect,
         ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, GASKET_WRONG),

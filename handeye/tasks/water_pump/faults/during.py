@@ -107,10 +107,10 @@ def _light_and_pushes() -> Iterator[MishapFault]:
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
         calls=(detect.ASTRAY,),
-        harmless="The drives withstand a push that ends before the hand feels for anything.",
+        harmless="The drives withstand a push that ends before the next guarded motion.",
     )
     for number, axis in enumerate("xyz"):
-        meaning = f"A person pushes the hand along table {axis} for {PUSH_S:g} s."
+        meaning = f"A person pushes the hand along table {axis} with this force for {PUSH_S:g} s."
         yield declared(f"arm.pushed.{axis}", meaning, partial(_pushed, number), expected, size, stage=3)
 
 
@@ -122,7 +122,10 @@ def _base() -> Iterator[MishapFault]:
         harmless="The hand searches for the base around where the camera saw it.",
     )
     for number, axis in enumerate("xy"):
-        meaning = f"A person moves the base along table {axis} within {MOVE_S:g} s, with everything on it."
+        meaning = (
+            f"Within {MOVE_S:g} s, a person moves the base, with everything on it, by this distance along"
+            f" table {axis}."
+        )
         yield declared(f"base.moved.{axis}", meaning, partial(_moved, number), expected, size, stage=2)
     meaning = "A person removes the base with everything on it."
     gone = ExpectedDetection(

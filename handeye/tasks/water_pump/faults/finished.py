@@ -136,7 +136,7 @@ def _screws() -> Iterator[MishapFault]:
         expected = ExpectedDetection(
             calls=(detect.missing_head(number), detect.untight_screw(number), detect.unfelt_head(number))
         )
-        meaning = f"Screw {number} is turned out behind the driver, and taken away."
+        meaning = f"Screw {number} is turned out after the screwdriver has left it, and taken away."
         yield declared(
             f"screw.{number}.removed", meaning, always(Mishap(partial(_loose, number - 1, None))), expected,
             stage=LAST_STAGE,
@@ -152,7 +152,7 @@ def _rotors() -> Iterator[MishapFault]:
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
         calls=(detect.CRANK_ASTRAY,),
-        harmless="Fingers that close on the crank find it if it is near its place.",
+        harmless="The fingers that close on the crank find it if it is near its expected place.",
     )
     meaning = "A person turns the rotor by this angle."
     yield declared("rotor.turned", meaning, _turn, expected, size, stage=LAST_STAGE)

@@ -47,8 +47,8 @@ def variation() -> Variation:
         *group(
             "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
             "Noise of the screwdriver's motor current, as torque.",
-            unsourced="about a hundredth of the torque at which its clutch slips. Bound: .02 N m, the torque of a "
-                      "clean thread, which the program can feel.",
+            unsourced="the noise is about a hundredth of the torque at which the clutch of the screwdriver slips. "
+                "Bound: .02 N m, the torque of a clean thread, which the program can feel.",
         ),
         *_camera(), *_light(), *_fixtures(), *_holes(), *_parts(),
     )  # fmt: skip
@@ -58,7 +58,8 @@ def _make() -> Iterator[Quantity]:
     yield Quantity(
         name=SCREWS, unit="", distribution=Choice(tuple(map(float, MAKES))), nominal=float(USUAL),
         source="Number of screws, and of tapped holes: part of the job, not an error. It does not depend on seed or "
-               "level. The seventh is of a later make, which the program of 1973 does not know.",
+               "level. The seventh screw and its hole belong to a later make of the pump, which the program of 1973 "
+               "does not know.",
     )  # fmt: skip
 
 
@@ -91,7 +92,7 @@ def _camera() -> Iterator[Quantity]:
         group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
             f"Focal length of each lens divided by that of the drawing. {_VISION}", least=-50.0),
         group("camera", {"pot_noise": Noise(0.07)}, "deg",
-            "Noise of the pan and tilt readings. Vision study: .07-.10 reproduces 1973."),
+            "Noise of the pan and tilt readings. In the vision study, .07 to .10 deg reproduces the errors of 1973."),
         *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
             "Shape of the raster: the inward shift of a corner as a fraction of its distance from the centre, and "
@@ -152,8 +153,8 @@ def _parts() -> Iterator[Quantity]:
     )
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Position within the play of its guides or hole. Uniform, with limits that it stays within at the high level "
-        "too. A pin has none: the bevel of its hole centres it."
+        "Position within the play of its guides or hole: uniform, within the play at the high level too. A pin "
+        "has no play, because the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
@@ -168,8 +169,8 @@ def _parts() -> Iterator[Quantity]:
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Rotation of the screwdriver in its guides. The play that their width allows, in addition to its "
-            "position.", greatest=0.6),
+            "Rotation of the screwdriver in its guides: the play that the width of the guides allows, in addition "
+            "to that of its position.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
         rubbing(RUBBING),
