@@ -31,7 +31,11 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
     ("name", "sentence"),
     [
         ("water_pmup", "there is no task `water_pmup`; did you mean `water_pump`?"),
-        ("clock", "there is no task `clock`; known: `bucket`, `insertion`, `mal`, `palletise`, `water_pump`"),
+        (
+            "clock",
+            "there is no task `clock`; known: `bucket`, `chess`, `gantries`, "
+            "`insertion`, `mal`, `palletise`, `water_pump`",
+        ),
     ],
 )
 def test_an_unknown_task_is_refused_with_the_nearest_name(
