@@ -22,15 +22,15 @@ class Diagnostic:
     ('unknown-instruction', 1, 'did you mean `OPEN`?')
     """
 
-    code: str  # its kind, as `handeye explain` takes it
+    code: str  # code of the diagnostic, which `handeye explain` explains
     severity: Severity  # `error` or `warning`
     message: str
-    file: str  # name of the text it is in: the script, or a file that it requires
-    line: int  # from 1
-    column: int  # first character, from 1
-    end: int  # character behind the last one
-    help: str | None  # what to do about it
-    shown: str = field(repr=False)  # all of it, with the line of the text
+    file: str  # name of the script, or of the required file, that has the mistake
+    line: int  # line of the mistake, from 1
+    column: int  # column of the first character, from 1
+    end: int  # column after the last character
+    help: str | None  # a suggestion how to mend the mistake
+    shown: str = field(repr=False)  # the diagnostic as text, with the line of the script
 
     def __str__(self) -> str:
         return self.shown

@@ -34,7 +34,7 @@ class FlowDrawing:
     """
 
     svg: str  # the drawing, as `handeye inspect --graph svg` writes it
-    about: str  # what it shows, in words
+    about: str  # caption of the drawing
 
     def __repr__(self) -> str:
         return f"<FlowDrawing {self.about}>"
@@ -89,7 +89,7 @@ class Plan:
     ('a hand', ['OPEN 1', 'OPEN 2'])
     """
 
-    record: planfile.Plan  # all of it, as it is on disk, in SI units
+    record: planfile.Plan  # the contents of the plan file, in SI units
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
     """Warnings about the script; empty if the plan was read from a file."""
 

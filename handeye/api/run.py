@@ -185,7 +185,7 @@ class Run:
         """Set a breakpoint: the run pauses whenever it reaches a place, given as for `until`.
 
         Returns:
-            the breakpoint; its `number` is used to remove it: `run.say("delete 1")`.
+            the breakpoint; `run.say("delete 1")` removes the breakpoint with the `number` 1.
 
         Raises:
             InvalidInput: there is no such place, or the run is closed.

@@ -19,11 +19,11 @@ class Memory:
     lengths in m, in table frame W.
     """
 
-    error: int | None  # the error that was raised and that the next step may test
+    error: int | None  # number of the raised error, for which the next step may test
     saved: Mapping[str, Array]  # differences that `SAVE` saved, shape (3,), m
     counters: Mapping[str, int]
-    parts: Mapping[str, Pose]  # where parts were measured: X_WP, shape (4, 4), m
-    place: int | None  # number of the place that a search has reached, from 0; None if none is under way
+    parts: Mapping[str, Pose]  # measured poses X_WP of parts, shape (4, 4), m
+    place: int | None  # number of the search's present place, from 0; None without a search
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Memory) and _same(_values(self), _values(other))
@@ -41,22 +41,22 @@ class State:
     ((6,), 1.0)
     """
 
-    position: int  # steps done since the run began
-    time: float  # simulated seconds since the program began
-    stage: str | None  # the stage under way, or the one about to begin; None after the last
-    step: int | None  # number of the step that comes next; None if the run cannot continue alone
-    file: str  # the required file that its line is in; empty: the script itself
-    line: int | None
-    text: str | None  # its statement, without the `STOP` or what else modifies it
-    why: str  # why the run pauses, in words
+    position: int  # number of steps done since the run began
+    time: float  # simulated time since the program began, s
+    stage: str | None  # the present or next stage; None after the last stage
+    step: int | None  # number of the next step; None if the run cannot continue by itself
+    file: str  # required file that contains the next step; empty: the script itself
+    line: int | None  # line of the next step
+    text: str | None  # statement of the next step, without its modifiers, such as `STOP`
+    why: str  # reason of the pause, in words
     joints: Array
     """Joint positions, shape (n,): rad, or m for prismatic joints (joint 3 of the Stanford arm)."""
-    gap: float  # between the fingers, m
+    gap: float  # sensed opening of the fingers, m
     hand: Pose
     """X_WT, the pose of the hand, shape (4, 4), m: origin midway between the finger tips, z along the approach, y
     along the finger line.
     """
-    force: Array  # force that the hand exerts on the world, as it was last estimated, in W, shape (3,), N
+    force: Array  # last estimate of the hand's force on the world, in W, shape (3,), N
     memory: Memory
 
     def __eq__(self, other: object) -> bool:

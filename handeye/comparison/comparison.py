@@ -112,7 +112,7 @@ class Comparison(Brief):
 
     a: ComparedRun
     b: ComparedRun
-    measures: Measures  # Units of the first difference in text
+    measures: Measures  # display units
     conditions: tuple[Condition, ...]
     thinned: bool
     """True if a trace is thinned to some of its servo periods; sensor values of servo periods are then not
@@ -120,9 +120,9 @@ class Comparison(Brief):
     """
     first: First | None
     parted: Divergence | None
-    searches: tuple[Searches, ...]  # Places that each search tried
-    stops: tuple[Stops, ...]  # Ends of guarded motions
-    corrections: tuple[Corrections, ...]  # Saved differences, and located parts
+    searches: tuple[Searches, ...]  # number of places that each search tried
+    stops: tuple[Stops, ...]  # ends of guarded motions
+    corrections: tuple[Corrections, ...]  # saved differences, and located parts
     stages: tuple[Stages, ...]
 
     @property

@@ -143,9 +143,9 @@ def _next(told: Sequence[StepMessage], number: int) -> AnyEvent | None:
 class First:
     """The first difference between two runs."""
 
-    a: Place | None  # The present step; None before the first one, or after the run's end
-    b: Place | None  # that of the second run
-    period: int | None = None  # The servo period of the step, from 1; None: it is of none
+    a: Place | None  # step of the first run; None before its first step, or after its end
+    b: Place | None  # step of the second run, likewise
+    period: int | None = None  # servo period of the step, from 1; None: outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """The next event of each run, if the events are what differs; None for a run in which the step continued or the

@@ -23,10 +23,10 @@ class Place(Record, frozen=True, kw_only=True):
 
     stage: str
     step: int
-    file: str = ""  # The required file it stands in; empty: the source itself
+    file: str = ""  # required file that contains the step; empty: the script itself
     line: int
     text: str
-    time: float  # When it began, s since the run began
+    time: float  # time at which the step began, s since the run began
 
     @property
     def name(self) -> str:

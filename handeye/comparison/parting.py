@@ -15,7 +15,7 @@ from handeye.report.recorded import RecordedRun
 class DecidingEvent:
     """An event that decides the further course of a run."""
 
-    place: Place | None  # The step under way, or done last; None: before the first one
+    place: Place | None  # present step, or the last one; None before the first step
     event: AnyEvent
 
 
@@ -23,8 +23,8 @@ class DecidingEvent:
 class Divergence:
     """The first event at which the courses of two runs differ, in each run; None for a run that ended."""
 
-    a: DecidingEvent | None  # Where the first run stood, and what happened next; None: it has ended before
-    b: DecidingEvent | None
+    a: DecidingEvent | None  # next event of the first run; None: the run has ended
+    b: DecidingEvent | None  # next event of the second run, likewise
 
     @property
     def place(self) -> Place | None:

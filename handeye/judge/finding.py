@@ -18,11 +18,11 @@ class Finding:
 
     ok: bool
     subject: str  # the quantity that was measured
-    value: float  # in `unit`, as `limit`
-    relation: Relation  # how the value must stand to its limit; it may reach it
+    value: float  # measured value, in `unit`
+    relation: Relation  # `at most` or `at least`: the value may reach the limit
     limit: float
     unit: str
-    caution: bool = False  # if not `ok`, only a warning: the work may still be right
+    caution: bool = False  # True if a failed finding is only a warning: the work may still be right
 
     @property
     def refuses(self) -> bool:

@@ -28,7 +28,7 @@ class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
     """
     nominal: float
     override: Literal["off", "set"] | None
-    source: str  # What it is, with others of its kind, and where that is from
+    source: str  # description of the quantity's group, and origin of its size
 
 
 class WorldReport(msgspec.Struct, frozen=True, kw_only=True):

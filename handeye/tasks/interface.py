@@ -84,10 +84,10 @@ class AnyTask(ABC):
     words: Words
     camera: str = "studio"
     """The camera of the scene that shows the whole cell; pictures use it unless another camera is named."""
-    photographs: tuple[str, ...] = ()  # cameras of the scene whose view of the end is kept as a photograph
+    photographs: tuple[str, ...] = ()  # cameras of the scene that photograph the end of a run
 
-    force_axes: str = "world axes"  # the axes along which forces of the hand are given
-    measures: Measures = INCHES  # the units in which its runs are shown to people
+    force_axes: str = "world axes"  # axes of the hand's force in traces
+    measures: Measures = INCHES  # display units for runs of the task
     holds_from: Mapping[str, int] = MappingProxyType({})
     """Stages of the task's own program after which findings must already hold, by the beginning of the stage's
     name.

@@ -27,10 +27,10 @@ class Forces(Brief):
     the figures are NaN.
     """
 
-    times: Array  # ends of the periods, shape (n,), s
+    times: Array  # ends of the servo periods, shape (n,), s
     force: Array  # force of the hand on the world, shape (n, 3), N
     moment: Array  # moment of the hand on the world about its tool centre point, shape (n, 3), N m
-    estimated: NDArray[np.bool_]  # where there is an estimate, shape (n,)
+    estimated: NDArray[np.bool_]  # True where force was estimated, shape (n,)
     guard: NDArray[np.str_]
     """Kind of the active guard (the first, if there are several), shape (n,): `force`, `against`, `moment`,
     `torque`, `touch`; empty: no guard.
@@ -43,7 +43,7 @@ class Forces(Brief):
     """Reading of the guard, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver
     (N m), or finger switches as a mask; NaN: no guard, or no record of the reading.
     """
-    limit: Array  # its limit, shape (n,); NaN: no guard watches
+    limit: Array  # limit of the guard, shape (n,); NaN: no guard
 
     def within(self, spans: Sequence[Span]) -> "Forces":
         """The forces within some time spans."""

@@ -30,10 +30,10 @@ Found = tuple[tuple[str, ...], Value, Value]  # the name of a quantity, part by 
 class QuantityDifference(Record, frozen=True, kw_only=True):
     """A quantity that has different values in two runs."""
 
-    quantity: tuple[str, ...]  # its name, part by part: `("joint", "boom", "position")`
-    unit: str = ""  # SI unit of its values; empty: none, or unknown
-    a: Value  # in the first run; None: it has none
-    b: Value  # in the second
+    quantity: tuple[str, ...]  # parts of the quantity's name, such as `("joint", "boom", "position")`
+    unit: str = ""  # SI unit of the values; empty: none, or unknown
+    a: Value  # value in the first run; None: no value
+    b: Value  # value in the second run; None: no value
 
     @property
     def name(self) -> str:

@@ -54,10 +54,10 @@ class Motion(Brief):
     """Joints of an arm over a run, by its sensors: arrays over n servo periods and m joints."""
 
     names: tuple[str, ...]  # names of the joints, in order
-    times: Array  # ends of the periods on the cell's clock, shape (n,), s
-    joints: Array  # positions, shape (n, m), rad and (prismatic joints) m
-    rates: Array  # shape (n, m), rad/s and m/s
-    efforts: Array  # torques put out, shape (n, m), N m and (prismatic joints) N; zero under the brakes
+    times: Array  # ends of the servo periods, shape (n,), s
+    joints: Array  # sensed positions, shape (n, m): rad, or m for prismatic joints
+    rates: Array  # sensed rates, shape (n, m): rad/s, or m/s for prismatic joints
+    efforts: Array  # commanded torques, shape (n, m): N m, or N; zero under the brakes
     gaps: Array  # opening of the fingers, shape (n,), m
 
 
@@ -116,13 +116,13 @@ Pose7 = tuple[float, float, float, float, float, float, float]  # m in W, and un
 class Moment(Brief):
     """The state of a run at one moment."""
 
-    time: float  # end of the servo period that is shown, s
-    joints: Array  # positions by the sensors, shape (m,), rad and m
-    gap: float  # m
-    poses: dict[str, Pose7]  # frames in W: place (m), then a unit quaternion w, x, y, z
-    stage: str | None  # None between two stages
-    step: StepStarted | None  # the step under way, or done last: its line and text
-    picture: TakenPicture | None  # the last picture taken
+    time: float  # end of the servo period, s
+    joints: Array  # sensed positions, shape (m,): rad, or m for prismatic joints
+    gap: float  # sensed opening of the fingers, m
+    poses: dict[str, Pose7]  # poses in W: position (m), then a unit quaternion w, x, y, z
+    stage: str | None  # the present stage; None between two stages
+    step: StepStarted | None  # the present step, or the last one, with its line and text
+    picture: TakenPicture | None  # the last picture that was taken
 
 
 @dataclass(frozen=True, slots=True)

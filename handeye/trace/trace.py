@@ -47,14 +47,14 @@ class Trace:
     channel.
     """
 
-    name: str  # the file it was read from
-    version: int  # version of the format
+    name: str  # name of the file
+    version: int  # version of the trace format
     head: RunStarted  # the beginning of the run: program, world, versions
     plan: bytes  # `plan.json` of the run
-    events: tuple[AnyEvent, ...]  # everything that happened and was not undone
-    counts: dict[str, int]  # messages on each channel that has any
-    messages: tuple[RawMessage, ...]  # all of them, in the order they were written
-    thinned: bool = False  # it holds some of the servo periods, not all: `handeye trace thin` wrote it
+    events: tuple[AnyEvent, ...]  # all events, except those that were undone
+    counts: dict[str, int]  # number of messages on each channel that has messages
+    messages: tuple[RawMessage, ...]  # all messages, in the order in which they were written
+    thinned: bool = False  # True if `handeye trace thin` has removed servo periods
 
     # -- what happened ---------------------------------------------------------------------------------
 

@@ -33,8 +33,8 @@ class Video:
     """A video that was written."""
 
     path: Path
-    seconds: float  # duration
-    frames: int  # drawn; the last one is held for a while
+    seconds: float  # duration, s
+    frames: int  # number of drawn frames; the last one is held for a while
     bytes: int
 
 
