@@ -12,7 +12,7 @@ from handeye.systems.sigma.bus.faults import defect
 from handeye.systems.sigma.bus.layout import SUPERSIGMA
 from handeye.systems.sigma.bus.wired import WiredBus
 from handeye.systems.sigma.bus.words import event_text
-from handeye.systems.sigma.diagnose import power_on, told
+from handeye.systems.sigma.diagnosis.power_on import power_on, told
 from handeye.systems.sigma.protocol import ANSWERS, LONGEST_MOVE, Op, move, number_of, signed, within
 
 _MICROSECONDS: Final = 1_000_000

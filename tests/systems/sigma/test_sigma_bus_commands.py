@@ -16,7 +16,7 @@ from handeye.systems.sigma.bus.diagram import as_svg, as_text
 from handeye.systems.sigma.bus.faults import KINDS, defect
 from handeye.systems.sigma.bus.layout import LINE, SUPERSIGMA
 from handeye.systems.sigma.bus.statistics import error_rate
-from handeye.systems.sigma.diagnose import power_on, told
+from handeye.systems.sigma.diagnosis.power_on import power_on, told
 from handeye.systems.sigma.protocol import AXES, NUMBERS, move, position, set_position
 
 Command = Callable[..., tuple[int, str, str]]

@@ -261,7 +261,7 @@ def self_test(
     from handeye.systems.sigma.bus.faults import defect
     from handeye.systems.sigma.bus.layout import LINE, SUPERSIGMA
     from handeye.systems.sigma.bus.wired import WiredBus
-    from handeye.systems.sigma.diagnose import power_on, told
+    from handeye.systems.sigma.diagnosis.power_on import power_on, told
 
     layout = LINE if line else SUPERSIGMA
     wired = WiredBus(layout, defects=[defect(text) for text in fault or ()], seed=seed)

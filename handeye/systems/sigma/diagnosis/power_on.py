@@ -147,6 +147,8 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard]) -> SelfTest:
                 fault=f"it answers to the number of {name_of(strangers[0])}",
             )
         return SelfTest(part="microcomputer", number=number, fault="it is dead: it does not answer")
+    if any(heard[other].silent for other in one.busy - {number}):
+        return well  # another one answers with it, and is the one that fails
     if one.well not in (None, b"\0"):
         return SelfTest(part="microcomputer", number=number, fault="its self-test fails")
     return SelfTest(

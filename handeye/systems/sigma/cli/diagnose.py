@@ -1,0 +1,102 @@
+"""The command that finds faults of SUPERSIGMA, and lets a player find them."""
+
+import sys
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Json, WholeNumber, put_json, say
+from handeye.core.errors import BadArgument, InvalidInput
+
+
+def diagnose(
+    *,
+    fault: Annotated[
+        str | None, Parameter(help="Plant this fault and find it; `--all` lists the names.")
+    ] = None,
+    every: Annotated[
+        bool, Parameter(name="--all", negative=(), help="Plant and find each of the twenty faults.")
+    ] = False,
+    game: Annotated[
+        bool, Parameter(negative=(), help="Find a planted fault yourself: type tests, then accuse a part.")
+    ] = False,
+    demo: Annotated[
+        bool, Parameter(negative=(), help="Play the game of `--seed` by the order of the paper.")
+    ] = False,
+    seed: Annotated[
+        WholeNumber | None,
+        Parameter(
+            help="Draws the fault of a game, or the places of faults. Default: 0 for a game, else usual places."
+        ),
+    ] = None,
+    json: Json = False,
+) -> int:
+    """Find the part of SUPERSIGMA that fails: first the computer, then bus, microcomputers, transducers and drives.
+
+    Without options, the tests run on a sound machine.
+
+    Exit code 0: the part was found, or the machine is sound; with `--all`, at least 17 parts were found and none was
+    wrongly accused; 1: not so; 2: bad input.
+    """
+    if sum((fault is not None, every, game or demo)) > 1:
+        raise BadArgument("--fault, --all and --game exclude each other")
+    if game or demo:
+        if json:
+            raise BadArgument("a game has no --json")
+        return _play(seed or 0, demo=demo)
+    from handeye.systems.sigma.diagnosis import report
+    from handeye.systems.sigma.diagnosis.bench import Bench
+    from handeye.systems.sigma.diagnosis.faults import planted
+    from handeye.systems.sigma.diagnosis.strategy import Strategy
+
+    if every:
+        found = report.all_diagnosed(seed)
+        if json:
+            put_json({"found": sum(each.right for each in found), "faults": found})
+        else:
+            for line in report.lines(found):
+                say(line, whole=True)
+        return 0 if report.good(found) else 1
+    there = None if fault is None else planted(fault, seed)
+    steps: list[dict[str, object]] = []
+
+    def tell(typed: str, lines: object) -> None:
+        steps.append({"test": typed, "lines": lines})
+        if not json:
+            say(f"> {typed}")
+            for line in lines if isinstance(lines, list | tuple) else ():
+                say(line)
+
+    verdict = Strategy(Bench(there, seed or 0), tell).diagnose()
+    if json:
+        put_json({"planted": there, "verdict": verdict, "tests": steps})
+    else:
+        say("")
+        if there is not None:
+            say(f"Planted: {there.told}.")
+        say(f"Found: {verdict.part}: {verdict.why}." if verdict.part else f"No part is found: {verdict.why}.")
+    return 0 if verdict.part == ("" if there is None else there.part) else 1
+
+
+def _play(seed: int, *, demo: bool) -> int:
+    from handeye.cli.panic_button import PanicButton
+    from handeye.cli.prompt import typed_lines
+    from handeye.systems.sigma.diagnosis.game import Game, demonstrate
+
+    session = Game(say, seed)
+    session.begin()
+    if demo:
+        demonstrate(session, say)
+        return 0 if session.won else 1
+    terminal = sys.stdin.isatty()
+    with PanicButton() as panic:
+        for line in typed_lines("> " if terminal else "", panic.aside, session.words):
+            try:
+                session.hear(line)
+            except InvalidInput as error:
+                say(str(error))
+                if not terminal:
+                    return 2
+            if session.over:
+                break
+    return 0 if session.won else 1

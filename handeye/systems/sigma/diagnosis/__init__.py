@@ -1,0 +1,1 @@
+"""Diagnosis of SUPERSIGMA: self-tests, twenty faults, the paper's order of tests, and a game."""

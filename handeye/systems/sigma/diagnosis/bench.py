@@ -1,0 +1,255 @@
+"""The machine on the test bench, which is ideal except for a planted fault, and what a technician does to it by hand.
+
+Rotors follow each pulse, unless the fault weakens their motors: then the balance of forces decides. A wrist feels
+loads, the hand that swings on it as a motor starts, and the fingers that close on a block.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any, Final
+
+from handeye.systems.sigma.bus.faults import BusDefect
+from handeye.systems.sigma.bus.plant import IdealMachine, Level
+from handeye.systems.sigma.bus.wired import WiredBus
+from handeye.systems.sigma.diagnosis.faults import BENCH, OFFSET_N, MachineFault, MachineKind, Planted
+from handeye.systems.sigma.firmware.device import PS
+from handeye.systems.sigma.firmware.force import CONVERTER_N
+from handeye.systems.sigma.firmware.motor import Motor, Pin
+from handeye.systems.sigma.motors.rotor import MASSES, POLE, STEP, Drive, by_balance
+from handeye.systems.sigma.protocol import AXES, COMPONENTS, DEVICES, NUMBERS
+
+BLOCK_N: Final = 6.0  # push of the fingers on the wrist, sideways, as they close on a block off the middle
+HARD_STOP: Final = 853  # steps beyond a switch
+_HAND_KG: Final = 1.2
+_WRIST: Final = 20_000.0  # N/m
+_LEFT: Final = 0.05  # share of the inertial force that a sound accelerometer leaves
+SWAPPED: Final[tuple[MachineKind, ...]] = (
+    "pulses",
+    "multiplexer",
+    "converter",
+)  # they are on the card of one
+_SCAN: Final = 1000 * PS
+_CLOSES: Final = 100_000 * PS  # ps after which fingers touch a block; a sound hand is done after 150 ms
+_SLOW: Final = 4  # times as long
+_DIM: Final = 0.6  # of the light of a sound lamp
+_CUT: Final = 0.5  # of it, below which the photodiode sees none
+_SPRING: Final = 1000.0  # N/m of the spring balance
+_HALF: Final = 0.5  # of the pull-out force, with one phase
+_SAG: Final = 0.4  # of the pull-out force that a sagging supply leaves
+_MANY: Final = 3  # motors at once that make it sag
+_START_N: Final = Drive(mass=1.0).start_force
+_TOP_N: Final = Drive(mass=1.0).top_force
+_CLOCKS: Final = 0.005  # by which clocks are off at most, as a share
+_AXIS: Final = {NUMBERS[axis]: axis for axis in AXES}
+_SIDEWAYS: Final = COMPONENTS.index("Y")
+
+
+class Machine(IdealMachine):
+    """The machine behind the pins."""
+
+    predicts = False
+
+    def __init__(self, faults: Sequence[MachineFault] = ()) -> None:
+        super().__init__()
+        self.faults = {(fault.kind, fault.number): fault for fault in faults}
+        self.loads: dict[tuple[int, int], float] = {}  # N on a component of a wrist
+        self.pulls: dict[int, float] = {}  # N against the motion of an axis, from a spring balance
+        self.light: dict[int, float] = {}  # share that passes what is in a beam
+        self.blocks: set[int] = set()  # hands that have a block between the fingers
+        self._swings: dict[int, float] = {}  # N of the hand on its wrist, by motor
+        self._pushed: set[int] = set()  # hands whose fingers press on a block
+        self._trains: dict[
+            int, tuple[Any, int, int, int]
+        ] = {}  # of motors that move: train, began, pulses, sense
+        self._most: dict[int, int] = {}  # motors that moved at once during each train
+        self._due: list[tuple[int, int, bool | None]] = []  # ps, number, whether fingers press from then on
+        self.now = 0  # ps
+
+    def switch_off(self) -> None:
+        """Forget what goes with the power; slides stay where they are."""
+        for kept in (self._swings, self._pushed, self._trains, self._most, self._due, self.memory.devices):
+            kept.clear()
+        self.now = 0
+
+    def fault(self, kind: MachineKind, number: int = 0) -> MachineFault | None:
+        """The fault of a kind that hangs on a microcomputer."""
+        return self.faults.get((kind, number))
+
+    # -- rotors --------------------------------------------------------------------------------------------
+
+    def _every(self, number: int) -> int:
+        """Each pulse of this number is left out; 0: none is."""
+        fault = self.fault("pulses", number)
+        return 0 if fault is None else fault.which
+
+    def place(self, number: int, motor: Motor, at: int) -> int:
+        made = motor.sent(at) - motor.memory.pulses
+        every = self._every(number)
+        lost = (abs(made) // every if every else 0) * motor.memory.sense
+        return super().place(number, motor, at) - lost
+
+    def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:
+        known = motor.memory
+        if number not in self.memory.starts or known.train is None:
+            return None
+        here, length = self.memory.starts[number] + known.pulses, self.memory.lengths[number]
+        if known.sense < 0:
+            crossings: list[tuple[int, Pin, bool]] = [(here, "low", True), (here - length + 1, "high", False)]
+        else:
+            crossings = [(1 - here, "low", False), (length - here, "high", True)]
+        stuck, every = self.fault("switch", number), self._every(number)
+        found = []
+        for steps, pin, level in crossings:
+            if getattr(known, pin) == level or (stuck is not None and pin == ("low", "high")[stuck.which]):
+                continue
+            pulse = steps + (steps - 1) // (every - 1) if every and steps > 0 else steps
+            if (when := motor.when(pulse)) is not None:
+                found.append((when, pin, level))
+        return min(found) if found else None
+
+    def driven(self, number: int, motor: Motor) -> None:
+        if number not in _AXIS:
+            return
+        memory, known = motor.memory, self._trains.get(number)
+        if known is not None and (memory.train, memory.began) != known[:2]:
+            self._ended(number, motor, *known)
+            known = None
+        if known is None and memory.train is not None:
+            self._trains[number] = memory.train, memory.began, memory.pulses, memory.sense
+            moving = len(self._trains)
+            for each in self._trains:
+                self._most[each] = max(self._most.get(each, 0), moving)
+            jump = memory.train.start * STEP  # m/s
+            self._swing(number, jump * math.sqrt(_WRIST * _HAND_KG) * memory.sense)
+
+    def _ended(self, number: int, motor: Motor, train: Any, began: int, pulses: int, sense: int) -> None:
+        """A train has ended: take off what the rotor has lost."""
+        del self._trains[number]
+        made, most, every = abs(motor.memory.pulses - pulses), self._most.pop(number), self._every(number)
+        lost = made // every if every else 0
+        lost += self._slipped(number, train, most, complete=made == len(train.pulses))
+        start = self.memory.starts[number] - sense * lost
+        there, length = start + motor.memory.pulses, self.memory.lengths[number]
+        self.memory.starts[number] = start + min(max(there, -HARD_STOP), length + HARD_STOP) - there
+        self._swing(number, 0.0)
+
+    def _slipped(self, number: int, train: Any, most: int, *, complete: bool) -> int:
+        """Steps by which a rotor is behind after a train."""
+        share = _HALF if self.fault("phase", number) else 1.0
+        share *= _SAG if self.fault("supply") and most >= _MANY else 1.0
+        load, least = self.pulls.get(number, 0.0), _START_N * share
+        if load > least:  # the balance gives way as far as the motor does
+            return math.ceil((load - least) / _SPRING / STEP / POLE) * POLE
+        if share == 1.0 or not complete:
+            return 0
+        drive = Drive(mass=MASSES[_AXIS[number][0]], start_force=least, top_force=_TOP_N * share)
+        return by_balance(train.pulses, drive).lost * POLE
+
+    # -- wrists, beams and hands -----------------------------------------------------------------------------
+
+    def _swing(self, number: int, force: float) -> None:
+        self._swings[number] = force
+        wrist = NUMBERS[f"FORCE{_AXIS[number][1]}"]
+        self._due.append((-(-(self.now + 1) // _SCAN) * _SCAN, wrist, None))
+
+    def forces(self, number: int) -> Sequence[float]:
+        felt = [self._felt(number, component) for component in range(len(COMPONENTS))]
+        if (stuck := self.fault("multiplexer", number)) is not None:
+            felt = [felt[stuck.which]] * len(felt)
+        if (bit := self.fault("converter", number)) is not None:
+            raw = [round(force / CONVERTER_N) for force in felt]
+            raw = [each | 1 << bit.which if bit.level else each & ~(1 << bit.which) for each in raw]
+            felt = [each * CONVERTER_N for each in raw]
+        return felt
+
+    def _felt(self, number: int, component: int) -> float:
+        arm = 1 if number == NUMBERS["FORCE1"] else 2
+        axis = NUMBERS[f"{COMPONENTS[component]}{arm}"]
+        gauge = self.fault("gauge", number)
+        dead = gauge is not None and gauge.which == component and not gauge.level
+        force = 0.0 if dead else self.loads.get((number, component), 0.0)
+        pressed = NUMBERS[f"HAND{arm}"] in self._pushed and component == _SIDEWAYS
+        force += BLOCK_N if pressed and not dead else 0.0
+        force += OFFSET_N if gauge is not None and gauge.which == component and gauge.level else 0.0
+        alone = self.fault("accelerometer", number)
+        left = 1.0 if alone is not None and alone.which == component else _LEFT
+        return force + (0.0 if dead else self._swings.get(axis, 0.0) * left)
+
+    def beam(self, number: int) -> bool:
+        if (stuck := self.fault("beam", number)) is not None:
+            return bool(stuck.level)
+        lamp = _DIM if self.fault("lamp", number) else 1.0
+        return lamp * self.light.get(number, 1.0) < _CUT
+
+    def actuate(self, number: int, devices: Sequence[int]) -> None:
+        before = self.memory.devices.get(number, (0,))[DEVICES["HAND"]]
+        super().actuate(number, devices)
+        if devices[DEVICES["HAND"]] != before and number in self.blocks:
+            takes = _CLOSES * (_SLOW if self.fault("fingers", number) else 1)
+            wrist = number - 1  # the force microcomputer of the same arm
+            self._due.append((self.now + takes, wrist, bool(devices[DEVICES["HAND"]])))
+
+    def advance(self, at: int) -> tuple[int, list[Level]] | None:
+        self.now = max(self.now, at)
+        if not self._due or min(self._due)[0] > at:
+            return None
+        first = min(self._due, key=lambda each: each[0])
+        self._due.remove(first)
+        when, wrist, pressed = first
+        if pressed is not None:
+            (self._pushed.add if pressed else self._pushed.discard)(wrist + 1)
+        return when, [Level(wrist)]
+
+
+class Bench:
+    """A machine with a planted fault, as a technician has it: the bus, two hands, weights, and spare microcomputers."""
+
+    layout = BENCH
+
+    def __init__(self, planted: Planted | None = None, seed: int = 0) -> None:
+        self._seed = seed
+        self._defects: list[BusDefect] = [] if planted is None else [*planted.bus]
+        self.machine = Machine(() if planted is None else planted.machine)
+        self._switch_on()
+
+    bus: WiredBus
+
+    def _switch_on(self) -> None:
+        self.bus = WiredBus(
+            BENCH, plant=self.machine, defects=self._defects, seed=self._seed, clock_spread=_CLOCKS
+        )
+        for number in _AXIS:
+            here, length = self.machine.memory.starts[number], self.machine.memory.lengths[number]
+            levels: dict[Pin, bool] = {"low": here <= 0, "high": here >= length}
+            if (stuck := self.machine.fault("switch", number)) is not None:
+                levels["high" if stuck.which else "low"] = bool(stuck.level)
+            for pin, level in levels.items():
+                self.bus.pin(number, pin, level)
+
+    def swap(self, number: int) -> None:
+        """Put a sound microcomputer in the place of one, and switch the machine off and on."""
+        at = self.bus.now * PS
+        for axis in _AXIS:
+            self.machine.memory.starts[axis] = self.machine.place(axis, self.bus.motor(axis), at)
+        kinds = ("dead", "clock", "address")
+        self._defects = [d for d in self._defects if not (d.where == number and d.kind in kinds)]
+        for kind in SWAPPED:
+            self.machine.faults.pop((kind, number), None)
+        self.machine.switch_off()
+        self._switch_on()
+
+    def press(self, arm: int, component: str, newtons: float) -> None:
+        """Press on a hand along a component of its wrist, with a known force; 0: let go."""
+        self.machine.loads[NUMBERS[f"FORCE{arm}"], COMPONENTS.index(component)] = newtons
+
+    def pull(self, axis: str, newtons: float) -> None:
+        """Hook a spring balance to the slide of an axis, against forward motion; 0: unhook it."""
+        self.machine.pulls[NUMBERS[axis]] = newtons
+
+    def shade(self, arm: int, passes: float) -> None:
+        """Hold something into the beam of a hand: 0 a rod, .7 a grey glass, 1 nothing."""
+        self.machine.light[NUMBERS[f"HAND{arm}"]] = passes
+
+    def block(self, arm: int, *, there: bool) -> None:
+        """Fix a block between the fingers of a hand, off their middle, or take it away."""
+        (self.machine.blocks.add if there else self.machine.blocks.discard)(NUMBERS[f"HAND{arm}"])

@@ -1,0 +1,376 @@
+"""The tests of a diagnosis: each sends commands and questions over the bus, and returns what it has measured.
+
+A test uses the port of the bus, and what a technician does by hand. No test knows the fault.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import median
+from typing import Final, Protocol
+
+from handeye.ports.microbus import BusFault, Command, MicrobusPort, Status
+from handeye.systems.sigma import protocol
+from handeye.systems.sigma.bus.layout import Layout
+from handeye.systems.sigma.diagnosis.power_on import SelfTest, power_on, told
+from handeye.systems.sigma.protocol import ANSWERS, COMPONENTS, FORCE_STEP_N, NUMBERS, Op, name_of, signed
+
+TRAVEL: Final = {"X": 16_000, "Y": 10_667, "Z": 5_333}  # steps, as the machine's drawing has it
+FREE_MOVE: Final = {"X": 6_000, "Y": 5_000, "Z": 3_500}  # steps at full speed
+LOADS: Final = (0.0, 17.05, 34.1)  # N: between them, each bit of the converter is 0 and 1
+GREY: Final = 0.7  # of the light passes a grey glass
+PULL_N: Final = 120.0  # of the spring balance; a sound motor holds 200 N at low speed
+OFF_PERCENT: Final = 3.5  # of a clock, from which it is wrong
+SIDEWAYS_N: Final = 3.0  # with which fingers that close on the block push at least
+_SLOW: Final = 10.0  # mm/s
+_TOO_FAR: Final = 1.25  # times the travel
+_CREEP: Final = 800  # steps
+_OFF_STEPS: Final = 40  # by which a switch may be elsewhere than in the drawing
+_LONG: Final = 200_000_000  # microseconds
+_OWN: Final = 355.0  # microseconds of a question for three bytes that pass by the clock of the microcomputer
+_REPEATS: Final = 5
+_COUNT: Final = 0x1234
+_MISREAD: Final = 0x02FF  # the count of a late riser that has taken the wrong command
+_LATE: Final = range(16, 33, 2)  # microseconds after the beginning of a command
+
+
+class Technician(Protocol):
+    """The machine, and what can be done to it by hand."""
+
+    layout: Layout
+
+    @property
+    def bus(self) -> MicrobusPort:
+        """The bus, by its port."""
+
+    def swap(self, number: int) -> None: ...
+    def press(self, arm: int, component: str, newtons: float) -> None: ...
+    def pull(self, axis: str, newtons: float) -> None: ...
+    def shade(self, arm: int, passes: float) -> None: ...
+    def block(self, arm: int, *, there: bool) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class SelfTests:
+    """What the self-tests of power-on have found."""
+
+    faults: tuple[SelfTest, ...]
+
+    @property
+    def lines(self) -> Sequence[str]:
+        return told(self.faults)
+
+
+def self_tests(at: Technician) -> SelfTests:
+    """The self-tests of power-on: computer, segments, microcomputers, status lines at rest."""
+    return SelfTests(tuple(test for test in power_on(at.bus, at.layout) if test.fault))
+
+
+@dataclass(frozen=True, slots=True)
+class Clocks:
+    """By how much the clock of each microcomputer is slower than most, percent, by its answers; None: no answer."""
+
+    slow: dict[int, float | None]
+
+    @property
+    def wrong(self) -> list[int]:
+        """Microcomputers whose clocks are off by too much."""
+        return [number for number, off in self.slow.items() if off is not None and abs(off) > OFF_PERCENT]
+
+    @property
+    def lines(self) -> Sequence[str]:
+        each = [f"{name_of(n)} {'-' if off is None else f'{off:+.1f}'}" for n, off in self.slow.items()]
+        return [f"clocks, percent slow: {', '.join(each)}"]
+
+
+def clocks(at: Technician) -> Clocks:
+    """Time the answers of all microcomputers."""
+    taken = {place.number: _answer_time(at.bus, place.number) for place in at.layout.places}
+    known = [each for each in taken.values() if each is not None]
+    usual = median(known) if known else 0.0
+    return Clocks({n: None if each is None else (each - usual) / _OWN * 100 for n, each in taken.items()})
+
+
+def _answer_time(bus: MicrobusPort, number: int) -> float | None:
+    """Microseconds from a question for three bytes until the bus is free."""
+    taken = 0
+    for _ in range(_REPEATS):
+        begun = bus.now
+        bus.begin(protocol.echo(number, b"\x55\xaa\x33"), answer=3)
+        while not bus.free:
+            event = bus.next_event
+            bus.wait(bus.now + 1 if event is None else max(bus.now + 1, event))
+        try:
+            bus.answer()
+        except BusFault:
+            return None
+        taken += bus.now - begun
+        pause(bus, 997)  # so that it begins in another phase of its polls
+    return taken / _REPEATS
+
+
+@dataclass(frozen=True, slots=True)
+class Strobe:
+    """How many late risers took a command that was never sent."""
+
+    tries: int
+    misread: int
+
+    @property
+    def lines(self) -> Sequence[str]:
+        if self.misread:
+            return [f"{self.misread} of {self.tries} late risers took a command that was never sent"]
+        return [f"{self.tries} late risers misread nothing"]
+
+
+def strobe(at: Technician) -> Strobe:
+    """Let Z2 become free amid a command to X1 whose other bytes are a command to Z2, at several moments."""
+    bus, late = at.bus, NUMBERS["Z2"]
+    frame = bytes((NUMBERS["X1"], Op.SET_POSITION, Op.SET_POSITION, 1, 2))
+    assert frame[1] == late
+    steps, misread = 8, 0
+    bus.send(protocol.move("Z2", steps))
+    begun = bus.now
+    bus.wait_free(late, _LONG)
+    takes = bus.now - begun
+    for after in _LATE:
+        steps = -steps
+        bus.send(protocol.set_position("Z2", _COUNT))
+        pause(bus, 200)
+        bus.send(protocol.move("Z2", steps))
+        pause(bus, takes - after)
+        bus.send(Command.of(frame))
+        pause(bus, 1_000)
+        bus.wait_free(late, _LONG)
+        misread += _count(bus, "Z2") == _MISREAD
+    return Strobe(len(_LATE), misread)
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A motion, as status lines and count show it."""
+
+    axis: str
+    steps: int  # asked for; 0: ORIGIN
+    busy: bool  # its status was 0-1 on the way
+    deaf: bool  # it did not answer afterwards, though its status was not 0-1
+    status: Status  # at the end
+    interrupt: bool
+    count: int | None
+    at_abort: int | None = None  # the count as a switch or a force stopped it
+
+    @property
+    def astray(self) -> bool:
+        """The far switch has stopped it at another count than the drawing says."""
+        return self.at_abort is not None and abs(self.at_abort - TRAVEL[self.axis[0]]) > _OFF_STEPS
+
+    @property
+    def lines(self) -> Sequence[str]:
+        asked = f"{self.axis} moves by {self.steps} steps" if self.steps else f"ORIGIN {self.axis}"
+        while_ = "" if self.busy else "; its status was never busy"
+        deaf = ", though it was still moving" if self.deaf else ""
+        lines = f"{self.status >> 1}-{self.status & 1}"
+        stop = "" if self.at_abort is None else f", stopped at {self.at_abort}"
+        level = "high" if self.interrupt else "low"
+        return [f"{asked}: status {lines}, interrupt {level}, count {self.count}{stop}{while_}{deaf}"]
+
+
+def origin(at: Technician, axis: str) -> Motion:
+    """Search the end of the rail."""
+    return _motion(at.bus, axis, protocol.origin(axis), 0)
+
+
+def rail(at: Technician, axis: str) -> Motion:
+    """Move to the far end of the rail, and beyond if nothing stops the motor."""
+    steps = round(_TOO_FAR * TRAVEL[axis[0]])
+    found = _motion(at.bus, axis, protocol.move(axis, steps), steps)
+    if found.status is Status.RAIL and found.count:
+        _motion(at.bus, axis, protocol.move(axis, -TRAVEL[axis[0]] // 2), 0)
+    return found
+
+
+def _motion(bus: MicrobusPort, axis: str, command: Command, steps: int) -> Motion:
+    number = NUMBERS[axis]
+    bus.send(command)
+    pause(bus, 2_000)
+    busy = bus.status(number) is Status.BUSY
+    status = bus.wait_free(number, _LONG)
+    interrupt = bus.interrupt
+    count, deaf = _count(bus, axis), False
+    while count is None and not deaf:
+        pause(bus, _LONG)
+        count, deaf = _count(bus, axis), True
+    stopped = _count(bus, axis, at_abort=True) if status.aborted else None
+    return Motion(axis, steps, busy, deaf and count is not None, status, interrupt, count, stopped)
+
+
+@dataclass(frozen=True, slots=True)
+class Lost:
+    """Steps that motors have lost, by the count at which the low switch acts, and axes that a force has stopped."""
+
+    what: str
+    steps: dict[str, int | None]  # None: the switch was not found
+    tripped: tuple[str, ...]
+
+    @property
+    def losers(self) -> list[str]:
+        """Axes that have lost steps, or whose switch was not found."""
+        return [axis for axis, lost in self.steps.items() if lost != 0]
+
+    @property
+    def lines(self) -> Sequence[str]:
+        each = [f"{axis} {'no switch' if lost is None else lost}" for axis, lost in self.steps.items()]
+        force = f"; stopped by a force: {', '.join(self.tripped)}" if self.tripped else ""
+        return [f"{self.what}: steps lost: {', '.join(each)}{force}"]
+
+
+def moves(at: Technician, *axes: str) -> Lost:
+    """Move axes out at full speed, at the same time, and back slowly; their switches show what was lost on the way."""
+    bus = at.bus
+    for axis in axes:
+        origin(at, axis)
+    for axis in axes:
+        bus.send(protocol.move(axis, FREE_MOVE[axis[0]]))
+    tripped = tuple(axis for axis in axes if bus.wait_free(NUMBERS[axis], _LONG) is Status.FORCE)
+    what = "at full speed" if len(axes) == 1 else "all axes at full speed at once"
+    return Lost(what, {axis: _lost(bus, axis) for axis in axes}, tripped)
+
+
+def load(at: Technician, axis: str) -> Lost:
+    """Move an axis slowly against a spring balance."""
+    bus = at.bus
+    origin(at, axis)
+    at.pull(axis, PULL_N)
+    bus.send(protocol.move_slow(axis, _CREEP, _SLOW))
+    tripped = bus.wait_free(NUMBERS[axis], _LONG) is Status.FORCE
+    at.pull(axis, 0.0)
+    return Lost(f"against {PULL_N:g} N", {axis: _lost(bus, axis)}, (axis,) if tripped else ())
+
+
+def _lost(bus: MicrobusPort, axis: str) -> int | None:
+    """Steps by which an axis is behind its count: the low switch acts at -1 of an axis that has lost none."""
+    here = _count(bus, axis)
+    if here is None:
+        return None
+    bus.send(protocol.move_slow(axis, -(abs(here) + TRAVEL[axis[0]]), _SLOW * 3))
+    if bus.wait_free(NUMBERS[axis], _LONG) is not Status.RAIL:
+        return None
+    found = _count(bus, axis, at_abort=True)
+    return None if found is None else found + 1
+
+
+@dataclass(frozen=True, slots=True)
+class Forces:
+    """What a wrist reads under known loads: component, load, and all three readings, N; None: no answer."""
+
+    arm: int
+    readings: tuple[tuple[int, float, tuple[float | None, ...]], ...]
+
+    @property
+    def lines(self) -> Sequence[str]:
+        out = []
+        for component, name in enumerate(COMPONENTS):
+            each = [
+                f"{newtons:g} N reads {' '.join('-' if v is None else f'{v:.2f}' for v in read)}"
+                for loaded, newtons, read in self.readings
+                if loaded == component
+            ]
+            out.append(f"wrist {self.arm}, load along {name}: {', '.join(each)}")
+        return out
+
+
+def forces(at: Technician, arm: int) -> Forces:
+    """Load each component of a wrist with known forces."""
+    readings = []
+    for component, name in enumerate(COMPONENTS):
+        for newtons in LOADS:
+            at.press(arm, name, newtons)
+            pause(at.bus, 2_000)
+            readings.append((component, newtons, tuple(_force(at.bus, arm, each) for each in COMPONENTS)))
+        at.press(arm, name, 0.0)
+    return Forces(arm, tuple(readings))
+
+
+@dataclass(frozen=True, slots=True)
+class Beam:
+    """Whether a beam reads cut: free, with a rod, with a grey glass; None: no answer."""
+
+    arm: int
+    free: bool | None
+    rod: bool | None
+    glass: bool | None
+
+    @property
+    def lines(self) -> Sequence[str]:
+        words = {True: "cut", False: "free", None: "no answer"}
+        return [
+            f"beam {self.arm}: nothing {words[self.free]}, a rod {words[self.rod]}, grey glass {words[self.glass]}"
+        ]
+
+
+def beam(at: Technician, arm: int) -> Beam:
+    """Hold nothing, a rod and a grey glass into a beam."""
+    found: list[bool | None] = []
+    for passes in (1.0, 0.0, GREY):
+        at.shade(arm, passes)
+        answer = asked(at.bus, protocol.beam(arm))
+        found.append(None if answer is None else bool(answer[0]))
+    at.shade(arm, 1.0)
+    return Beam(arm, *found)
+
+
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """A hand that closes on a block off its middle: the push on its wrist as it says that it is done, and later, N."""
+
+    arm: int
+    busy: bool
+    done: float | None
+    later: float | None
+
+    @property
+    def lines(self) -> Sequence[str]:
+        each = ["no answer" if value is None else f"{value:.2f} N" for value in (self.done, self.later)]
+        busy = "" if self.busy else "; its status was never busy"
+        return [f"hand {self.arm} closes: pushes {each[0]} when it is done, {each[1]} a second later{busy}"]
+
+
+def grip(at: Technician, arm: int) -> Grip:
+    """Close a hand on a block that is off the middle of the fingers."""
+    bus, number = at.bus, NUMBERS[f"HAND{arm}"]
+    at.block(arm, there=True)
+    bus.send(protocol.actuate(arm, "HAND", 1))
+    pause(bus, 2_000)
+    busy = bus.status(number) is Status.BUSY
+    bus.wait_free(number, 1_000_000)
+    done = _force(bus, arm, "Y")
+    pause(bus, 1_000_000)
+    later = _force(bus, arm, "Y")
+    bus.send(protocol.actuate(arm, "HAND", 0))
+    pause(bus, 1_000_000)
+    at.block(arm, there=False)
+    return Grip(arm, busy, done, later)
+
+
+def pause(bus: MicrobusPort, microseconds: int) -> None:
+    """Let time pass, whatever changes."""
+    end = bus.now + microseconds
+    while bus.now < end:
+        bus.wait(end)
+
+
+def _count(bus: MicrobusPort, axis: str, *, at_abort: bool = False) -> int | None:
+    answer = asked(bus, protocol.position(axis, at_abort=at_abort))
+    return None if answer is None else signed(answer)
+
+
+def _force(bus: MicrobusPort, arm: int, component: str) -> float | None:
+    answer = asked(bus, protocol.force(arm, component))
+    return None if answer is None else signed(answer) * FORCE_STEP_N
+
+
+def asked(bus: MicrobusPort, command: Command) -> bytes | None:
+    """The answer to a question; None: it did not come whole."""
+    try:
+        return bus.ask(command, ANSWERS[Op(command.op)])
+    except BusFault:
+        return None

@@ -1,0 +1,62 @@
+"""The results of diagnoses, fault by fault."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from handeye.core.plain_text import counted
+from handeye.core.record import Record
+from handeye.systems.sigma.diagnosis.bench import Bench
+from handeye.systems.sigma.diagnosis.faults import FAULTS, planted
+from handeye.systems.sigma.diagnosis.strategy import Strategy, Verdict
+
+LEAST_FOUND: Final = 17
+
+
+class Diagnosed(Record, frozen=True, kw_only=True):
+    """A fault and the result of its diagnosis."""
+
+    fault: str
+    told: str
+    part: str  # that has the fault
+    verdict: Verdict
+
+    @property
+    def right(self) -> bool:
+        """It has led to the part."""
+        return self.verdict.part == self.part
+
+    @property
+    def undecided(self) -> bool:
+        """It has named no part."""
+        return not self.verdict.part
+
+
+def diagnosed(name: str, seed: int | None) -> Diagnosed:
+    """Plant a fault and diagnose it."""
+    fault = planted(name, seed)
+    verdict = Strategy(Bench(fault, seed or 0)).diagnose()
+    return Diagnosed(fault=name, told=fault.told, part=fault.part, verdict=verdict)
+
+
+def all_diagnosed(seed: int | None) -> list[Diagnosed]:
+    """All faults, one after the other."""
+    return [diagnosed(name, seed) for name in FAULTS]
+
+
+def good(found: Sequence[Diagnosed]) -> bool:
+    """No part is wrongly accused, and enough are found."""
+    wrong = any(not each.right and not each.undecided for each in found)
+    return not wrong and sum(each.right for each in found) >= LEAST_FOUND
+
+
+def lines(found: Sequence[Diagnosed]) -> Iterator[str]:
+    """A table as text."""
+    for each in found:
+        verdict = each.verdict
+        led = verdict.part if each.right else "not decidable" if each.undecided else f"WRONG: {verdict.part}"
+        yield f"{each.fault:13} {verdict.tests:2}  {led:28} {each.told}"
+    count = sum(each.right for each in found)
+    yield f"the diagnosis named the right part for {count} of {counted(len(found), 'fault')}"
+    for each in found:
+        if each.undecided:
+            yield f"{each.fault}, not decidable from here: {each.verdict.why}"
