@@ -130,7 +130,7 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
     [
         (("assemble", "--seed", "-1"), f"{SEED}; -1 is not"),
         (("assemble", "--seed", "x"), "--seed: `x` is not a whole number"),
-        (("assemble", "--camera", "film"), "--camera is one of auto, gl, ray, not `film`"),
+        (("assemble", "--camera", "film"), "--camera must be one of auto, gl, ray, not `film`"),
         (("trials", "assembly", "--seeds", "9-3"), "`9-3` is neither"),
         (("trials", "assembly", "--seeds", "9" * 5000), "is neither"),
         (("trials", "assembly", "--seeds", "١-٣"), "is neither"),
@@ -264,7 +264,7 @@ def test_an_output_folder_that_cannot_be_made_ends_with_two(
     Path("file").write_text("", encoding="utf-8")
     exit_code, _, err = command("run", planned("OPEN 1"), "--out", "file/folder")
     assert exit_code == 2
-    assert "file/folder cannot be made" in err
+    assert "the folder file/folder cannot be created" in err
 
 
 STRUCK = """

@@ -25,7 +25,7 @@ WRONG = {
     "check a b": "`check` does not take `b` (see `handeye check --help`)",
     "assemble --seed 1 --seed 2": "--seed is given more than once (see `handeye assemble --help`)",
     "assemble --json=maybe": "--json takes no value, but `maybe` was given (see `handeye assemble --help`)",
-    "run p --camera film": "--camera is one of auto, gl, ray, not `film` (see `handeye run --help`)",
+    "run p --camera film": "--camera must be one of auto, gl, ray, not `film` (see `handeye run --help`)",
     "trials base --n 1.5": "--n: `1.5` is not a whole number (see `handeye trials base --help`)",
     "trials base --n 1_0": "--n: `1_0` is not a whole number (see `handeye trials base --help`)",
     "assemble --seed ١": "--seed: `١` is not a whole number (see `handeye assemble --help`)",

@@ -77,7 +77,7 @@ def _wrong_value(error: CoercionError) -> str:
     given = "" if error.token is None else error.token.value
     if get_origin(error.target_type) is Literal:
         words = [str(word) for word in get_args(error.target_type)]
-        return f"{name} is one of {', '.join(words)}, not {quoted(given)}"
+        return f"{name} must be one of {', '.join(words)}, not {quoted(given)}"
     if error.target_type is bool:
         return f"{name} takes no value, but {quoted(given)} was given"
     return f"{name} is {_NOUNS.get(error.target_type, 'something else')}; {quoted(given)} is not"

@@ -253,7 +253,7 @@ def _set(runner: Runner, text: str) -> None:
     settable = settables.get(kind.casefold())
     if settable is None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
-        raise BadArgument(f"`set` takes {known}" if known else "this run has no values to set")
+        raise BadArgument(f"write {known}" if known else "this run has no values to set")
     if runner.trouble is not None:
         raise Refused("no value can be set here; go back first")
     name, numbers = _read(rest, settable, kind.casefold())

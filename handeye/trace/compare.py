@@ -27,7 +27,7 @@ def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) 
     recorded beside the first `unseen` events. Processor and versions of the two runs may differ.
     """
     if a.plan != b.plan:
-        return Repetition(parts="the traces are of different plans")
+        return Repetition(parts="the traces belong to different plans")
     so_far, rounded, reworded = _SoFar(), None, None
     for here, there in zip_longest(*(_compared(trace, events, unseen) for trace in (a, b))):
         if here is not None and here.topic == JOINTS:

@@ -176,7 +176,7 @@ def format_of(path: Path) -> Format:
         return FORMATS[ending]
     why = next((reason for endings, reason in REFUSED.items() if ending in endings), None)
     if why is None:
-        raise BadArgument(f"{path}: the name of a video ends in {' or '.join(FORMATS)}")
+        raise BadArgument(f"{path}: the name of a video must end in {' or '.join(FORMATS)}")
     raise BadArgument(f"{path}: {why}; make a {' or a '.join(FORMATS)}")
 
 

@@ -47,9 +47,9 @@ class VideoRequest:
             )
         for stage in (self.first, self.last):
             if isinstance(stage, bool) or not isinstance(stage, str | int | None):
-                raise BadArgument(f"a stage is given by its number or its name, not {stage!r}")
+                raise BadArgument(f"give a stage by its number or its name, not by {stage!r}")
         if not isinstance(self.camera, str):
-            raise BadArgument(f"a camera is given by its name, not {self.camera!r}")
+            raise BadArgument(f"give a camera by its name, not by {self.camera!r}")
 
 
 def _is_number(given: object) -> bool:

@@ -229,7 +229,7 @@ def _taken(port: int) -> socket.socket:
         taken.listen()
     except (OSError, OverflowError) as error:
         taken.close()
-        why = error.strerror if isinstance(error, OSError) else "it is not a number from 0 to 65535"
+        why = error.strerror if isinstance(error, OSError) else "a port is a number from 0 to 65535"
         raise Refused(f"port {port} is not available: {why}") from None
     return taken
 

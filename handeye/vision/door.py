@@ -53,7 +53,7 @@ def beams(
             f"each beam needs a start and a direction, but there are {len(from_where)} and {len(ways)}"
         )
     if len(ways) and np.abs(np.linalg.norm(ways, axis=1) - 1).max() > _UNIT:
-        raise BadArgument("the directions of beams are unit vectors (du, dv)")
+        raise BadArgument("the directions of beams must be unit vectors (du, dv)")
     _settings(polarity, step, beyond)
     lengths = numbers(reach, "the reach of a beam is a number of pixels")
     if lengths.shape not in ((), (len(ways),)) or (lengths < 0).any():
@@ -146,7 +146,7 @@ def characterise(
 
 def _scan(given: object) -> None:
     if not isinstance(given, Scan):
-        raise BadArgument(f"beams go through a Scan of a picture, not through {_kind(given)}")
+        raise BadArgument(f"beams need a Scan of a picture, not {_kind(given)}")
 
 
 def _kind(given: object) -> str:
@@ -160,7 +160,7 @@ def _settings(polarity: object, step: object, beyond: object) -> None:
         raise BadArgument(f"the polarity is BRIGHTER ({BRIGHTER}) or DARKER ({DARKER}), not {polarity!r:.40}")
     if _number(step, "the step is a difference of intensity") <= 0:
         raise BadArgument(f"the step is a difference of intensity above 0, not {step!r:.40}")
-    _number(beyond, "the least intensity beyond an edge is a number")
+    _number(beyond, "the least intensity beyond an edge must be a number")
 
 
 def _number(given: object, said: str) -> float:

@@ -58,7 +58,7 @@ def _intensities(picture: object) -> NDArray[np.float32]:
     """An argument as the intensities of a picture; raises BadArgument."""
     if not isinstance(picture, np.ndarray):
         raise BadArgument(
-            f"a picture is an array of intensities, shape (rows, columns), not {type(picture).__name__}"
+            f"a picture must be an array of intensities, shape (rows, columns), not {type(picture).__name__}"
         )
     if picture.ndim != 2 or not picture.size:
         hint = "; convert it to grey levels" if picture.ndim == 3 else ""
@@ -66,11 +66,11 @@ def _intensities(picture: object) -> NDArray[np.float32]:
             f"a picture has rows and columns of pixels, but this one has shape {picture.shape}{hint}"
         )
     if picture.dtype.kind not in "buif":
-        raise BadArgument(f"the pixels of a picture are numbers, not of type {picture.dtype}")
+        raise BadArgument(f"the pixels of a picture must be numbers, not of type {picture.dtype}")
     with np.errstate(over="ignore"):
         found: NDArray[np.float32] = np.asarray(picture).astype(np.float32)
     if not np.isfinite(found).all():
-        raise BadArgument("a picture has pixels that are not finite numbers")
+        raise BadArgument("the picture has pixels that are not finite numbers")
     return found
 
 

@@ -203,7 +203,7 @@ def test_a_run_is_not_overwritten_by_another_or_by_its_like(copy: Path, start: C
 
 def test_a_folder_set_up_for_another_run_is_left_to_it(tmp_path: Path) -> None:
     open_new(tmp_path / "run", begin()).close()
-    with pytest.raises(InvalidInput, match=r"is of another run \(seed 0"):
+    with pytest.raises(InvalidInput, match=r"belongs to another run \(seed 0"):
         open_new(tmp_path / "run", begin(GRASP, seed=5))
 
 

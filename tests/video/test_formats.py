@@ -87,8 +87,8 @@ def test_a_file_is_known_by_how_it_begins() -> None:
             "it.APNG",
             "it.APNG: an animated PNG would be twenty times as large; make a .webp or a .webm or a .mp4",
         ),
-        ("it.mkv", "it.mkv: the name of a video ends in .webp or .webm or .mp4"),
-        ("it", "it: the name of a video ends in .webp or .webm or .mp4"),
+        ("it.mkv", "it.mkv: the name of a video must end in .webp or .webm or .mp4"),
+        ("it", "it: the name of a video must end in .webp or .webm or .mp4"),
     ],
 )
 def test_other_files_are_refused_with_the_reason(name: str, sentence: str) -> None:

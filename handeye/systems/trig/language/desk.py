@@ -109,9 +109,7 @@ def _jog(word: str, words: deque[str]) -> Jog:
     if by:
         words.popleft()
     if not words:
-        raise BadArgument(
-            f"{word} needs a number: `{word} 30` goes to a place, `{word} BY 30` goes by a distance"
-        )
+        raise BadArgument(f"{word} needs a number: `{word} 30` means a place, `{word} BY 30` a distance")
     axis = AXES.index(word)
     return Jog(axis, number(words.popleft()) * SIZES[axis], by)
 
