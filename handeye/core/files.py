@@ -179,7 +179,7 @@ class LineFile:
         """
         self.path = path
         self.unlocked = ""
-        """Why others are not kept from writing to it, if they are not."""
+        """The reason why other processes cannot be kept from writing to the file; empty if they are."""
         if path.exists() and not path.is_file():  # opening a pipe without a reader would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:

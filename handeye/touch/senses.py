@@ -63,7 +63,7 @@ def off_zero(force: Array) -> bool:
 
 
 def followed(gap: float, goal: float) -> bool:
-    """True if the gap is at its goal, m."""
+    """True if the gap of the fingers agrees with the goal, both in m."""
     return abs(gap - goal) <= GAP_ERROR
 
 

@@ -36,7 +36,7 @@ PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets
 TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll
 SCALE_PRIOR: Final = 0.01  # sigma, of the focal lengths
 SIGHT_ERROR: Final = 0.13 * INCH  # sigma: .1 in of the arm and .07 deg of the pots at 65 in
-"""Weak priors of the vision study, section 3."""
+"""One sigma of a sighting, m. The three constants above are weak priors (vision study, section 3)."""
 MIN_SIGHTINGS: Final = 6
 """Least number of sightings per lens. With fewer, the priors dominate; 12 to 20 are good."""
 
