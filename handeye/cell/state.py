@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 import numpy as np
 
@@ -29,6 +29,9 @@ class CellState(Record, frozen=True, kw_only=True):
         return float(self.physics[0])
 
 
+_SCRATCH: Final = np.random.Generator(np.random.PCG64(0))  # states are tried on it
+
+
 def noise_state(rng: np.random.Generator) -> str:
     """The state of a random number generator."""
     return json.dumps(rng.bit_generator.state)
@@ -41,7 +44,7 @@ def set_noise(rng: np.random.Generator, state: str) -> None:
 
 def check_noise(state: str) -> None:
     """Check the state of a random number generator; raises the same errors as `set_noise`."""
-    set_noise(np.random.Generator(np.random.PCG64(0)), state)
+    set_noise(_SCRATCH, state)
 
 
 def figures(values: Array) -> tuple[float, ...]:

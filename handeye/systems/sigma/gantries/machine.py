@@ -124,7 +124,10 @@ class Gantries(Plant[GantryMemory]):
         self._first = self._step = 0
         self._peaks = np.zeros(_N)
         self._seen: dict[tuple[int, Pin], Level] = {}
-        data.qpos[[model.joint(axis).qposadr[0] for axis in AXES]] = self._begin
+        joints = [model.joint(axis) for axis in AXES]
+        self._q = [int(joint.qposadr[0]) for joint in joints]
+        self._qd = [int(joint.dofadr[0]) for joint in joints]
+        data.qpos[self._q] = self._begin
         for finger in FINGERS:
             data.qpos[model.joint(finger).qposadr[0]] = OPEN / 2
         mujoco.mj_forward(model, data)
@@ -186,9 +189,7 @@ class Gantries(Plant[GantryMemory]):
     @property
     def places(self) -> Array:
         """True position of each axis, steps from its low switch, shape (6,)."""
-        model, data = self.bench.model, self.bench.data
-        q = data.qpos[[model.joint(axis).qposadr[0] for axis in AXES]]
-        return np.asarray((q - self._low) / STEP)
+        return np.asarray((self.bench.data.qpos[self._q] - self._low) / STEP)
 
     @property
     def felt(self) -> Array:
@@ -200,14 +201,15 @@ class Gantries(Plant[GantryMemory]):
         """The present state of the arms, for traces and pictures: positions and speeds of joints, forces on the
         wrists.
         """
-        model, data = self.bench.model, self.bench.data
-        joints = [model.joint(axis) for axis in AXES]
-        q = data.qpos[[int(joint.qposadr[0]) for joint in joints]]
-        qd = data.qvel[[int(joint.dofadr[0]) for joint in joints]]
-        wrists = zip(FORCES, _WRIST.values(), strict=True)
-        channels = {channel: tuple(self.felt[part].tolist()) for channel, part in wrists}
-        gap = float(data.ten_length[0])
-        sensed = Sensed(time=self.bench.now, q=q, qd=qd, gap=gap, channels=channels)
+        data, felt = self.bench.data, self.felt.tolist()
+        channels = {channel: tuple(felt[part]) for channel, part in zip(FORCES, _WRIST.values(), strict=True)}
+        sensed = Sensed(
+            time=self.bench.now,
+            q=data.qpos[self._q],
+            qd=data.qvel[self._qd],
+            gap=float(data.ten_length[0]),
+            channels=channels,
+        )
         return ServoPeriod(sensed=sensed, effort=data.actuator_force[:_N].copy())
 
     # -- time ----------------------------------------------------------------------------------------------
