@@ -105,7 +105,7 @@ def growth(found: dict[str, Any]) -> str:
 
 def _grown(of: str, grown: Sequence[dict[str, Any]]) -> str:
     """A table of measurements at the same sizes; the last column is the cost of each further one."""
-    head = [of, *(f"{size:,}" for size in grown[0]["sizes"]), "power", "for each more"]
+    head = [of, *(f"{size:,}" for size in grown[0]["sizes"]), "power", "each further one"]
     return _table(head, [_one(each) for each in grown])
 
 

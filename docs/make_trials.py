@@ -38,11 +38,14 @@ BEGIN, END = "<!-- Below: docs/make_trials.py -->\n", "<!-- Above: docs/make_tri
 COLUMNS: Final = ("seed", "verdict", "stage", "cause", "arm_s", "cpu_s", "events")
 PROGRAM: Final = "water_pump"
 """Whose plan `handeye trials assembly` takes where it is given none."""
-PAIRED: Final = """Pairs of batches in the same worlds, one with a sense left out or with another program:
+PAIRED: Final = """\
+The next table compares batches in the same worlds. The batch in the first column lacks a sense or runs another
+program:
 
 | batch | compared to | assembled | there | only here | only there | p | noticed | silent | unfinished | arm | p |
 |---|---|---|---|---|---|---|---|---|---|---|---|"""
-FAILURES: Final = """The trials that did not assemble the pump; *message* is what the run reported at the time:
+FAILURES: Final = """\
+The last table lists the trials that did not assemble the pump. *Message* is what the run reported as it stopped:
 
 | batch | stage | ended | message | worlds | seeds |
 |---|---|---|---|---|---|"""
