@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from statistics import median
 from typing import Final, Protocol
 
+from handeye.core.plain_text import counted
 from handeye.ports.microbus import BusFault, Command, MicrobusPort, Status
 from handeye.systems.sigma import protocol
 from handeye.systems.sigma.bus.layout import Layout
@@ -165,7 +166,7 @@ class Motion:
 
     @property
     def lines(self) -> Sequence[str]:
-        asked = f"{self.axis} moves by {self.steps} steps" if self.steps else f"ORIGIN {self.axis}"
+        asked = f"{self.axis} moves by {counted(self.steps, 'step')}" if self.steps else f"ORIGIN {self.axis}"
         while_ = "" if self.busy else "; its status was never busy"
         deaf = ", though it was still moving" if self.deaf else ""
         lines = f"{self.status >> 1}-{self.status & 1}"
