@@ -1,5 +1,6 @@
 """Two gantries with physics: rails, reflexes, forces, beams, and what a collision leaves."""
 
+import json
 from collections.abc import Callable
 from importlib.util import module_from_spec, spec_from_file_location
 
@@ -23,7 +24,6 @@ from handeye.systems.sigma.protocol import NUMBERS, STEP_MM
 from handeye.systems.sigma.run.plan import MalPlan
 
 Command = Callable[..., tuple[int, str, str]]
-FAST = (("X1", 8000), ("Y1", 8000), ("Z1", 3500), ("X1", -267), ("Z1", -13), ("X2", 8))
 
 
 @pytest.mark.slow
@@ -134,18 +134,14 @@ def test_a_raised_limit_lets_z_press_on_the_board_and_the_standard_one_stops_it(
     assert found[2] == pytest.approx(180.1, abs=0.15)
 
 
-@pytest.mark.slow
 @pytest.mark.sigma_row(26)
-@pytest.mark.parametrize(("compensated", "expected"), [(True, Status.FREE), (False, Status.FORCE)])
-def test_fast_moves_in_empty_space_trip_no_reflex_unless_the_accelerometers_are_off(
-    compensated: bool, expected: Status
-) -> None:
-    machine = Machine(7, compensated=compensated)
-    for axis, steps in FAST:
-        machine.rest(0.15)
-        machine.bus.send(protocol.move(axis, steps))
-        assert machine.bus.wait_free(NUMBERS[axis], LONG) is expected
-        machine.bus.ask(protocol.position(axis), 2)
+@pytest.mark.slow
+def test_fast_moves_in_empty_space_trip_no_reflex_unless_the_accelerometers_are_off(command: Command) -> None:
+    code, out, _ = command("sigma", "moves", "--n", "1", "--seed", "7", "--json")
+    on, off = json.loads(out)
+    assert (code, on["tripped"], off["tripped"]) == (0, 0, on["moves"])
+    assert on["force"] < 1 < 4 < off["force"]
+    assert "without accelerometers: 8 of 8 moves stopped" in command("sigma", "moves", "--n", "1")[1]
 
 
 @pytest.mark.sigma_row(27)

@@ -1,0 +1,36 @@
+"""The command that makes fast moves in empty space, in many worlds."""
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Json, WholeNumber, positive, put_json, say
+from handeye.cli.sweeps import FirstSeed
+
+
+def moves(
+    *,
+    n: Annotated[
+        WholeNumber, Parameter(name="--n", help="Number of worlds; world K has the seed --seed plus K.")
+    ] = 10,
+    seed: FirstSeed = 0,
+    json: Json = False,
+) -> int:
+    """Move fast in empty space, with the accelerometers of the wrists and without: forces, and false reflexes.
+
+    Exit code 0: with accelerometers no reflex stopped a move; 1: some did; 2: bad input.
+    """
+    from handeye.systems.sigma.gantries.free_moves import free_moves, lines
+
+    positive(n, "world")
+    found = [
+        free_moves(each, compensated=compensated)
+        for each in range(seed, seed + n)
+        for compensated in (True, False)
+    ]
+    if json:
+        put_json(found)
+    else:
+        for line in lines(found):
+            say(line, whole=True)
+    return 1 if any(each.tripped for each in found if each.compensated) else 0
