@@ -100,7 +100,7 @@ def photograph(
 def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     """Repeat a recorded run and compare the two.
 
-        The actions of operators and experimenters are repeated as well. An interrupted run is compared up to its last
+    The actions of operators and experimenters are repeated as well. An interrupted run is compared up to its last
     complete step. There are three answers: the run repeats exactly; it repeats except for rounding in the last digits,
     as on another kind of processor or with other versions; or it differs, and the answer says where.
 

@@ -21,10 +21,11 @@ def cache(
 ) -> int:
     """List the kept camera calibrations, or remove them.
 
-    What the arm measures of itself and of the camera before the first instruction is kept for other runs in the same
-    world, with the same pictures and versions: they give the same bytes and need not wait. `--calibrate` measures
-    again. All of them take at most 16 MB, some 6 kB each; the oldest go. The environment variable HANDEYE_CACHE names
-    another folder than that of the platform; if it is empty, nothing is kept.
+    Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the results,
+    and uses them in later runs with the same world, kind of pictures and versions: these runs give the same bytes
+    without the wait. `--calibrate` measures again. One calibration takes about 6 kB, all together at most 16 MB; the
+    oldest are removed first. The environment variable HANDEYE_CACHE names another folder; if it is empty, nothing is
+    kept.
     """
     from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 

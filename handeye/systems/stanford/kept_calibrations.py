@@ -25,7 +25,7 @@ from handeye.systems.stanford.preparation import Conditions, Preparation
 MAGIC: Final = "handeye-calibration"
 VERSION: Final = 2
 ENDING: Final = ".calibration"
-LARGEST: Final = 1 << 20  # bytes of one file, also unpacked; a calibration for the water pump has some 6 kB
+LARGEST: Final = 1 << 20  # bytes of one file, also unpacked; a calibration of the water pump takes about 6 kB
 MOST: Final = 1 << 24  # bytes of all files; beyond this the oldest are removed
 _ABANDONED_S: Final = 3600.0  # age at which an unfinished file is removed
 
