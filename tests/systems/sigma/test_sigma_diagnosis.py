@@ -12,6 +12,7 @@ from mal_bench import ROOT
 from walked_pages import walked, with_outputs
 
 from handeye.core.errors import InvalidInput
+from handeye.execution.servo import Halted
 from handeye.systems.sigma.bus.faults import defect
 from handeye.systems.sigma.diagnosis.bench import Bench
 from handeye.systems.sigma.diagnosis.faults import FAULTS, Planted, planted
@@ -91,6 +92,7 @@ def test_a_line_that_no_test_shows_is_reported_as_not_decidable(fault: str) -> N
     ("fault", "part"),
     [
         ("address:HAND1:1", "microcomputer HAND1"),  # Y1 answers at the same time
+        ("address:FORCE2:1", "microcomputer FORCE2"),  # always busy
         ("clock:Y2:-60", "microcomputer Y2"),  # no byte is misread
         ("status-a:Z1:0", "status line A of Z1"),
         ("status-b:X2:0", "status line B of X2"),
@@ -196,7 +198,7 @@ def test_options_that_make_no_sense_are_refused(words: str, why: str, command: C
 
 def test_a_diagnosis_is_told_as_json(command: Command) -> None:
     code, out, _ = command("sigma", "diagnose", "--fault", "clock", "--json")
-    found = json.loads(out)
+    found = json.loads(out)["figures"]
     assert (code, found["verdict"]["part"], found["planted"]["part"]) == (0, *["microcomputer X1"] * 2)
     assert [each["test"] for each in found["tests"]] == ["selftest", "clocks"]
 
@@ -218,3 +220,17 @@ def test_the_page_shows_what_its_commands_print(
     assert [each.line for each in typed if each.code != 0] == []
     assert [(each.line, each.printed) for each in typed if not each.stands] == []
     assert len(typed) == 3
+
+
+def test_a_program_without_an_end_can_be_stopped(tmp_path: Path) -> None:
+    passes = iter([False] * 100)
+
+    def poll() -> None:
+        if next(passes, True):
+            raise Halted
+
+    file = tmp_path / "loop.mal"
+    file.write_text("10 GOTO 10\n")
+    told: list[str] = []
+    Game(told.append, 6, poll).hear(f"run {file}")
+    assert told == ["stopped at 0.200 s"]

@@ -63,7 +63,7 @@ def test_the_page_has_the_tables_that_the_program_makes(measured: Table1) -> Non
 def test_the_table_is_a_command(command: Command) -> None:
     code, out, _ = command("sigma", "table1", "--json")
     found = json.loads(out)
-    assert (code, found["holds"], len(found["table"]["layer1"])) == (0, True, 4)
+    assert (code, found["completed"], len(found["figures"]["layer1"])) == (0, True, 4)
 
 
 def test_programs_of_both_layers_have_no_mistakes() -> None:

@@ -52,7 +52,16 @@ def diagnose(
     if every:
         found = report.all_diagnosed(seed)
         if json:
-            put_json({"found": sum(each.right for each in found), "faults": found})
+            right = sum(each.right for each in found)
+            put_json(
+                {
+                    "task": "diagnose",
+                    "seed": seed,
+                    "completed": report.good(found),
+                    "message": report.told(found),
+                    "figures": {"found": right, "faults": found},
+                }
+            )
         else:
             for line in report.lines(found):
                 say(line, whole=True)
@@ -69,7 +78,15 @@ def diagnose(
 
     verdict = Strategy(Bench(there, seed or 0), tell).diagnose()
     if json:
-        put_json({"planted": there, "verdict": verdict, "tests": steps})
+        put_json(
+            {
+                "task": "diagnose",
+                "seed": seed,
+                "completed": verdict.part == ("" if there is None else there.part),
+                "message": verdict.why,
+                "figures": {"planted": there, "verdict": verdict, "tests": steps},
+            }
+        )
     else:
         say("")
         if there is not None:
@@ -81,15 +98,21 @@ def diagnose(
 def _play(seed: int, *, demo: bool) -> int:
     from handeye.cli.panic_button import PanicButton
     from handeye.cli.prompt import typed_lines
+    from handeye.execution.servo import Halted
     from handeye.systems.sigma.diagnosis.game import Game, demonstrate
 
-    session = Game(say, seed)
-    session.begin()
-    if demo:
-        demonstrate(session, say)
-        return 0 if session.won else 1
     terminal = sys.stdin.isatty()
     with PanicButton() as panic:
+
+        def poll() -> None:
+            if panic():
+                raise Halted
+
+        session = Game(say, seed, poll)
+        session.begin()
+        if demo:
+            demonstrate(session, say)
+            return 0 if session.won else 1
         for line in typed_lines("> " if terminal else "", panic.aside, session.words):
             try:
                 session.hear(line)

@@ -16,7 +16,16 @@ def table1(*, json: Json = False) -> int:
 
     found = measured()
     if json:
-        put_json({"holds": found.holds, "table": found})
+        failed = [f"{claim.claim}: {claim.found}" for claim in found.claims if not claim.holds]
+        put_json(
+            {
+                "task": "table1",
+                "seed": None,
+                "completed": found.holds,
+                "message": "; ".join(failed) or "all claims of the paper hold",
+                "figures": found,
+            }
+        )
     else:
         for line in lines(found):
             say(line, whole=True)

@@ -169,7 +169,7 @@ def _multiplexer(name: str, draw: Draw) -> Planted:
 
 
 def _converter(name: str, draw: Draw) -> Planted:
-    arm, bit, level = draw.one(ARMS), draw.one((5, 3, 4, 6, 7)), draw.one((0, 1))
+    arm, bit, level = draw.one(ARMS), draw.one((5, 0, 1, 2, 3, 4, 6, 7, 8, 9)), draw.one((0, 1))
     told = f"bit {bit} of the converter of wrist {arm} is always {level}"
     return _machine(name, f"converter of wrist {arm}", told, "converter", f"FORCE{arm}", bit, level)
 

@@ -8,6 +8,7 @@ from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.plain_text import counted
 from handeye.core.source import read_source
+from handeye.execution.servo import Halted
 from handeye.program.events import SystemEvent
 from handeye.systems.sigma.diagnosis import means
 from handeye.systems.sigma.diagnosis.bench import Bench
@@ -23,7 +24,7 @@ PARTS: Final = (
     "driver of AXIS", "supply", "low|high switch of AXIS", "gauge X|Y|Z of wrist N", "accelerometer X|Y|Z of wrist N",
     "multiplexer of wrist N", "converter of wrist N", "beam of hand N", "lamp of hand N", "fingers of hand N",
 )  # fmt: skip
-_LONGEST_RUN: Final = 600_000_000  # microseconds
+_LONGEST_RUN: Final = 300_000_000  # microseconds
 
 
 class Means(NamedTuple):
@@ -60,8 +61,11 @@ MEANS: Final = {
 class Game:
     """A game with the fault of a seed."""
 
-    def __init__(self, tell: Callable[[str], None], seed: int) -> None:
-        self._tell, self.seed = tell, seed
+    def __init__(
+        self, tell: Callable[[str], None], seed: int, poll: Callable[[], None] = lambda: None
+    ) -> None:
+        """`poll` is called while a program of the player runs, and may raise Halted."""
+        self._tell, self.seed, self._poll = tell, seed, poll
         self.planted = drawn(seed)
         self._bench = Bench(self.planted, seed)
         self.tests = 0
@@ -162,16 +166,20 @@ class Game:
                 out.append(event.text)
 
         program = program_of(file, read_source(Path(file)).text)
-        vm = VirtualMachine(program, self._bench.bus, hear)
-        vm.begin()
-        while vm.turn and self._bench.bus.now < vm.memory.began + _LONGEST_RUN:
-            vm.statement()
-            vm.settle()
+        bus = self._bench.bus
+        vm = VirtualMachine(program, bus, hear, poll=self._poll)
+        try:
+            vm.begin()
+            while vm.turn and bus.now < vm.memory.began + _LONGEST_RUN:
+                vm.statement()
+                vm.settle()
+        except Halted:
+            return [*out, f"stopped at {vm.time:.3f} s"]
         fault = vm.memory.fault
         end = (
             fault.told
             if fault
-            else "it still runs after 600 s"
+            else f"it still runs after {_LONGEST_RUN / 1e6:g} s"
             if vm.memory.tasks
             else "the program finished"
         )

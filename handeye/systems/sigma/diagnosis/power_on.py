@@ -71,9 +71,9 @@ def power_on(bus: MicrobusPort, layout: Layout) -> list[SelfTest]:
         if found is None or found.fault:
             failed.add(segment)
             lost.update(members)
-    out += [_microcomputer(number, heard) for number in numbers if number not in lost]
-    wrong = {test.number for test in out if test.part == "microcomputer" and test.fault}
     scanning = {place.number for place in layout.places if place.kind == "force"}
+    out += [_microcomputer(number, heard, scanning) for number in numbers if number not in lost]
+    wrong = {test.number for test in out if test.part == "microcomputer" and test.fault}
     out += _status_lines({n: status for n, status in at_rest.items() if n not in wrong}, scanning)
     return out
 
@@ -133,29 +133,30 @@ def _stuck(heard: Sequence[_Heard]) -> str:
     return "its data lines are faulty: some bytes arrive and others do not"
 
 
-def _microcomputer(number: int, heard: Mapping[int, _Heard]) -> SelfTest:
+def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container[int]) -> SelfTest:
     one = heard[number]
-    well = SelfTest(part="microcomputer", number=number)
-    if one.right:
-        return well
+
+    def takes(stranger: int, other: int) -> bool:
+        """A microcomputer that is silent at its own number takes that of another one.
+
+        It becomes busy then. One that is always busy disturbs the answers of the other one.
+        """
+        theirs = heard[other]
+        seen = not theirs.right if stranger in scanning else stranger in theirs.busy
+        return other != stranger and heard[stranger].silent and not theirs.silent and seen
+
+    fault = ""
     if one.silent:
-        strangers = [other for other, theirs in heard.items() if other != number and number in theirs.busy]
-        if strangers:
-            return SelfTest(
-                part="microcomputer",
-                number=number,
-                fault=f"it answers to the number of {name_of(strangers[0])}",
-            )
-        return SelfTest(part="microcomputer", number=number, fault="it is dead: it does not answer")
-    if any(heard[other].silent for other in one.busy - {number}):
-        return well  # another one answers with it, and is the one that fails
-    if one.well not in (None, b"\0"):
-        return SelfTest(part="microcomputer", number=number, fault="its self-test fails")
-    return SelfTest(
-        part="microcomputer",
-        number=number,
-        fault="its clock is wrong: it reads the byte next to the right one",
-    )
+        taken = [other for other in heard if takes(number, other)]
+        spare = f"it answers to the number of {name_of(taken[0])}" if taken else ""
+        fault = spare or "it is dead: it does not answer"
+    elif one.right or any(takes(stranger, number) for stranger in heard):
+        pass
+    elif one.well not in (None, b"\0"):
+        fault = "its self-test fails"
+    else:
+        fault = "its clock is wrong: bytes are taken for their neighbours"
+    return SelfTest(part="microcomputer", number=number, fault=fault)
 
 
 def _status_lines(at_rest: Mapping[int, Status], scanning: Container[int]) -> Iterator[SelfTest]:

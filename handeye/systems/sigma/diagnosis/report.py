@@ -49,14 +49,20 @@ def good(found: Sequence[Diagnosed]) -> bool:
     return not wrong and sum(each.right for each in found) >= LEAST_FOUND
 
 
+def told(found: Sequence[Diagnosed]) -> str:
+    """How many parts were named."""
+    right = sum(each.right for each in found)
+    return f"the diagnosis named the right part for {right} of {counted(len(found), 'fault')}"
+
+
 def lines(found: Sequence[Diagnosed]) -> Iterator[str]:
     """A table as text."""
+    yield f"{'fault':13} tests  {'named part':26}  what is wrong"
     for each in found:
         verdict = each.verdict
         led = verdict.part if each.right else "not decidable" if each.undecided else f"WRONG: {verdict.part}"
-        yield f"{each.fault:13} {verdict.tests:2}  {led:28} {each.told}"
-    count = sum(each.right for each in found)
-    yield f"the diagnosis named the right part for {count} of {counted(len(found), 'fault')}"
+        yield f"{each.fault:13} {verdict.tests:5}  {led:26}  {each.told}"
+    yield told(found)
     for each in found:
         if each.undecided:
             yield f"{each.fault}, not decidable from here: {each.verdict.why}"
