@@ -132,12 +132,14 @@ def test_the_referee_sees_a_fallen_piece_a_wrong_line_and_a_height_that_was_not_
 
     runner.cell.restore(runner.cell.capture())
     assert not judged(runner)["heights"].ok
-    assert not told(piece.height + 0.7)["heights"].ok
+    assert not told(float("nan"))["heights"].ok
     assert all(found.ok for found in told(piece.height - 0.5).values())
     joint.qpos[1] += 0.006
     joint.qpos[3:7] = (np.cos(0.04), np.sin(0.04), 0, 0)
     found = told(piece.height)
     assert [name for name, each in found.items() if not each.ok] == ["standing", "sorted"]
+    assert not told(piece.height + 0.7)["heights"].ok  # one of the heights that were told is wrong
+    assert not told(piece.height)["heights"].ok
 
 
 @pytest.mark.sigma_row(29)

@@ -64,9 +64,9 @@ class Chess(GantryTask):
 
 
 def _error(piece: Piece, told: Sequence[ToldHeight]) -> float:
-    """Error of the reported height of a piece, mm; infinite if no height was reported."""
+    """Error of the reported height of a piece, mm, the greatest of several; infinite if no height was reported."""
     here = [each for each in told if each.line == piece.line and abs(each.x - piece.x) < _NEAR]
-    return min((abs(each.height - piece.height) for each in here), default=inf)
+    return max((abs(each.height - piece.height) for each in here), default=inf)
 
 
 def board(world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, tuple[Piece, ...]]:

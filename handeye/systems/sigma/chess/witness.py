@@ -1,6 +1,7 @@
 """The witness of a board: the initial pieces, and the program's messages about them, for the referee only."""
 
 import re
+from math import isfinite
 from typing import Final
 
 from msgspec import field
@@ -36,11 +37,14 @@ class Heard(Record, frozen=True, kw_only=True):
         """The pieces for which the program has printed height, position and line."""
         found = []
         for line in self.lines:
-            if (said := _TOLD.search(line)) is not None:
-                try:
-                    found.append(ToldHeight(height=float(said[1]), x=float(said[2]), line=int(said[3])))
-                except ValueError:  # not a number
-                    continue
+            if (said := _TOLD.search(line)) is None:
+                continue
+            try:
+                told = ToldHeight(height=float(said[1]), x=float(said[2]), line=int(said[3]))
+            except ValueError:  # not a number
+                continue
+            if isfinite(told.height) and isfinite(told.x):
+                found.append(told)
         return found
 
 
