@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from importlib.util import module_from_spec, spec_from_file_location
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -10,9 +11,11 @@ from gantry_bench import LONG, Machine
 from mal_bench import ROOT, mal
 
 from handeye.core.variation import WorldSpec
+from handeye.execution.servo import ServoPeriod
 from handeye.ports.microbus import Status
-from handeye.program.events import to_line
+from handeye.program.events import AnyEvent, to_line
 from handeye.runs.advance import advance
+from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -205,6 +208,29 @@ def test_a_run_kept_anywhere_goes_on_to_the_same_events() -> None:
         advance(again)
         again.finish()
         assert [*map(to_line, again.events)] == events, steps
+
+
+class Order(Observer):
+    """Notes what happens, and when the arms are watched."""
+
+    def __init__(self) -> None:
+        self.seen: list[str] = []
+
+    def event(self, event: AnyEvent) -> None:
+        self.seen.append(type(event).__name__)
+
+    def tick(self, period: ServoPeriod) -> None:
+        self.seen.append("period")
+
+
+def test_a_step_has_finished_when_its_motions_have_so_that_a_trace_can_be_cut_there() -> None:
+    order = Order()
+    plan = MalPlan(name="cut.mal", text="10 ORIGIN Z1\n20 MOVE Z1 TO 60\n30 MOVE Z1 TO 0\n", arm="gantries")
+    setup = Setup(system="sigma", plan=plan, world=WorldSpec(seed=5), camera="auto")
+    advance(Runner(Checkpoint(setup=setup), observers=lambda _: [order]))
+    after = [b for a, b in pairwise(order.seen) if a == "StepFinished"]
+    assert order.seen.count("period") > 20
+    assert "period" not in after
 
 
 @pytest.mark.sigma_row(35)

@@ -148,8 +148,8 @@ class RunningMal(RunningSystem):
         self._poll()
         self._around.emit(StepStarted(time=self.time, step=number, line=step.line, text=step.text))
         self.vm.statement()
-        self._around.emit(StepFinished(time=self.time, step=number, hand=None, planned=None, gap=None))
         self.vm.settle()
+        self._around.emit(StepFinished(time=self.time, step=number, hand=None, planned=None, gap=None))
         self._stand()
         self._call()
 
