@@ -1,1 +1,1 @@
-"""Runs that can be stepped, saved, resumed, and taken back to an earlier state."""
+"""Runs that can be stepped, saved, resumed, and returned to an earlier state."""

@@ -1,4 +1,5 @@
-"""Advances a run step by step until it ends or a stop condition pauses it; states to be kept go to the observers."""
+"""Advances a run step by step until it ends or a stop condition pauses it. States that must be kept are passed
+to the run's observers."""
 
 from collections.abc import Callable, Sequence
 from typing import Literal
@@ -12,19 +13,19 @@ from handeye.runs.snapshot import Snapshot
 
 
 class StopCondition(Record, frozen=True, kw_only=True, tag_field="stop", tag=True):
-    """Base of the stop conditions, which never pauses a run itself."""
+    """Base class of the stop conditions. It never pauses a run."""
 
     def met_before(self, runner: Runner) -> bool:
-        """True if the run pauses before the next step."""
+        """Return True if the run must pause before the next step."""
         return False
 
     def met_after(self, events: Sequence[AnyEvent]) -> bool:
-        """True if the run pauses after a step with these events."""
+        """Return True if the run must pause after the step that emitted these events."""
         return False
 
 
 class AtSteps(StopCondition, frozen=True, kw_only=True):
-    """Pause before any of several steps, given by number."""
+    """Pause before any of the steps with these numbers."""
 
     steps: tuple[int, ...]
 
@@ -33,20 +34,20 @@ class AtSteps(StopCondition, frozen=True, kw_only=True):
 
 
 class AtLine(AtSteps, frozen=True, kw_only=True):
-    """Pause before the steps on a line of the source, or of a required file."""
+    """Pause before any step on a line of the main source text or of a required file."""
 
     file: str
     line: int
 
 
 class AtLabel(AtSteps, frozen=True, kw_only=True):
-    """Pause before the steps with a label."""
+    """Pause before any step with a label."""
 
     label: str
 
 
 class AtInstruction(AtSteps, frozen=True, kw_only=True):
-    """Pause before the steps that begin with an instruction word."""
+    """Pause before any step whose statement begins with an instruction word."""
 
     word: str
 
@@ -61,7 +62,7 @@ class BeforeStep(AtSteps, frozen=True, kw_only=True):
 
 
 class AtStage(StopCondition, frozen=True, kw_only=True):
-    """Pause when a stage, given by its index and name, is about to begin."""
+    """Pause when the stage with this index and name is about to begin."""
 
     stage: int
     name: str
@@ -71,7 +72,7 @@ class AtStage(StopCondition, frozen=True, kw_only=True):
 
 
 class OnError(StopCondition, frozen=True, kw_only=True):
-    """Pause after the step that raised an error."""
+    """Pause after a step that raised the error with this number."""
 
     number: int
 
@@ -80,7 +81,7 @@ class OnError(StopCondition, frozen=True, kw_only=True):
 
 
 class AfterStage(StopCondition, frozen=True, kw_only=True):
-    """Pause when a stage, given by its index and name, has ended."""
+    """Pause when the stage with this index and name has ended."""
 
     stage: int
     name: str
@@ -91,24 +92,24 @@ class AfterStage(StopCondition, frozen=True, kw_only=True):
 
 
 class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
-    """Pause when the arm has undone as many steps as ordered."""
+    """Pause when the arm has undone as many steps as it was ordered to undo."""
 
     def met_before(self, runner: Runner) -> bool:
         return isinstance(runner.events[-1], UndoEnded)
 
 
 class AfterSteps(StopCondition, frozen=True, kw_only=True):
-    """Pause after a number of steps; the caller counts them."""
+    """Pause after this number of steps. The caller counts the steps."""
 
     count: int
 
 
 class PauseRequest(StopCondition, frozen=True, kw_only=True, tag="Asked"):
-    """Pause because a person requested it during the run."""
+    """Pause because a person asked for it during the run."""
 
 
 class ByHand(StopCondition, frozen=True, kw_only=True):
-    """Pause because a person ended the control of the run."""
+    """Pause because a person stopped controlling the run."""
 
 
 class DriverFailure(StopCondition, frozen=True, kw_only=True, tag="BrokenOff"):
@@ -134,7 +135,7 @@ AnyStop = (
 
 
 class Pause(Record, frozen=True, kw_only=True):
-    """The reason for a pause, as facts."""
+    """The reason why a run paused."""
 
     kind: Literal["end", "operator", "trouble", "break", "panic"]  # `trouble`: it cannot continue
     done: int = 0  # steps done since the run went on
@@ -153,8 +154,8 @@ def advance(
     steps: int | None = None,
     asked: Callable[[], bool] = lambda: False,
 ) -> Pause:
-    """Execute `steps` steps, or all, but at least one; `asked` is called after each step, and the run pauses if it
-    returns True.
+    """Execute `steps` steps, at least one; without `steps`, continue until the run ends. `asked` is called
+    after each step, and the run pauses if it returns True. Returns the reason why the run paused.
     """
     done = 0
     while not runner.ended:
@@ -176,7 +177,8 @@ def advance(
 
 
 def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pause | None:
-    """The pause before the next step, if a condition demands one; the state is kept in that case."""
+    """Return the pause before the next step, or None if no stop condition is met. If the run pauses, its state
+    is kept."""
     met = next((stop for stop in stops if stop.met_before(runner)), None)
     if met is None:
         return None
@@ -185,7 +187,7 @@ def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pa
 
 
 def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
-    """Execute one step; returns the pause after it, if there is one."""
+    """Execute one step. Returns the pause that follows it, or None."""
     happened = len(runner.events)
     try:
         runner.step()
@@ -206,7 +208,7 @@ def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
 
 
 def ended(runner: Runner, done: int = 0) -> Pause:
-    """The reason why a run cannot continue without the operator."""
+    """Return the reason why a run cannot continue without the operator."""
     if runner.trouble is not None:
         return Pause(kind="trouble", done=done, message=runner.trouble)
     call = runner.call
@@ -216,7 +218,7 @@ def ended(runner: Runner, done: int = 0) -> Pause:
 
 
 def keep(runner: Runner, snapshot: Snapshot) -> None:
-    """Give a state of the run to the observers that keep states."""
+    """Pass a state of the run to the observers that keep states."""
     checkpoint = runner.checkpoint(snapshot)
     for observer in runner.observers:
         observer.checkpoint(checkpoint)

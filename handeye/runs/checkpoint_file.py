@@ -1,7 +1,8 @@
-"""Checkpoints on disk: one line with the format, one line of readable JSON, then the compressed state.
+"""Reads and writes checkpoint files: one line with the format, one line of readable JSON, then the compressed
+state.
 
-The first line has a digest of everything after it. A file that is truncated or has a wrong bit is refused before
-any of its content is used.
+The first line contains a digest of the rest of the file. If the file is truncated or a bit is wrong, it is
+refused before any of its content is used.
 """
 
 import hashlib
@@ -35,7 +36,8 @@ LARGEST: Final = 1 << 28  # bytes of a state, decompressed: a hundred times what
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """Summary of a checkpoint, for display and for finding the right checkpoint."""
+    """Summary of a checkpoint. It is shown to users, and used to find the right checkpoint without decoding
+    states."""
 
     system: str = "program"  # the kind of system that carries the run out
     program: str
@@ -111,8 +113,8 @@ def encode(checkpoint: Checkpoint) -> bytes:
 
 
 def decode(data: bytes, name: str) -> Checkpoint:
-    """Decode a checkpoint; raises BadFile if the data are no checkpoint, or cannot be used here. `name` is the
-    file's name for messages.
+    """Decode a checkpoint; raises BadFile if the data are not a checkpoint, or if this version of handeye
+    cannot use them. Messages call the file `name`.
     """
     head, rest = _opened(data, name)
     try:
@@ -183,7 +185,7 @@ def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
 
 
 def decode_head(data: bytes, name: str) -> Head:
-    """Decode the summary of a checkpoint; the whole file is checked for damage, as in `decode`."""
+    """Decode the summary of a checkpoint. Like `decode`, this checks the whole file for damage."""
     return _opened(data, name)[0]
 
 
@@ -198,12 +200,12 @@ def read_head(path: Path) -> Head:
 
 
 def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
-    """Write a checkpoint completely or not at all."""
+    """Write a checkpoint atomically: either the whole file is written, or nothing."""
     write_whole(path, encode(checkpoint))
 
 
 def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
-    """The summary and the compressed state of a checkpoint; raises BadFile if they are damaged."""
+    """Return the summary and the compressed state of a checkpoint. Raises BadFile if the file is damaged."""
     first, _, rest = data.partition(b"\n")
     words = first.decode("ascii", errors="replace").split(" ")
     if len(words) != 3 or words[0] != MAGIC or not re.fullmatch(r"[1-9][0-9]{0,8}", words[1]):

@@ -1,5 +1,5 @@
-"""Checkpoints of one run in a folder: finds and writes them, and removes those after the point to which the run
-goes back.
+"""Manages the checkpoints of one run in a folder: writes and finds them, and, when the run goes back, removes
+those made after that point.
 """
 
 import re
@@ -24,13 +24,14 @@ from handeye.runs.systems import digest_of, listing_of, same_plan
 
 
 class CheckpointStore:
-    """The checkpoints in a folder."""
+    """The checkpoints in one folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
     def save(self, checkpoint: Checkpoint) -> Path:
-        """Write a checkpoint under a name that sorts by the number of steps done; returns the file."""
+        """Write a checkpoint into a file whose name begins with the number of steps done. Returns the file's
+        path."""
         path = self.folder / file_name(checkpoint)
         write_checkpoint(path, checkpoint)
         for other in self.folder.glob(f"{checkpoint.position:04}-*{ENDING}"):
@@ -39,7 +40,7 @@ class CheckpointStore:
         return path
 
     def heads(self) -> Iterator[tuple[Path, Head]]:
-        """Valid checkpoints with their summaries, the newest first."""
+        """Yield the valid checkpoints' paths and summaries, the newest first."""
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:
                 yield path, read_head(path)
@@ -47,11 +48,11 @@ class CheckpointStore:
                 continue
 
     def moved(self) -> Iterator[Path]:
-        """Files, valid or not, of checkpoints made after the run began."""
+        """Yield the paths, valid or not, of the checkpoints made after the run began."""
         return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
 
     def damaged(self) -> list[str]:
-        """A sentence for each file that is not a valid checkpoint."""
+        """Return a sentence for each file that is not a valid checkpoint."""
         faults = []
         for path in sorted(self.folder.glob(f"*{ENDING}")):
             try:
@@ -61,7 +62,7 @@ class CheckpointStore:
         return faults
 
     def check(self, setup: Setup) -> None:
-        """Raises BadFile if the checkpoints in the folder belong to a run with another setup."""
+        """Raise BadFile if the checkpoints in the folder belong to a run with another setup."""
         newest = next((path for path, _ in self.heads()), None)
         for path, head in self.heads():
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
@@ -80,7 +81,7 @@ class CheckpointStore:
                 )
 
     def claim(self, setup: Setup) -> None:
-        """Raises InvalidInput if a run with this setup would overwrite checkpoints that could not be made again."""
+        """Raise InvalidInput if a run with this setup would overwrite checkpoints that could not be made again."""
         self.check(setup)
         for fault in self.damaged():
             raise CannotWrite(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
@@ -91,7 +92,7 @@ class CheckpointStore:
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:
-        """The valid checkpoint with the most steps done, and a sentence for each invalid file."""
+        """Return the valid checkpoint with the most steps done, or None, and a sentence for each invalid file."""
         found, faults = None, []
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:
@@ -104,17 +105,19 @@ class CheckpointStore:
         return found, faults
 
     def at_or_before(self, position: int) -> Checkpoint | None:
-        """The newest checkpoint with at most `position` steps done, except the one made before the run began."""
+        """Return the newest checkpoint with at most `position` steps done, or None. The checkpoint made before
+        the run began does not count."""
         for path, head in self.heads():
             if head.position >= 0 and 0 <= _position(path) <= position:
                 return read_checkpoint(path)
         return None
 
     def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
-        """The checkpoint from which the fewest steps lead to a stage, by number, of a run with this setup.
+        """Return the checkpoint of a run with this setup from which the fewest steps lead to the stage with
+        this number, or None.
 
-        Checkpoints made after a person interfered do not count. Raises BadFile if the checkpoints belong to another
-        run.
+        Checkpoints made after a person interfered do not count. Raises BadFile if the checkpoints belong to
+        another run.
         """
         self.check(setup)
         stages = listing_of(setup).stages
@@ -133,14 +136,15 @@ class CheckpointStore:
 
 
 def _position(path: Path) -> int:
-    """Number of steps done, from the name of a checkpoint's file; -1 for the checkpoint made before the run began."""
+    """Return the number of steps done, read from the name of a checkpoint's file; -1 for the checkpoint made
+    before the run began."""
     number = re.match(r"(\d+)-", path.name)
     return -1 if number is None else int(number[1])
 
 
 def file_name(checkpoint: Checkpoint) -> str:
-    """The name of a checkpoint's file: steps done, and the present or next stage, such as
-    `0036-insert-the-aligning-pins.checkpoint`.
+    """Return the name of a checkpoint's file. It contains the number of steps done and the present or next
+    stage, for example `0036-insert-the-aligning-pins.checkpoint`.
     """
     if checkpoint.snapshot is None:
         return f"start{ENDING}"
@@ -149,7 +153,7 @@ def file_name(checkpoint: Checkpoint) -> str:
 
 
 def leave(folder: Path, checkpoint: Checkpoint) -> Path:
-    """Write a checkpoint under a new name that replaces no other state; returns the file."""
+    """Write a checkpoint under a name that replaces no other state. Returns the file's path."""
     state, setup, name = encode(checkpoint), checkpoint.setup, file_name(checkpoint)
     if _holds(folder / name, state):
         return folder / name

@@ -1,4 +1,5 @@
-"""The state of a work cell for export to other programs: the initial state of a world, or the state of a run."""
+"""The state of a work cell for export to other programs, either the initial state of a world or the state of a
+run."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +22,7 @@ MomentKind = Literal["drawn", "final", "unfinished"]  # before, at the end of, o
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportedState:
-    """The state of a cell at one moment, with the facts to describe it."""
+    """The state of a cell at one moment, with the facts that describe this moment."""
 
     task: str
     world: WorldSpec
@@ -33,13 +34,13 @@ class ExportedState:
 
 
 def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:
-    """The initial state of a world of a task, with the cell switched on."""
+    """Return the initial state of a world of the task called `name`, with the cell switched on."""
     return ExportedState(task=name, world=world, moment="drawn", truth=_task(name).cell(world, "ray").truth)
 
 
 def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
-    """The state in a checkpoint, or in the newest valid checkpoint of a run's folder, and a sentence for each
-    unreadable checkpoint.
+    """Return the state in a checkpoint file, or in the newest valid checkpoint of a run's folder. Also returns
+    a sentence for each unreadable checkpoint.
     """
     if not path.is_dir():
         return _exhibit(path, read_checkpoint(path)), []
@@ -48,7 +49,7 @@ def kept_state(path: Path) -> tuple[ExportedState, list[str]]:
 
 
 def present_state(runner: Runner) -> ExportedState:
-    """The present state of a run; raises Refused if its system has no cell."""
+    """Return the present state of a run. Raises Refused if the run's system has no cell."""
     if runner.system.cell is None:
         raise Refused("the run has no work cell")
     return _shown(runner.checkpoint(), runner.cell.truth)
@@ -66,7 +67,7 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
 
 
 def _task(name: str) -> Task:
-    """The task with a name; raises Refused if the cells of its system cannot be exported."""
+    """Return the task called `name`. Raises Refused if the cells of its system cannot be exported."""
     found = any_task(name)
     if not isinstance(found, Task):
         raise Refused(f"the task {quoted(name)} exports no scene")

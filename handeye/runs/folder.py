@@ -1,6 +1,6 @@
 """The folder of a run: plan, events, trace, checkpoints, pictures, result, report, video, and computing time.
 
-It is an observer: it records the run and changes nothing.
+The folder is an observer of the run: it records the run without changing it.
 """
 
 import os
@@ -46,12 +46,12 @@ MARK: Final = "unnamed"
 
 
 def _outcomes() -> list[str]:
-    """Names of the files with the outcome of a run, for all systems."""
+    """Return the names of the files that record the outcome of a run, for all systems."""
     return [RESULT, REPORT, VIDEO, *(name for entry in entries().values() for name in entry.files)]
 
 
 class HoldsRun(CannotWrite):
-    """A folder holds a run, which would be lost."""
+    """Raised if a folder already holds a run, which would be lost."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(
@@ -62,11 +62,11 @@ class HoldsRun(CannotWrite):
 
 
 class RunFolder(Observer):
-    """Keeps a run in a folder."""
+    """Records a run in a folder."""
 
     def __init__(self, path: Path, made: list[Path]) -> None:
-        """Not for callers: use `open_new` or `open_again`. `made` are the newly created folders, the innermost
-        first.
+        """Do not call this directly: use `open_new` or `open_again`. `made` are the newly created folders, the
+        innermost first.
         """
         self.path = path
         self.kept = CheckpointStore(path / CHECKPOINTS)
@@ -83,7 +83,8 @@ class RunFolder(Observer):
     def watch(
         self, runner: Runner, start: Checkpoint, *, again: bool, meter: Meter | None = None
     ) -> "RunFolder":
-        """Observe a run that begins, or with `again` resumes, at `start`; `meter` measures its host time."""
+        """Observe a run that begins at `start` or, with `again`, resumes there. `meter` measures the run's host
+        time."""
         if (self.path / RESULT).is_dir():  # it would be found out when the run is over
             raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")
         self._runner, self._meter = runner, meter or Meter(before=self.spent)
@@ -98,18 +99,18 @@ class RunFolder(Observer):
 
     @property
     def journal_lost(self) -> bool:
-        """True if the event list of a resumed run was lost or belonged to another run, so that it was started
-        again.
+        """True if the list of events was begun anew when the run was resumed, because the old list was lost or
+        belonged to another run.
         """
         return self._journal is not None and self._journal.lost
 
     @property
     def unlocked(self) -> str:
-        """The reason why other commands cannot be kept from writing to the folder; empty if they are."""
+        """The reason why the folder cannot be locked against writing by other commands; empty if it is locked."""
         return "" if self._journal is None else self._journal.unlocked
 
     def begin(self, start: Checkpoint) -> None:
-        """Let this run replace the run that was in the folder."""
+        """Replace the run that was in the folder by this run."""
         self.kept.drop_after(-1)
         left = [self.path / name for name in (TRACE, f"{TRACE}.part", HOST, *_outcomes())]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
@@ -163,7 +164,7 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """Remove the outcome, because it no longer belongs to the run."""
+        """Remove the files with the outcome, because they are outdated when the run continues."""
         for name in _outcomes():
             (self.path / name).unlink(missing_ok=True)
 
@@ -180,7 +181,7 @@ class RunFolder(Observer):
         write_host_seconds(self.path / HOST, self._meter.seconds(self._runner))
 
     def check_traced(self) -> None:
-        """Raises CannotWrite if the trace could not be written, so that the run must not continue."""
+        """Raise CannotWrite if the trace could not be written, so that the run must not continue."""
         if self._recorder is not None and self._recorder.broken:
             raise CannotWrite(
                 f"the trace in {self.path} was cut short; free some disk space, then `handeye resume {self.path}` "
@@ -198,7 +199,7 @@ class RunFolder(Observer):
         self._closed = True
 
     def discard(self) -> None:
-        """Remove the folders that `open_new` has created, if the run has not begun."""
+        """Remove the folders that `open_new` created, if the run has not begun."""
         if self._recorder is not None:
             return
         if self._first is not None:
@@ -214,8 +215,8 @@ class RunFolder(Observer):
 
 
 def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False, unnamed: bool = False) -> RunFolder:
-    """Make a folder for a run. Raises CannotWrite if it holds a run; with `overwrite`, that run is replaced as soon
-    as this one begins.
+    """Create the folder of a new run. Raises CannotWrite if the folder already holds a run. With `overwrite`,
+    the old run is replaced when the new one begins.
     """
     _refuse_others(path)
     if not overwrite:
@@ -245,10 +246,11 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False, unnamed:
 
 
 def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
-    """Open the folder of an interrupted run: returns it with its newest valid checkpoint, and a sentence for each
-    file left out.
+    """Open the folder of an interrupted run. Returns the folder, its newest valid checkpoint, and a sentence
+    for each file that cannot be used.
 
-    Raises BadFile if there is no checkpoint, or if the checkpoint is not of the plan in the folder.
+    Raises BadFile if there is no checkpoint, or if the checkpoint belongs to another plan than the one in the
+    folder.
     """
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():
@@ -268,13 +270,14 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
 
 
 def check_exists(path: Path) -> None:
-    """Raises BadFile if a path does not exist."""
+    """Raise BadFile if a path does not exist."""
     if not path.exists():
         raise BadFile(f"{path}: there is no such file")
 
 
 def check_holds_run(path: Path) -> None:
-    """Raises BadFile unless a path is a folder that contains files of a run; all commands use this sentence."""
+    """Raise BadFile unless a path is a folder with files of a run. All commands use this check, so that they
+    give the same message."""
     check_exists(path)
     if (path / TRIALS).is_file():
         raise BadFile(f"{path} is the folder of a batch of trials, not of a run")
@@ -293,13 +296,13 @@ def _check_plan(path: Path, setup: Setup) -> None:
 
 
 def _holds_run(path: Path) -> bool:
-    """True if the folder holds a run that has begun, not only its setup."""
+    """Return True if the folder holds a run that has begun, not only the setup of a run."""
     records = any((path / name).exists() for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT))
     return records or any(CheckpointStore(path / CHECKPOINTS).moved())
 
 
 def _refuse_others(path: Path) -> None:
-    """Raises InvalidInput if a folder contains files that do not belong to a run."""
+    """Raise InvalidInput if a folder contains files that do not belong to a run."""
     if others := _others(path):
         raise CannotWrite(
             f"{path} holds other files ({quoted(others[0])}); choose a new folder, or an empty one"

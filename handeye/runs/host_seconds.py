@@ -1,6 +1,6 @@
-"""Host time of a run over all its sessions, kept beside the run.
+"""Records the host time of a run over all its sessions, in a file of its own beside the run.
 
-It is kept in a separate file, so that checkpoints and traces of equal runs are equal byte for byte.
+Because the file is separate, the checkpoints and traces of equal runs are equal byte for byte.
 """
 
 from dataclasses import dataclass, field
@@ -18,7 +18,7 @@ _LARGEST = 10_000  # bytes of the file
 
 
 class HostSeconds(Record, frozen=True, kw_only=True):
-    """Computing time, summed over the sessions of a run; a session is one process that began or resumed the run."""
+    """Host time of a run, summed over its sessions. A session is one process that began or resumed the run."""
 
     planning_cpu_s: float = 0.0  # 0: the plan was there already
     vision_cpu_s: float = 0.0  # with what was undone later
@@ -33,14 +33,14 @@ class HostSeconds(Record, frozen=True, kw_only=True):
 
 @dataclass(slots=True, kw_only=True)
 class Meter:
-    """Measures the host time of a session, and adds it to that of earlier sessions."""
+    """Measures the host time of a session, and adds it to the time of earlier sessions."""
 
     timer: HostTimer = field(default_factory=HostTimer)
     planning_cpu_s: float = 0.0
     before: HostSeconds | None = None
 
     def seconds(self, runner: Runner) -> HostSeconds:
-        """Host time of the run so far."""
+        """Return the host time of the run so far."""
         before = self.before or HostSeconds(from_step=runner.first, from_clock_s=runner.started)
         return msgspec.structs.replace(
             before,
@@ -52,7 +52,8 @@ class Meter:
 
 
 def read_host_seconds(path: Path) -> HostSeconds | None:
-    """Host time of earlier sessions; None if there is no record. Raises BadFile if the record is not valid."""
+    """Read the host time of earlier sessions; None if there is no record. Raises BadFile if the record is not
+    valid."""
     if not path.exists():
         return None
     try:
@@ -65,5 +66,5 @@ def read_host_seconds(path: Path) -> HostSeconds | None:
 
 
 def write_host_seconds(path: Path, seconds: HostSeconds) -> None:
-    """Write the host time completely or not at all."""
+    """Write the host time atomically: either the whole file is written, or nothing."""
     write_whole(path, msgspec.json.format(msgspec.json.encode(seconds), indent=1) + b"\n")

@@ -1,4 +1,4 @@
-"""Observers of a run, which cannot change it."""
+"""Defines observers of a run. They cannot change the run."""
 
 from handeye.execution.servo import ServoPeriod
 from handeye.program.events import AnyEvent
@@ -6,19 +6,20 @@ from handeye.runs.snapshot import Checkpoint
 
 
 class Observer:
-    """Base of the observers, which does nothing itself."""
+    """Base class of the observers, which does nothing."""
 
     def event(self, event: AnyEvent) -> None:
-        """An event has happened."""
+        """Called when an event has happened."""
 
     def tick(self, period: ServoPeriod) -> None:
-        """A servo period has passed."""
+        """Called when a servo period has passed."""
 
     def undone(self, events: int) -> None:
-        """The run went back: now only its first `events` events have happened."""
+        """Called when the run has gone back to a state after which only its first `events` events have
+        happened."""
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
-        """A state to be kept has been reached."""
+        """Called when a state that should be kept has been reached."""
 
     def close(self) -> None:
-        """The run has ended or was interrupted."""
+        """Called when the run has ended or was interrupted."""

@@ -1,5 +1,5 @@
-"""Rules that answer calls of the operator: give up, or retry a number of times. Asking a person is part of the
-debugger.
+"""Rules that answer calls of the operator without a person: give up, retry, or undo a stage. The debugger asks
+a person instead.
 """
 
 import re
@@ -30,13 +30,13 @@ from handeye.runs.undo_orders import stage_began
 
 
 class Back(Record, frozen=True, kw_only=True):
-    """Return the simulation to the latest beginning of a stage, given by its index."""
+    """Return the simulation to the latest beginning of the stage with this index."""
 
     stage: int
 
 
 class Unwind(Record, frozen=True, kw_only=True):
-    """Have the arm undo its steps back to the latest beginning of a stage, given by its index, and continue from
+    """Let the arm undo its steps back to the latest beginning of the stage with this index, and continue from
     there.
     """
 
@@ -50,12 +50,13 @@ class Operator(Protocol):
     """A person or a rule that decides how to continue after a call."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """The operator's answer to a call; `refused` is the reason why the previous answer was impossible."""
+        """Return the operator's answer to a call. `refused` is the reason why the operator's previous answer
+        was impossible, or None."""
 
 
 @dataclass(frozen=True, slots=True)
 class Abort:
-    """Always gives up."""
+    """Answers every call by giving up."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         return "abort"
@@ -88,10 +89,10 @@ class Retry:
 
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
-    """Has the arm undo its steps back to the beginning of a stage given by its index, once for each stage that
+    """Lets the arm undo its steps back to the beginning of the stage with this index, once for each stage that
     fails.
 
-    Like `Retry`, it counts from the events of the run.
+    Like `Retry`, it counts earlier attempts from the events of the run.
     """
 
     stage: int | None = None  # None: that which has failed
@@ -109,7 +110,7 @@ def undoing(runner: Runner) -> bool:
 
 
 def _unwound(runner: Runner) -> set[int]:
-    """Indices of the stages after whose failure the arm has undone its steps."""
+    """Return the indices of the stages after whose failure the arm has undone steps."""
     found, now = set(), -1
     for event in _of_this_part(runner):
         if isinstance(event, StageStarted):
@@ -120,14 +121,14 @@ def _unwound(runner: Runner) -> set[int]:
 
 
 def _of_this_part(runner: Runner) -> Sequence[AnyEvent]:
-    """Events since the run began, or since the order to undo all its work, which begins the second part of a job."""
+    """Return the events since the run began or, if the arm was ordered to undo all its work, since that order."""
     ordered = (n for n, event in enumerate(runner.events) if isinstance(event, UndoOrdered) and event.halts)
     return runner.events[max(ordered, default=-1) + 1 :]
 
 
 def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
-    """The operator for the words `abort`, `retry:N`, `unwind` or `unwind:STAGE`; None for `ask`, which requires a
-    person.
+    """Return the operator that the words `abort`, `retry:N`, `unwind` or `unwind:STAGE` name; None for `ask`,
+    which needs a person.
     """
     if text == "abort":
         return Abort()
@@ -154,7 +155,8 @@ def attend(
 ) -> Pause:
     """Continue until the run pauses and the operator cannot continue it.
 
-    `kept` finds the newest checkpoint on disk with at most that many steps done, for going back.
+    When the run goes back, `kept` finds the newest checkpoint on disk that has at most a given number of steps
+    done.
     """
     refused: str | None = None
     while True:
@@ -180,8 +182,8 @@ def _carry_out(
     stops: Sequence[AnyStop],
     kept: Callable[[int], Checkpoint | None],
 ) -> Pause | None:
-    """Follow the operator's answer; returns the pause after it, if any. Raises InvalidInput if the answer is
-    impossible.
+    """Follow the operator's answer. Returns the pause that follows, or None. Raises InvalidInput if the answer
+    is impossible.
     """
     if isinstance(answer, Back):
         try:
@@ -198,7 +200,8 @@ def _carry_out(
 
 
 def beginnings(runner: Runner) -> dict[int, int]:
-    """Number of steps done when each stage last began, by index of the stage; the latest beginning is last."""
+    """Return the number of steps that were done when each stage last began, by the index of the stage. The
+    stage that began last comes last."""
     found: dict[int, int] = {}
     done = 0
     for event in runner.events:

@@ -1,7 +1,7 @@
-"""Parts of a run that the caller's code replaces.
+"""Parts of a run, such as the search pattern or the camera, that the caller's own code can replace.
 
-Checkpoints and traces cannot store code, but only its name: a run that was begun with a replaced part can continue
-only with a part of the same name.
+Checkpoints and traces cannot store code, only its name. A run that was begun with a replaced part can therefore
+continue only with a part of the same name.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ NEEDED: Final = ("search", "camera")  # parts that decide a run; the referee dec
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Replacements of the parts that determine a run; None: handeye's own part."""
+    """Replacements for the parts that determine the course of a run. None means that handeye's own part is
+    used."""
 
     search: SearchPattern | None = None  # the places that a search tries
     camera: RendererMaker | None = None  # maker of pictures
@@ -32,7 +33,7 @@ class Parts:
         return {part: name_of(code) for part, code in found.items() if code is not None}
 
     def check(self, begun: dict[str, str]) -> None:
-        """Raises Refused if a run was begun with other parts, which are given by name."""
+        """Raise Refused if a run was begun with other parts. `begun` gives the names of those parts."""
         here = self.names
         for part in NEEDED:
             was, now = begun.get(part), here.get(part)
@@ -47,17 +48,17 @@ class Parts:
 
 
 def deciding(names: dict[str, str]) -> dict[str, str]:
-    """The replaced parts that determine a run."""
+    """Return those replaced parts that determine the course of a run."""
     return {part: names[part] for part in NEEDED if part in names}
 
 
 def named(names: dict[str, str]) -> str:
-    """The replaced parts that determine a run, in words."""
+    """Return the replaced parts that determine the course of a run, as words for a message."""
     return ", ".join(f"{part} {name}" for part, name in deciding(names).items()) or "handeye's own"
 
 
 def name_of(code: Any) -> str:
-    """The name, with its module, of a function or class, or of the class of another object."""
+    """Return the name of a function or class, or of the class of any other object, with its module."""
     named = code if hasattr(code, "__qualname__") else type(code)
     return f"{named.__module__}.{named.__qualname__}"
 

@@ -1,8 +1,8 @@
 """A run that can be stepped, stopped and restored.
 
-Between two steps, the cell's own state is captured and restored, which changes nothing except what a state does not
-contain (see `SimulatedCell.restore`). Every run, interrupted or not, therefore takes the same course, byte for
-byte.
+After every step, the cell's state is captured and immediately restored. This resets whatever a state does not
+contain (see `SimulatedCell.restore`). A run that is interrupted and resumed therefore takes the same course,
+byte for byte, as a run that is not interrupted.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ RECENT: Final = 400  # steps whose states are kept in memory; of older ones thos
 
 
 def reach(first: int) -> str:
-    """A sentence on how far a run can go back if its earliest state has `first` steps done."""
+    """Say in a sentence how far a run can go back if `first` steps are done in its earliest state."""
     return (
         f"this run begins with {counted(first, 'step')} already done: there is no earlier state to go back to"
     )
@@ -70,16 +70,16 @@ class Runner:
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:
-        """Build the cell; then calibrate its camera, or restore the state of a kept calibration or of the
+        """Build the cell. Then calibrate its camera, or restore the state of a stored calibration or of the
         checkpoint.
 
         Args:
             halt: the panic button, polled in every servo period; Halted is raised if it is pressed during
                 calibration.
-            viewed: called for each view of a camera calibration with the number of the view and the number of all
-                views.
-            observers: makes the observers, after the cell is built and before the run begins.
-            calibrate: calibrate the camera again, even if an earlier run kept its calibration.
+            viewed: called for each view of a camera calibration, with the number of the view and the total
+                number of views.
+            observers: called after the cell is built and before the run begins; returns the observers.
+            calibrate: calibrate the camera even if an earlier run stored its calibration.
         """
         parts.check(start.setup.replaced)
         self.setup = start.setup
@@ -126,12 +126,12 @@ class Runner:
 
     @property
     def time(self) -> float:
-        """The clock of the run, s; 0 when its program begins."""
+        """The clock of the run (s), which is 0 when its program begins."""
         return self.system.time
 
     @property
     def trouble(self) -> str | None:
-        """The reason why the run cannot continue, if the operator cannot resolve it."""
+        """The reason why the run cannot continue, if the operator cannot help; None if there is none."""
         return self._broken or self.system.trouble
 
     @property
@@ -140,13 +140,13 @@ class Runner:
         return any_task(self.setup.task)
 
     def require(self, capability: Capability) -> None:
-        """Check that the run's system has a capability; raises InvalidInput with the system's name if it has not."""
+        """Raise InvalidInput, with the system's name, unless the run's system has a capability."""
         require(self.setup.system, capability)
 
     @property
     def context(self) -> ExecutionContext:
-        """The context in which a plan of motions is executed; raises InvalidInput if the system executes no such
-        plans.
+        """The context in which a plan of motions is executed. Raises InvalidInput if the run's system does not
+        execute such plans.
         """
         if self.system.context is None:
             raise refusal(self.setup.system, "plans")
@@ -154,8 +154,8 @@ class Runner:
 
     @property
     def arm_cell(self) -> SimulatedCell:
-        """The cell in which a plan of motions is executed; raises InvalidInput if the system executes no such
-        plans.
+        """The cell in which a plan of motions is executed. Raises InvalidInput if the run's system does not
+        execute such plans.
         """
         if self.system.arm_cell is None:
             raise refusal(self.setup.system, "plans")
@@ -163,29 +163,29 @@ class Runner:
 
     @property
     def cell(self) -> SnapshotCell:
-        """The simulated cell; raises Refused if the system has none."""
+        """The simulated cell. Raises Refused if the run's system has none."""
         if self.system.cell is None:
             raise Refused(f"the system {self.setup.system} has no work cell")
         return self.system.cell
 
     @property
     def ended(self) -> bool:
-        """True if no step is possible unless the operator says how to continue."""
+        """True if no further step is possible unless the operator says how to continue."""
         return self.at is None or self.trouble is not None
 
     @property
     def call(self) -> OperatorCalled | None:
-        """The call of the operator that is not answered yet; None if there is none."""
+        """The operator call that has not been answered yet, or None."""
         return self.system.state.stopped
 
     @property
     def at(self) -> int | None:
-        """Number of the next step; None if the run cannot continue without the operator."""
+        """Number of the next step, or None if the run cannot continue without the operator."""
         return self.system.state.at
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The place of each unfinished task; the task at `at` runs next."""
+        """The position of each unfinished task in the program. The task whose next step is `at` runs next."""
         return self.system.state.places
 
     @property
@@ -194,12 +194,12 @@ class Runner:
 
     @property
     def onward(self) -> int | None:
-        """After a call of the operator: number of the step that would have been next."""
+        """After a call of the operator, the number of the step that would have come next."""
         return self.system.state.onward
 
     @property
     def stage(self) -> int | None:
-        """Index of the present stage; None between two stages."""
+        """Index of the present stage, or None between two stages."""
         return self.system.state.stage
 
     @property
@@ -209,17 +209,18 @@ class Runner:
 
     @property
     def undone(self) -> bool:
-        """True if the run has ended because the arm has undone as many steps as ordered."""
+        """True if the run has ended because the arm has undone as many steps as it was ordered to undo."""
         last = next((e for e in reversed(self.events) if isinstance(e, StepStarted | UndoEnded)), None)
         return self.at is None and isinstance(last, UndoEnded)
 
     @property
     def touched(self) -> bool:
-        """True if a person interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
+        """True if a person intervened with an experiment, a typed line, an answer of the operator, or an order
+        to undo."""
         return interfered(self.events)
 
     def checkpoint(self, snapshot: Snapshot | None = None) -> Checkpoint:
-        """The present state, or an earlier one, as a checkpoint."""
+        """Make a checkpoint of the present state, or of an earlier one."""
         kept = snapshot or self.history[-1]
         return Checkpoint(
             setup=self.setup,
@@ -230,8 +231,8 @@ class Runner:
     # -- running --------------------------------------------------------------------------------------
 
     def step(self) -> None:
-        """Execute the next step. Raises Halted if the panic button is pressed; `rollback` then reverts the
-        incomplete step.
+        """Execute the next step. Raises Halted if the panic button is pressed. After that, `rollback` reverts
+        the incomplete step.
         """
         assert not self.ended
         try:
@@ -251,19 +252,20 @@ class Runner:
         self._settle()
 
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
-        """Order the arm to undo one executed step in each following step, until `left` are left; with `halts`, the
-        run ends there.
+        """Order the arm to undo one executed step in each following step, until `left` executed steps remain.
+        With `halts`, the run then ends.
         """
         self.require("undo")
         self.system.reverse(ReversalOrder(left=left, halts=halts, asked_by=asked_by))
         self._settle()
 
     def finish(self) -> bool:
-        """End the run; True if the program was completed."""
+        """End the run. Returns True if the program was completed."""
         return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
-        """Continue until as many events have happened as in `events`, and repeat the operator's actions among them."""
+        """Continue until the run has as many events as `events`, and repeat the operator's actions among those
+        events."""
         while len(self.events) < len(events):
             then = events[len(self.events)]
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
@@ -287,11 +289,11 @@ class Runner:
         self._return_to(self.history[-1])
 
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:
-        """Return to the state with `position` steps done: restore the nearest kept state, and execute forwards from
-        there.
+        """Return to the state with `position` steps done: restore the nearest earlier state, and execute the
+        remaining steps from there.
 
-        `kept` finds the newest checkpoint on disk with at most that many steps done, for states that are no longer
-        in memory.
+        For states that are no longer in memory, `kept` finds the newest checkpoint on disk that has at most a
+        given number of steps done.
         """
         if not 0 <= position <= self.position:
             raise BadArgument(f"cannot go back to {counted(position, 'step')} done")
@@ -305,7 +307,7 @@ class Runner:
         self.repeat(again)
 
     def _nearest(self, position: int, kept: Callable[[int], Checkpoint | None]) -> Snapshot:
-        """The state, in memory or nearer on disk, from which the fewest steps lead to a position."""
+        """Return the state, in memory or on disk, from which the fewest steps lead to a position."""
         near = next((here for here in reversed(self.history) if here.position <= position), None)
         if near is None or near.position < position:
             checkpoint = kept(position)
@@ -317,7 +319,7 @@ class Runner:
         return near
 
     def _happened(self, position: int) -> int:
-        """Number of events before the step that follows a position."""
+        """Return the number of events before the step that follows a position."""
         done = 0
         for number, event in enumerate(self.events):
             if done == position and isinstance(event, StageStarted | StepStarted):
@@ -333,13 +335,13 @@ class Runner:
     # -- experiments ----------------------------------------------------------------------------------
 
     def experiment(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set a value in the system's memory, SI."""
+        """Set a value in the system's memory, in SI units."""
         self.system.set_value(what, name, value)
         self._emit(ExperimentMade(time=self.time, what=what, name=name, value=value))
         self._settle()
 
     def type_line(self, text: str, task: str = "") -> None:
-        """Type a line at the console of the system, for one of its tasks."""
+        """Type a line at the system's console, for one of the system's tasks."""
         self.require("console")
         self.system.type_line(text, task)
         self._settle()
@@ -347,7 +349,7 @@ class Runner:
     # -- inside ---------------------------------------------------------------------------------------
 
     def _settle(self) -> None:
-        """Capture the cell's state, restore it, and keep it."""
+        """Capture the cell's state, restore it, and add it to the history."""
         cell = self.system.cell
         captured = None if cell is None else cell.capture()
         if cell is not None and captured is not None:
@@ -364,7 +366,7 @@ class Runner:
             self._thin()
 
     def _thin(self) -> None:
-        """Drop the oldest kept state that is not at the beginning of a stage."""
+        """Drop the oldest state of the history that is not the beginning of a stage."""
         for index in range(1, len(self.history) - RECENT):
             before, here = self.history[index - 1 : index + 1]
             interfered = before.position == here.position  # no step led from one to the other

@@ -1,4 +1,4 @@
-"""Scripts of tasks: their languages, their taught positions, and their plans."""
+"""Finds the scripts of tasks, their languages and taught positions, and plans them."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -27,7 +27,7 @@ UNNAMED: Final = "script.al"  # name of a text that comes from no file
 
 
 def default_script(work: Task | None = None) -> Path:
-    """The script of a task, by default of the default task; raises InvalidInput if the task has none."""
+    """Return the script of a task, or of the default task. Raises InvalidInput if the task has no script."""
     work = work or tasks.task()
     if work.script is None:
         raise BadArgument(f"the task {quoted(work.name)} has no script of its own; name one")
@@ -35,7 +35,8 @@ def default_script(work: Task | None = None) -> Path:
 
 
 def program_named(name: str) -> tuple[Path, Task] | None:
-    """An included script with this file name without the ending, and its task; None if there is none."""
+    """Return the included script whose file is called `name` apart from its ending, and its task; None if there
+    is none."""
     return next((each for each in _programs() if each[0].stem == name), None)
 
 
@@ -44,14 +45,14 @@ def program_names() -> list[str]:
 
 
 def task_of(file: Path) -> Task:
-    """The task to which a script belongs; for other files, the default task."""
+    """Return the task to which a script belongs, or the default task if the script belongs to no task."""
     whole = file.resolve()
     own = tasks.of_plans("ours") if whole.parent == plans().resolve() else tasks.of_plans("registered")
     return next((work for work in own if whole in _scripts(work)), None) or tasks.task()
 
 
 def _programs() -> Iterator[tuple[Path, Task]]:
-    """The scripts of all tasks, each with its task."""
+    """Yield the scripts of all tasks, each with its task."""
     for kind in get_args(tasks.Kind):
         for work in tasks.of_plans(kind):
             yield from ((script, work) for script in _scripts(work))
@@ -62,26 +63,27 @@ def _scripts(work: Task) -> list[Path]:
 
 
 def taught(file: Path, work: Task | None = None) -> Taught:
-    """Positions and parts in the taught file beside a script, if there is one; raises InvalidInput if the file
-    cannot be used.
+    """Return the positions and parts in the taught file beside a script, completed by the fixtures of the
+    script's task. Raises InvalidInput if the taught file cannot be used.
     """
     return in_cell(taught_beside(file), work or task_of(file))
 
 
 def taught_beside(file: Path) -> Taught:
-    """Positions in the taught file beside a script, if there is one."""
+    """Return the positions in the taught file beside a script; empty if there is no such file."""
     path = beside(file, ".toml")
     return load_taught(path) if is_there(path) else Taught()
 
 
 def in_cell(known: Taught, work: Task) -> Taught:
-    """Taught positions, completed by the fixtures of the task's cell where the taught file has none."""
+    """Add the fixtures of the task's cell to taught positions. A fixture in the taught file replaces one of the
+    same name."""
     return replace(known, fixtures={**work.fixtures(), **known.fixtures})
 
 
 def plan_script(file: Path, known: Taught | None = None, work: Task | None = None) -> "PlannedScript":
-    """Compile and plan a script, by default with the taught file beside it and for its own task; raises
-    InvalidInput.
+    """Compile and plan a script. By default, the taught file beside the script and the script's own task are
+    used. Raises InvalidInput.
     """
     entry, _ = entry_of_file(file.name)
     if entry is not None:
@@ -92,13 +94,13 @@ def plan_script(file: Path, known: Taught | None = None, work: Task | None = Non
 
 
 def plan_text(text: str, known: Taught, work: Task) -> "PlannedScript":
-    """Compile and plan a text; required files are searched in the current folder."""
+    """Compile and plan a text. Required files are searched for in the current folder."""
     source = sewn(Source(name=UNNAMED, text=text.removeprefix("\ufeff")), lambda key: read_source(key).text)
     return planned(source, known, work, AL)
 
 
 def planned(source: Source, known: Taught, work: Task, language: Language) -> "PlannedScript":
-    """The plan of a source for the arm of a task."""
+    """Plan a source for the arm of a task."""
     from handeye.planning.planner import plan_source  # not before something is planned: it takes a while
 
     return plan_source(source, in_cell(known, work), work.arm, language, task=work.name)

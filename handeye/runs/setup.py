@@ -10,7 +10,7 @@ from handeye.planfile.plan import Plan
 
 
 class Setup(Record, frozen=True, kw_only=True):
-    """Everything that determines a run without interference."""
+    """Everything that determines the course of a run, if no person intervenes."""
 
     system: str = PLANNED  # name of the system that carries it out
     plan: Record  # the plan: a `Plan` if it is one of motions
@@ -24,7 +24,7 @@ class Setup(Record, frozen=True, kw_only=True):
 
     @property
     def task(self) -> str:
-        """Name of the task that the plan records; raises BadFile if it records none."""
+        """Name of the task in the plan. Raises BadFile if the plan does not name a task."""
         name = getattr(self.plan, "task", None)
         if not isinstance(name, str):
             raise BadFile(f"a plan of {entry_named(self.system).title} records no task")
@@ -32,7 +32,7 @@ class Setup(Record, frozen=True, kw_only=True):
 
 
 def plan_of(setup: Setup) -> Plan:
-    """The plan of motions of a run; raises Refused if its system executes no such plans."""
+    """Return the plan of motions of a run. Raises Refused if the run's system does not execute such plans."""
     if not isinstance(setup.plan, Plan):
         raise refusal(setup.system, "plans")
     return setup.plan

@@ -1,4 +1,4 @@
-"""The complete state of a run between two steps, and the start of a run."""
+"""The complete state of a run between two steps, and checkpoints made of it."""
 
 from collections.abc import Iterable
 from typing import Annotated
@@ -36,13 +36,14 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def ended(self) -> bool:
-        """True if the plan has ended: no step is left, and no call of the operator is open."""
+        """True if the plan has ended: no step is left, and no call of the operator is unanswered."""
         state = None if self.snapshot is None else self.snapshot.state
         return state is not None and state.at is None and state.stopped is None
 
     @property
     def touched(self) -> bool:
-        """True if a person interfered: an experiment, a typed line, an answer of the operator, or an order to undo."""
+        """True if a person intervened with an experiment, a typed line, an answer of the operator, or an order
+        to undo."""
         return interfered(self.events)
 
     @property
@@ -55,7 +56,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def stage(self) -> str | None:
-        """The present or next stage; None if the run has not begun or has ended."""
+        """Name of the present or next stage, or None if the run has not begun or has ended."""
         if self.snapshot is None:
             return None
         state, listing = self.snapshot.state, listing_of(self.setup)
@@ -65,7 +66,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
 
 def interfered(events: Iterable[AnyEvent]) -> bool:
-    """True if a person interfered in the run with these events."""
+    """Return True if these events show that a person intervened in the run."""
     return any(
         event.asked_by == "person"
         if isinstance(event, UndoOrdered)

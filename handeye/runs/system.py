@@ -1,5 +1,5 @@
-"""`System`, the interface of a system in `handeye/systems`; and `RunningSystem`, the interface of a system during a
-run: it can be stepped, saved and restored.
+"""Defines the interfaces of a system in `handeye/systems`: `System`, and `RunningSystem`, a system during a
+run, which can be stepped, saved and restored.
 
 A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run needs it.
 """
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class StepFacts(Protocol):
-    """A step as it is shown to users."""
+    """A step of a program, as it is shown to users."""
 
     @property
     def stage(self) -> int:
@@ -48,15 +48,15 @@ class StepFacts(Protocol):
 
     @property
     def file(self) -> str:
-        """The required file that contains the step; empty: the main text."""
+        """Name of the required file that contains the step; empty for the main text."""
 
     @property
     def line(self) -> int:
-        """Line of the step in that text, from 1, or by the numbering of the text."""
+        """Line of the step in its file: counted from 1, or the number that the text itself gives to the line."""
 
     @property
     def text(self) -> str:
-        """Statement of the step."""
+        """The statement from which the step was made."""
 
     @property
     def word(self) -> str:
@@ -64,27 +64,27 @@ class StepFacts(Protocol):
 
     @property
     def macro(self) -> str:
-        """The macro from whose call the step comes; empty: none."""
+        """Name of the macro whose call produced the step; empty if there is none."""
 
     @property
     def needs(self) -> Device | None:
-        """The device besides the arm that the step uses; None: none."""
+        """The device besides the arm that the step uses, or None."""
 
     @property
     def ways(self) -> tuple[int | None, ...]:
-        """Steps that may follow; None: the end."""
+        """Numbers of the steps that may follow; None stands for the end of the program."""
 
     @property
     def place(self) -> str:
-        """The line of the step as messages write it: `12`, or `pins.al:12`."""
+        """The line of the step in the form in which messages give it: `12`, or `pins.al:12`."""
 
     @property
     def examines(self) -> str | None:
-        """Name of the picture that the step examines; None: none."""
+        """Name of the picture that the step examines, or None."""
 
     @property
     def guarded(self) -> bool:
-        """True if the step's motion is ended by guards."""
+        """True if guards can end the step's motion."""
 
     @property
     def begins_search(self) -> bool:
@@ -104,7 +104,7 @@ class ExecutedStep(Protocol):
 
 
 class Listing(Protocol):
-    """Stages and steps of a system's program, and the source from which they were made."""
+    """The stages and steps of a system's program, and the source text from which they were made."""
 
     @property
     def name(self) -> str:
@@ -120,7 +120,7 @@ class Listing(Protocol):
 
     @property
     def numbered(self) -> Mapping[int, str]:
-        """Lines of the text by the text's own numbering; empty: lines are counted from 1."""
+        """Lines of the text, by the numbers that the text itself gives them. Empty if lines are counted from 1."""
 
     @property
     def stages(self) -> tuple[str, ...]:
@@ -141,7 +141,7 @@ class Listing(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settable:
-    """A value that a person can set in a paused run."""
+    """A value that a person can change in a paused run."""
 
     noun: str
     usage: str  # form of the words after its kind: `NAME x y z`
@@ -157,138 +157,140 @@ class RunningSystem(Protocol):
     @property
     @abstractmethod
     def state(self) -> SystemState:
-        """The whole state of the system, as the record in which it lives."""
+        """The complete state of the system. The system works on this record itself."""
 
     @property
     def cell(self) -> SnapshotCell | None:
-        """The simulated cell, if the system has one."""
+        """The simulated cell, or None if the system has none."""
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Names of the arm's joints, in order; empty without an arm."""
+        """Names of the arm's joints, in order; empty if there is no arm."""
         return ()
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Channels that are recorded in each servo period, besides joints and hand."""
+        """Further channels that are recorded in each servo period, besides joints and hand."""
         return ()
 
     @property
     @abstractmethod
     def time(self) -> float:
-        """The clock of the system, s; 0 when the program begins."""
+        """The clock of the system (s), which is 0 when the program begins."""
 
     @property
     def trouble(self) -> str | None:
-        """The reason why no step is possible, if the operator cannot resolve it."""
+        """The reason why no step is possible, if the operator cannot help; None if there is none."""
 
     @property
     def switched_on(self) -> float:
-        """The clock when this object began to simulate, s: negative by the duration of its preparation, or 0 if the
-        preparation was kept from an earlier run.
+        """The reading of the clock (s) when this object began to simulate. It is negative by the duration of
+        the preparation, or 0 if the preparation was stored by an earlier run.
         """
         return 0.0
 
     @property
     def unkept(self) -> str | None:
-        """The reason why the preparation could not be kept for later runs; None if it was kept."""
+        """The reason why the preparation could not be stored for later runs; None if it was stored."""
         return None
 
     @abstractmethod
     def begin(self) -> Sequence[AnyEvent]:
-        """Prepare the first step; returns the events that begin the run at time 0, `RunStarted` first. Raises
-        Halted.
+        """Prepare the first step. Returns the events that begin the run at time 0, with `RunStarted` first.
+        Raises Halted.
         """
 
     @abstractmethod
     def step(self) -> None:
-        """Execute one step, which is the unit that is repeated after an interruption. Raises Halted or
-        PhysicsFailed.
-        """
+        """Execute one step. After an interruption, the whole step is repeated. Raises Halted or PhysicsFailed."""
 
     def answer(self, choice: Choice) -> None:
         """Continue after a call of the operator."""
 
     @property
     def executed(self) -> Sequence[ExecutedStep]:
-        """Executed steps that the arm has not undone, in order; empty for a system that cannot undo."""
+        """The executed steps that the arm has not undone, in order. Empty for a system that cannot undo steps."""
         return ()
 
     def reverse(self, undoing: ReversalOrder) -> None:
-        """From now on, let each step undo an executed step, the last first; raises InvalidInput if there is none."""
+        """Let each following step undo one executed step, the last one first. Raises InvalidInput if no
+        executed step is left."""
 
     @abstractmethod
     def finish(self) -> bool:
-        """Emit `RunFinished`; True if the program ended."""
+        """Emit `RunFinished`. Returns True if the program reached its end."""
 
     @property
     def context(self) -> ExecutionContext | None:
-        """The context in which a plan of motions is executed; None if the system executes no such plans."""
+        """The context in which a plan of motions is executed; None if the system does not execute such plans."""
         return None
 
     @property
     def arm_cell(self) -> SimulatedCell | None:
-        """The cell in which a plan of motions is executed; None if the system executes no such plans."""
+        """The cell in which a plan of motions is executed; None if the system does not execute such plans."""
         return None
 
     @property
     def shots(self) -> Mapping[str, Shot]:
-        """Pictures that the program took and still has, by name."""
+        """The pictures that the program took and still stores, by name."""
         return {}
 
     def marks(self, picture: str) -> Sequence[Mark]:
-        """Marks for the findings in a picture."""
+        """Return marks for everything that vision found in a picture."""
         return ()
 
     @property
     def just_found(self) -> tuple[str, Sequence[Mark]]:
-        """The picture in which the present step has found something, with the marks for that finding only."""
+        """The name of the picture in which the present step has found something, and marks for what the step
+        found. The name is empty if the step found nothing."""
         return "", ()
 
     def built(self) -> Findings:
-        """The referee's findings on finished work that was undone afterwards; empty if there was none, or it was
-        not judged.
+        """Return the referee's findings on the finished work before the arm undid it. Empty if the work was not
+        undone, or was not judged.
         """
         return {}
 
     @property
     def figures(self) -> Mapping[str, float]:
-        """Figures of the run that its result shows besides the common ones; none by default."""
+        """Further figures that the result of the run shows besides those common to all systems; none by
+        default."""
         return {}
 
     def remembered(self) -> Findings:
-        """Findings on the program's memory after all its work was undone."""
+        """Return findings on the program's memory after the arm has undone all its work."""
         return {}
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state, with the cell as at that time; raises InvalidInput if the state does not
-        fit the plan.
+        """Continue from a copy of a state; the cell must be in its state of the same moment. Raises
+        InvalidInput if the state does not fit the plan.
         """
 
     @property
     def shown(self) -> Mapping[str, Any]:
-        """The state of the system, for display."""
+        """The state of the system in a form for display."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
 
     def type_line(self, text: str, task: str) -> None:
-        """Give a task a line that was typed at the console, and emit `LineTyped` before all its effects. Raises
-        InvalidInput, without any effect, if the system has no console or no such task.
+        """Pass a line typed at the console to a task, and emit `LineTyped` before the line takes effect. Raises
+        InvalidInput, and changes nothing, if the system has no console or no such task.
         """
         raise Refused("this system has no console to type at")
 
     def settables(self) -> Mapping[str, Settable]:
-        """Values that a person can set, by kind; none by default."""
+        """Return the values that a person can set, by kind; none by default."""
         return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set a value, SI; raises InvalidInput if there is no object with that name, or the value does not fit."""
+        """Set a value in SI units. Raises InvalidInput if there is no object with that name, or if the value
+        does not fit the object."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunCallbacks:
-    """Callbacks that a run gives to its system."""
+    """Functions and settings that a run passes to its system."""
 
     emit: Callable[[AnyEvent], None]
     watch: Callable[[ServoPeriod], None]  # called for every servo period
@@ -301,7 +303,7 @@ class RunCallbacks:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepperWords:
-    """The words of the stepper's manual for runs of a system."""
+    """The words with which the stepper's manual describes runs of a system."""
 
     about: tuple[str, ...] = (
         "The program runs one step at a time; the arrow marks the next one.",
@@ -322,7 +324,7 @@ PLAIN: Final[Topics] = {
 
 
 class System(ABC):
-    """A system: reads and writes its plans, builds its running system, and provides its words."""
+    """A system: it reads and writes its plans, builds its running system, and provides its words for messages."""
 
     name: str  # its entry's
     plan: type[Record]
@@ -339,47 +341,50 @@ class System(ABC):
 
     @abstractmethod
     def decode(self, data: bytes, name: str) -> Any:
-        """Decode and check a plan; `name` is the plan's name for messages. Raises InvalidInput."""
+        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput."""
 
     def digest(self, plan: Any, data: bytes) -> str:
-        """Sixteen hexadecimal digits that identify a plan; `data` is the plan as bytes."""
+        """Return sixteen hexadecimal digits that identify a plan. `data` is the encoded plan."""
         return written_digest(data)
 
     def alike(self, one: Any, other: Any) -> bool:
-        """True if two plans agree, apart from the last digits of computed numbers."""
+        """Return True if two plans agree, apart from the last digits of computed numbers."""
         return self.encode(one) == self.encode(other)
 
     @abstractmethod
     def listing(self, plan: Any) -> Listing:
-        """Stages and steps of a plan."""
+        """Return the stages and steps of a plan."""
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
-        """Build the running system before its first step; raises InvalidInput if it cannot be built here."""
+        """Build the running system before its first step. Raises InvalidInput if it cannot be built on this
+        computer."""
 
     def machine(self, plan: Any) -> tuple[str, str]:
-        """Name and digest of the machine that a plan is made for; empty if it is made for none."""
+        """Return the name and digest of the machine for which a plan is made; both are empty if there is no
+        such machine."""
         return "", ""
 
     def check(self, setup: Setup) -> None:
-        """Raises InvalidInput unless plan, task and world of a run fit together."""
+        """Raise InvalidInput unless plan, task and world of a run fit together."""
         if not isinstance(setup.plan, self.plan):
             raise BadFile(f"this is not a plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
-        """The default plan for a task; raises InvalidInput if there is none."""
+        """Return the default plan for a task. Raises InvalidInput if there is none."""
         raise refusal(self.name, "plans")
 
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:
-        """Steps of a plan that were executed and not undone, according to a state."""
+        """Return the executed steps of a plan that have not been undone, according to a state."""
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Set a state to undo executed steps; raises InvalidInput if there are none."""
+        """Change a state so that its executed steps are undone. Raises InvalidInput if no executed step is
+        left."""
         raise refusal(self.name, "undo")
 
     def calibration(self, state: Any) -> Calibration | None:
-        """The calibration of the camera in a state, if it has one."""
+        """Return the camera calibration in a state, or None if the state has none."""
         return None
 
     # -- what users see -------------------------------------------------------------------------------
@@ -390,7 +395,7 @@ class System(ABC):
         return PLAIN
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
-        """The possible answers to the present call of the operator, with their effects."""
+        """Return the possible answers to the present call of the operator, each with its effect."""
         return {
             "proceed": "proceed: continue after the step that called the operator",
             "retry": "retry what was to be done",
@@ -400,17 +405,17 @@ class System(ABC):
     # -- the way of a run -----------------------------------------------------------------------------
 
     def carry_out(self, runner: Runner, go: Callable[[], Pause]) -> Pause:
-        """Continue a run from its present state; `go` lets the run continue until it pauses."""
+        """Continue a run from its present state. `go` continues the run until it pauses."""
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
-        """Further files for the run's folder, by the names in the system's entry; `result` is the run's
+        """Return further files for the run's folder, by the names in the system's entry. `result` is the run's
         `results.result.Result`.
         """
         return {}
 
     def page(self, folder: Path) -> bytes | None:
-        """The report of the finished run in a folder, made from the system's own files; None: the general report is
-        used.
+        """Return the report of the finished run in a folder, made from the system's own files; None if the
+        general report is used.
         """
         return None

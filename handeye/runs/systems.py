@@ -1,4 +1,4 @@
-"""Finds systems by name, and loads each from its entry on first use."""
+"""Finds systems by name. Each system is loaded from its entry on first use."""
 
 from functools import lru_cache
 from pathlib import Path
@@ -10,7 +10,7 @@ from handeye.runs.system import Listing, System
 
 
 def system_named(name: str) -> System:
-    """The system with a name; raises InvalidInput if there is none."""
+    """Return the system called `name`. Raises InvalidInput if there is none."""
     found: System = loaded(entry_named(name).system)
     return found
 
@@ -21,7 +21,7 @@ def system_of(setup: Setup) -> System:
 
 
 def system_of_files(folder: Path) -> System | None:
-    """The system whose own files are in the folder of a run; None if there are none."""
+    """Return the system whose own files are in the folder of a run, or None if there are no such files."""
     found = (e for e in entries().values() if any((folder / name).is_file() for name in e.files))
     return next((system_named(entry.name) for entry in found), None)
 
@@ -31,24 +31,25 @@ def listing_of(setup: Setup) -> Listing:
 
 
 def written(setup: Setup) -> bytes:
-    """The plan of a run as bytes. All checkpoints need these bytes, so they are made once and kept."""
+    """Encode the plan of a run. The bytes are cached, because every checkpoint needs them."""
     return _written(_Identical(setup.system, setup.plan))
 
 
 def digest_of(setup: Setup) -> str:
-    """Sixteen hexadecimal digits that identify the plan of a run."""
+    """Return sixteen hexadecimal digits that identify the plan of a run."""
     return _digest(_Identical(setup.system, setup.plan))
 
 
 def same_plan(one: Setup, other: Setup) -> bool:
-    """True if two runs use the same plan, apart from the last digits of its computed numbers."""
+    """Return True if two runs use the same plan, apart from the last digits of computed numbers."""
     return one.system == other.system and (
         one.plan is other.plan or system_of(one).alike(one.plan, other.plan)
     )
 
 
 class _Identical:
-    """A plan that is compared by identity, because comparing two plans takes as long as writing one."""
+    """Wraps a plan so that it is compared by identity, because comparing two plans takes as long as encoding
+    one."""
 
     def __init__(self, system: str, plan: Record) -> None:
         self.system, self.plan = system, plan

@@ -1,4 +1,5 @@
-"""Orders to undo a kept run: how many steps to undo, and the checkpoint from which the arm starts."""
+"""Orders the arm to undo the work of a stored run: determines how many steps to undo, and the checkpoint from
+which the arm starts."""
 
 from collections.abc import Sequence
 
@@ -17,8 +18,8 @@ from handeye.runs.systems import listing_of, system_of
 
 
 def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) -> int:
-    """Number of steps executed when a stage, given by its index, last began; raises Refused if none of its steps
-    are left.
+    """Return the number of steps that had been executed when the stage with this index last began. Raises
+    Refused if none of the stage's steps are left to undo.
     """
     steps = listing.steps
     found = [n for n, done in enumerate(executed) if done.enters and steps[done.step].stage == stage]
@@ -28,8 +29,8 @@ def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) 
 
 
 def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) -> Checkpoint:
-    """A checkpoint ordered to undo its steps back to the beginning of a stage or of the run, and to end there;
-    `name` is the run's name for messages.
+    """Return the checkpoint with an order to undo its steps back to the beginning of a stage, or of the run,
+    and to end there. Messages call the run `name`.
     """
     require(checkpoint.setup.system, "undo", name)
     snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan
@@ -51,7 +52,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
 
 
 def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str) -> None:
-    """Raises Refused unless the run has a record of its first step, or is at its beginning."""
+    """Raise Refused unless the run can still undo its first step, or has already undone it."""
     first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
     if first is None:
         raise Refused(f"{name} has no steps: there is nothing to undo")
@@ -62,8 +63,8 @@ def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str
 
 
 def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None:
-    """Number of steps finished after a checkpoint, from all events of its run; None if the events are of another
-    run.
+    """Return the number of steps that a run finished after a checkpoint, counted in all events of the run.
+    Returns None if the events belong to another run.
     """
     begun = len(checkpoint.events)
     if tuple(events[:begun]) != checkpoint.events:
@@ -72,9 +73,9 @@ def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None
 
 
 def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> Checkpoint:
-    """The run as it was after its last finished step: the steps since the checkpoint are repeated.
+    """Repeat the steps since the checkpoint, and return a checkpoint of the run after its last finished step.
 
-    Equal runs take the same course, byte for byte. Raises BadFile if this run takes another course.
+    A repeated run takes the same course, byte for byte. Raises BadFile if this run takes a different course.
     """
     if not done_since(checkpoint, events):
         return checkpoint

@@ -1,5 +1,5 @@
-"""Runs without a name given by the user: the newest ten are kept in `runs` in the current folder, named by their
-start time.
+"""Keeps the newest ten runs that the user did not name, in the folder `runs` of the current folder. Each is
+named by its start time.
 
 The environment variable HANDEYE_RUNS names another folder; if it is empty, no run is kept without `--out`.
 """
@@ -26,14 +26,14 @@ _GONE: Final = ".removed-"
 
 
 def runs_folder() -> Path | None:
-    """The folder for unnamed runs; None if none are kept."""
+    """Return the folder for unnamed runs, or None if none are kept."""
     named = os.environ.get(VARIABLE, "runs")
     return Path(named) if named else None
 
 
 class UnnamedRun:
-    """A folder for an unnamed run. Its mark is locked until the run is closed, so that no other command removes the
-    folder.
+    """A folder for an unnamed run. A lock on its mark file keeps other commands from removing the folder until
+    the run is closed.
     """
 
     def __init__(self, home: Path, start: Checkpoint) -> None:
@@ -69,14 +69,14 @@ class UnnamedRun:
 
 
 def newest_run() -> Path | None:
-    """The newest run in the folder for runs, named or not; None if there is none."""
+    """Return the newest run in the folder for runs, whether the user named it or not; None if there is none."""
     home = runs_folder()
     return None if home is None else next(_newest_first(_runs(home)), None)
 
 
 def newest_runs(number: int) -> list[Path]:
-    """The newest runs in the folder for runs, named or not, the newest first; raises BadFile if there are fewer
-    than `number`.
+    """Return the newest runs in the folder for runs, the newest first, whether the user named them or not.
+    Raises BadFile if there are fewer than `number`.
     """
     home = runs_folder()
     if home is None:
@@ -91,12 +91,12 @@ def newest_runs(number: int) -> list[Path]:
 
 
 def bytes_of(path: Path) -> int:
-    """Total size of the files in a folder, bytes."""
+    """Return the total size of the files in a folder (bytes)."""
     return sum(file.stat().st_size for file in path.rglob("*") if file.is_file())
 
 
 def _new_place(home: Path, start: Checkpoint) -> Path:
-    """A new path for a folder, with time and seed in its name."""
+    """Create a new folder with the time and the seed in its name, and return its path."""
     if not home.exists():
         home.mkdir(parents=True)
         (home / ".gitignore").write_text(_IGNORED, encoding="utf-8")
@@ -118,7 +118,7 @@ def _runs(home: Path) -> Iterator[Path]:
 
 
 def _unnamed(home: Path) -> Iterator[Path]:
-    """Folders of unnamed runs that contain nothing else; a renamed folder counts as named."""
+    """Yield the folders of unnamed runs that contain nothing else. A run in a renamed folder counts as named."""
     for path in home.iterdir():
         mark = path / MARK
         if path.is_symlink() or not mark.is_file() or mark.is_symlink():
@@ -128,12 +128,12 @@ def _unnamed(home: Path) -> Iterator[Path]:
 
 
 def _newest_first(runs: Iterator[Path]) -> Iterator[Path]:
-    """Runs in order of their last change, the newest first."""
+    """Return the runs in the order of their last change, the newest first."""
     return iter(sorted(runs, key=lambda path: (_written(path), path.name), reverse=True))
 
 
 def _written(path: Path) -> int:
-    """Time of the last change of a run, ns."""
+    """Return the time of a run's last change (ns)."""
     for name in (EVENTS, TRACE, MARK):
         with suppress(OSError):
             return (path / name).stat().st_mtime_ns
@@ -153,7 +153,7 @@ def _remove(path: Path) -> None:
 
 @contextmanager
 def held(path: Path) -> Iterator[None]:
-    """In this context, no other command removes the folder, because its run continues."""
+    """Within this context, keep other commands from removing the folder, because its run continues."""
     with ExitStack() as lock:
         if (path / MARK).is_file():
             with suppress(InvalidInput):

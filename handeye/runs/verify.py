@@ -20,7 +20,7 @@ from handeye.trace.reading import Trace, read_trace
 
 
 def setup_of(trace: Trace) -> Setup:
-    """The setup with which a recorded run began, with the same renderer."""
+    """Return the setup with which a recorded run began, including the kind of renderer."""
     begun = trace.head
     plan = system_named(begun.system).decode(trace.plan, f"the plan in {trace.name}")
     camera = "gl" if begun.camera.method == "opengl" else "ray"
@@ -35,7 +35,8 @@ def setup_of(trace: Trace) -> Setup:
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
-    """Number of events of a run that do not depend on the moment at which the panic button was pressed."""
+    """Return the number of a run's events that do not depend on the moment at which the panic button was
+    pressed."""
     if not events or not isinstance(events[-1], PanicStopped):
         return len(events)
     steps = [n for n, event in enumerate(events) if isinstance(event, StepStarted)]
@@ -45,7 +46,8 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """The first difference, even if only in last digits, as a sentence; arguments as for `repetition`."""
+    """Repeat a run as `repetition` does, and return the first difference as a sentence, even if it is only in
+    the last digits. Returns None if there is none."""
     found = repetition(trace, folder)
     return found.rounded or found.parts
 

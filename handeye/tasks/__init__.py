@@ -1,7 +1,7 @@
-"""Finds tasks by name, for all systems; no other module has the list of tasks.
+"""Finds the tasks of all systems by name. No other module lists them.
 
-A task is one of handeye's own, or comes from the entry-point group `handeye.tasks` of an installed package, from
-`--task MODULE:NAME`, or from a Python program that calls `register`. Its module is imported on first use.
+A task is one of handeye's own, or comes from the entry-point group `handeye.tasks` of an installed package,
+from `--task MODULE:NAME`, or from a Python program that calls `register`. Its module is imported on first use.
 """
 
 import os
@@ -42,8 +42,8 @@ _WORDS: Final[dict[str, str]] = {}  # what `--task` said of those that it has ma
 def register(task: AnyTask) -> None:
     """Register a task under its name, and its arm under the arm's name.
 
-    Raises InvalidInput if the object is no task or has no name, if the arm cannot be at its parked configuration,
-    or if the name of the task or of the arm is taken.
+    Raises InvalidInput if the object is not a task or has no name, if the parked configuration is outside the
+    arm's limits, or if another task or arm has the name.
     """
     if not isinstance(task, AnyTask):
         raise BadArgument(f"a task is an instance of a class derived from handeye.Task, not {task!r}")
@@ -64,8 +64,8 @@ def register(task: AnyTask) -> None:
 
 
 def named(words: str) -> AnyTask:
-    """The task for the words of `--task`: a known task, or MODULE:NAME, searched on the Python path and in the
-    current folder.
+    """Return the task that `--task` names: either a known task, or MODULE:NAME. The module is searched for on
+    the Python path and in the current folder.
     """
     if ":" not in words:
         return any_task(words)
@@ -78,14 +78,14 @@ def named(words: str) -> AnyTask:
 
 
 def option(name: str) -> tuple[str, ...]:
-    """The command-line option with which a command finds the task of a plan or run; empty if the task's name is
-    enough.
+    """Return the command-line option with which a command finds the task of a plan or run, for example `--task
+    my_task:TASK`. Returns nothing if the task is found by its name alone.
     """
     return ("--task", _WORDS[name]) if name in _WORDS else ()
 
 
 def any_task(name: str) -> AnyTask:
-    """The task with a name, for any system; raises InvalidInput if there is none."""
+    """Return the task called `name`, of any system. Raises InvalidInput if there is none."""
     if not isinstance(name, str):
         raise BadArgument(f"give a task by its name, not by {name!r}")
     found = known_any(name)
@@ -97,12 +97,12 @@ def any_task(name: str) -> AnyTask:
 
 
 def task(name: str = DEFAULT) -> Task:
-    """The task with a name, for planned programs; raises InvalidInput if there is none."""
+    """Return the task called `name`. Raises InvalidInput if there is none, or if it runs no planned programs."""
     return planned(any_task(name))
 
 
 def planned(task: AnyTask) -> Task:
-    """Return the task if planned programs perform it; raises InvalidInput if they do not."""
+    """Return `task` unchanged if it runs planned programs. Raises InvalidInput if it does not."""
     if not isinstance(task, Task):
         system = next((entry.name for entry in entries().values() if task.name in entry.tasks), None)
         if system is not None:
@@ -112,8 +112,8 @@ def planned(task: AnyTask) -> Task:
 
 
 def known_any(name: str) -> AnyTask | None:
-    """The task with a name; None if it is unknown here, as a task of another Python program. Raises InvalidInput if
-    the task cannot be imported.
+    """Return the task called `name`, or None if this process does not know it, for example because another
+    Python program registered it. Raises InvalidInput if the task's module cannot be imported.
     """
     if name not in _REGISTERED and (place := _BUILT_IN.get(name) or _ours().get(name)) is not None:
         return _loaded(place)
@@ -131,13 +131,15 @@ def known_any(name: str) -> AnyTask | None:
 
 
 def known(name: str) -> Task | None:
-    """The task with a name, for planned programs; None if this process knows none."""
+    """Return the task called `name` if it runs planned programs; None if it does not, or if this process does
+    not know it."""
     found = known_any(name)
     return found if isinstance(found, Task) else None
 
 
 def of_plans(kind: Kind) -> Iterator[Task]:
-    """The tasks of one origin that planned programs perform; each is imported when the iteration reaches it."""
+    """Yield the tasks of one origin that run planned programs. Each task is imported when the iteration reaches
+    it; a task that cannot be imported is left out."""
     for name in _NAMES[kind]():
         try:
             found = known(name)

@@ -1,4 +1,5 @@
-"""The interface of a task with one hole, for trials of insertion; a witness records the truth of each insertion."""
+"""Defines the interface of a task with one hole, which the trials of insertion use. Its cell has a witness,
+which records what really happened in each insertion."""
 
 from __future__ import annotations
 
@@ -21,7 +22,7 @@ SPREAD: Final = 1.0  # sigma of the error of the hole's place along each axis, m
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionTruth:
-    """The truth of an insertion, which the program cannot know."""
+    """What really happened in an insertion. The program cannot know it."""
 
     peak: float  # greatest resultant of all contacts between the two in any physics step, N
     first: float | None  # time of the first contact, s on the cell's clock
@@ -30,24 +31,26 @@ class InsertionTruth:
 
 
 class InsertionTask(Task):
-    """A task with one hole; its programs fetch the pin in their first stage."""
+    """A task with one hole. The first stage of each of its programs fetches the pin."""
 
     programs: Mapping[str, str]  # script files among the plans, by the name of their search
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """Greatest error of a hole's position, m, at which the hole still catches the pin; arguments in m."""
+        """Return the greatest position error of the hole (m) at which the pin still enters it, for a clearance
+        (m) and a chamfer (m)."""
 
     @abstractmethod
     def hole(self, clearance: float, chamfer: float) -> dict[str, float]:
-        """Quantities of a world with this clearance and chamfer (m), and the hole at its taught position; SI."""
+        """Return the quantities of a world in which the hole has this clearance (m) and chamfer (m) and lies
+        exactly at its taught position. All values are in SI units."""
 
     @abstractmethod
     def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:
-        """Quantities of a world in which the hole is displaced by `error` (x, y, m) from the point below the held
-        pin; SI.
+        """Return the quantities of a world in which the hole is displaced by `error` (x and y, m) from the
+        point below the held pin. All values are in SI units.
         """
 
     @abstractmethod
     def witnessed(self, cell: SimulatedCell) -> InsertionTruth:
-        """The truth so far, as recorded by the witness in a cell of this task."""
+        """Return what the witness in a cell of this task has recorded so far."""

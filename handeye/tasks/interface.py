@@ -1,4 +1,5 @@
-"""The interface of a task: cell, worlds, programs, limits and referee of one kind of work. Each task has a folder."""
+"""Defines the interface of a task. A task provides the cell, the worlds, the programs, the limits and the
+referee of one kind of work, and has its own folder."""
 
 from __future__ import annotations
 
@@ -34,14 +35,15 @@ if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
 
 
 class CameraSetup(Record, frozen=True, kw_only=True):
-    """The design of a cell's television camera before calibration, and the looks with which it is calibrated."""
+    """The television camera of a cell as designed, before calibration, and the views from which it is
+    calibrated."""
 
     drawing: CameraModel
     looks: tuple[CalibrationLook, ...]  # how the arm shows its lamp to it, in order
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
-    """Times of the same work in 1973, s."""
+    """Durations of the same work in 1973 (s)."""
 
     year: int
     program: str  # the program that these are the times of
@@ -49,7 +51,7 @@ class HistoricalTiming(Record, frozen=True, kw_only=True):
 
 
 class ExportedScene(Record, frozen=True, kw_only=True):
-    """A scene for other programs, with its description."""
+    """A scene for export to other programs, with a description."""
 
     spec: mujoco.MjSpec
     about: str  # Markdown: its names, and how it differs from the cell
@@ -60,7 +62,7 @@ class ExportedScene(Record, frozen=True, kw_only=True):
 
 
 class Disturbance(Record, frozen=True, kw_only=True):
-    """A change of the cell made after the work of the arm and before its reversal."""
+    """A change that a person makes to the cell after the arm has finished, and before the arm undoes its work."""
 
     name: str
     meaning: str  # what is changed, in a sentence
@@ -69,7 +71,7 @@ class Disturbance(Record, frozen=True, kw_only=True):
 
 
 class Words(Record, frozen=True, kw_only=True):
-    """Words for the product of a task, for sentences."""
+    """Phrases with which messages name a task's product and the outcome of the work."""
 
     product: str  # the product with its article: `the pump`
     done: str  # sentence for a product that is finished and right
@@ -78,7 +80,7 @@ class Words(Record, frozen=True, kw_only=True):
 
 
 class AnyTask(ABC):
-    """A task for any kind of system: worlds, a scene and a referee."""
+    """A task for any kind of system. It provides worlds, a scene and a referee."""
 
     name: str
     words: Words
@@ -99,36 +101,36 @@ class AnyTask(ABC):
     @property
     @abstractmethod
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """Names of the arm's joints, each revolute or prismatic."""
+        """The arm's joints by name, each `revolute` or `prismatic`."""
 
     @abstractmethod
     def variation(self) -> Variation:
-        """The table of quantities in which worlds differ."""
+        """Return the table of the quantities that vary between worlds."""
 
     def faults(self, world: WorldSpec) -> Catalogue:
-        """The faults that are possible in a world; none by default."""
+        """Return the faults that are possible in a world; none by default."""
         return Catalogue()
 
     @abstractmethod
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        """The scene of a world in its initial state, for pictures only; it is never simulated.
+        """Return the scene of a world in its initial state. It is only for pictures and is never simulated.
 
         The scene must have the cameras that the task names, and shapes in the geom groups that pictures show
         (`handeye/cell/looks.py`); `shown` checks this.
 
         Raises:
-            InvalidInput: there is no such world.
+            InvalidInput: the world does not fit this task.
         """
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        """The scene of a run with a plan, which may determine what lies in the cell; arguments and errors are those
-        of `scene`.
+        """Return the scene of a recorded run, whose plan may determine which objects lie in the cell. Arguments
+        and errors are otherwise those of `scene`.
         """
         return self.scene(spec)
 
     def shown(self, spec: WorldSpec, plan: bytes | None = None) -> mujoco.MjModel:
-        """The scene of a world, or of a run with a plan; raises InvalidInput if the scene lacks a camera, or shows
-        nothing.
+        """Return the scene of a world or, with a plan, of a recorded run. Raises InvalidInput if the scene
+        lacks a camera that the task names, or if no shape in it is visible.
         """
         scene = self.scene(spec) if plan is None else self.recorded_scene(spec, plan)
         _check_scene(self, scene)
@@ -136,15 +138,16 @@ class AnyTask(ABC):
 
     @abstractmethod
     def judge(self, truth: Truth) -> Findings:
-        """Findings of the referee on the finished work; the cell is not changed."""
+        """Return the referee's findings on the finished work. The referee does not change the cell."""
 
     def judge_apart(self, truth: Truth) -> Findings:
-        """Findings of the referee after the arm has undone all its work; empty by default. The cell is not changed."""
+        """Return the referee's findings after the arm has undone all its work; empty by default. The referee
+        does not change the cell."""
         return {}
 
     @property
     def judges_apart(self) -> bool:
-        """True if the task's referee can judge work that the arm has undone."""
+        """True if the task's referee can judge the cell after the arm has undone its work."""
         return type(self).judge_apart is not AnyTask.judge_apart
 
 
@@ -166,7 +169,7 @@ def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
 
 
 class Task(AnyTask):
-    """Work of an arm that is driven by a planned program: cell, worlds, programs and referee."""
+    """The work of an arm that runs planned programs. The task provides cell, worlds, programs and referee."""
 
     arm: ArmModel
     park: Array
@@ -184,16 +187,18 @@ class Task(AnyTask):
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """Names of the arm's joints, each revolute or prismatic."""
+        """The arm's joints by name, each `revolute` or `prismatic`."""
         return {joint.name: joint.kind for joint in self.arm.joints}
 
     @property
     def trials(self) -> Mapping[str, Trial[Any]]:
-        """Trials in many worlds that run no program, by name; none by default."""
+        """Trials that repeat one part of the task in many worlds without running a program, by name; none by
+        default."""
         return {}
 
     def fixtures(self) -> Mapping[str, Fixture]:
-        """Obstacles that the planner avoids, unless the program has other taught fixtures."""
+        """Return the obstacles that the planner avoids, by name. A fixture of the same name in the program's
+        taught file replaces the obstacle."""
         return {}
 
     @abstractmethod
@@ -204,22 +209,22 @@ class Task(AnyTask):
             camera: the renderer: `auto`, `gl` or `ray`, or a function that makes one.
 
         Raises:
-            InvalidInput: there is no such world, or this renderer does not work here.
+            InvalidInput: the world does not fit this task, or this renderer does not work on this computer.
         """
 
     def disturbances(self) -> tuple[Disturbance, ...]:
-        """Changes of the cell that can be made before the arm undoes its work; none by default."""
+        """Return the changes that can be made to the cell before the arm undoes its work; none by default."""
         return ()
 
     def bystanders(self, truth: Truth) -> Mapping[str, Array]:
-        """Positions of the parts that the hand does not hold, by name, m, shape (3,) each."""
+        """Return the positions of the parts that the hand does not hold, by name (m, shape (3,) each)."""
         return {}
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
-        """The scene of a world, in the true state of its cell, for other programs.
+        """Return the scene of a world for export to other programs, with every object where it really is.
 
         Args:
-            keyframe: name of the scene's last keyframe, which holds that state.
+            keyframe: name of the scene's last keyframe, which stores that state.
 
         Raises:
             InvalidInput: this task exports no scene.
@@ -227,7 +232,7 @@ class Task(AnyTask):
         raise Refused(f"the task {quoted(self.name)} exports no scene")
 
     def check_arm(self, plan: Plan) -> None:
-        """Check that a plan was made for this task's arm; raises Refused if it was made for another arm."""
+        """Raises Refused if a plan was not made for this task's arm."""
         if (plan.arm, plan.arm_digest) != (self.arm.name, digest(self.arm)):
             raise Refused(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
         joints = len(self.arm.joints)

@@ -1,4 +1,5 @@
-"""A trial: one task repeated in many worlds and counted, without running a program."""
+"""Defines a trial, which repeats one part of a task in many worlds without running a program, and counts the
+outcomes."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
@@ -26,7 +27,7 @@ A = TypeVar("A", bound=Attempt)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Count:
-    """Counts over many attempts."""
+    """Counts of the outcomes of many attempts."""
 
     figures: Mapping[str, object]  # counts by their names, as JSON has them
     lines: tuple[str, ...]  # the same as lines of text
@@ -34,7 +35,7 @@ class Count:
 
 
 class Trial(ABC, Generic[A]):
-    """A kind of attempt that can be repeated without a program."""
+    """A kind of attempt that can be repeated in many worlds without running a program."""
 
     attempt: type[A]  # the class of its attempts
 
@@ -43,18 +44,19 @@ class Trial(ABC, Generic[A]):
 
     @abstractmethod
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[A]:
-        """`number` attempts in a world, with the camera calibrated once; pictures are rendered by `auto`, `gl` or
-        `ray`.
+        """Make `number` attempts in a world, after calibrating the camera once. `camera` is the renderer of the
+        pictures: `auto`, `gl` or `ray`.
         """
 
     @abstractmethod
     def sentence(self, attempt: A) -> str:
-        """The outcome of an attempt as a sentence."""
+        """Describe the outcome of an attempt in a sentence."""
 
     @abstractmethod
     def count(self, attempts: Sequence[A]) -> Count:
-        """Count attempts, of which there must be at least one."""
+        """Count the outcomes of one or more attempts."""
 
     def outcome(self, attempt: A) -> Literal["right", "missed", "wrong"]:
-        """The outcome of an attempt; by default right, unless the attempt took something wrong for right."""
+        """Return the outcome of an attempt. By default it is `wrong` if the attempt accepted a wrong result,
+        and `right` if not."""
         return "wrong" if self.count([attempt]).wrong else "right"

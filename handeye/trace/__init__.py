@@ -1,1 +1,1 @@
-"""Traces: one MCAP file per run, which other robotics tools can open, and the analysis of traces."""
+"""Writes, reads and analyses traces. A trace is one MCAP file per run, which other robotics tools can open."""

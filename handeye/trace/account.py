@@ -1,4 +1,4 @@
-"""A readable account of the events of a run and their reasons, for readers who know the arm language."""
+"""Writes a readable account of what happened in a run and why, for readers who know the arm language."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -17,7 +17,8 @@ _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """The account as lines of text: stages; time, line, text and outcome of each step; and how the run ended."""
+    """Return the account of a run as lines of text: its stages; the time, line, text and outcome of each step;
+    and how the run ended."""
     teller = _Teller()
     for event in events:
         teller.tell(event)
@@ -44,7 +45,7 @@ class _Teller:
     _tested: str | None = None  # the answer to a test, until it is known where the program continues
 
     def clock(self, event: AnyEvent) -> str:
-        """The time of an event, in s since the run began, formatted for a column."""
+        """Return the time of an event since the run began (s), formatted for a column."""
         return f"{event.time:z9.2f}"
 
     def tell(self, event: AnyEvent) -> None:
@@ -105,13 +106,14 @@ class _Teller:
         self.lines.append(f"{_BENEATH}{text}")
 
     def _lead_on(self, where: str) -> None:
-        """Report the answer to a test, as soon as the next step is known."""
+        """Report the result of a test, as soon as the next step is known."""
         if self._tested is not None:
             self._beneath(f"{self._tested}: {where}")
         self._tested = None
 
     def _ended(self, event: happened.StepFinished) -> None:
-        """Report where a motion ended, unless it ended at its goal or with the same offset as the last motion."""
+        """Report where a motion ended, unless it ended at its goal, or missed the goal by the same offset as
+        the motion before it."""
         if event.planned is None or event.hand is None:
             return
         off = np.subtract(event.hand, event.planned)

@@ -1,7 +1,7 @@
-"""The channels of a trace: the content of each, and the schema with which it is declared.
+"""Defines the channels of a trace, each with its content and the schema of its messages.
 
-Typed channels are those that robotics tools display directly; `/events` is a lossless copy of each event, for
-handeye itself.
+Robotics tools display the typed channels directly. The channel `/events` holds a lossless copy of each event,
+which handeye itself reads.
 """
 
 from dataclasses import dataclass, replace
@@ -55,7 +55,7 @@ class Channel:
 
 
 def _typed(topic: str, kind: type[Message]) -> Channel:
-    """A channel of protobuf messages, with the description of all types they use."""
+    """Define a channel of protobuf messages, whose schema describes all types that the messages use."""
     files: dict[str, Any] = {}
 
     def add(file: Any) -> None:
@@ -113,7 +113,7 @@ CHANNELS: Final = (
 
 @cache
 def channels_of(system: str) -> tuple[Channel, ...]:
-    """The channels of a run of a system; a system may have further kinds of events."""
+    """Return the channels for runs of a system. A system may emit events of its own kinds."""
     own = _schema(event_type(system))
     return tuple(replace(each, schema=own) if each.topic == EVENTS else each for each in CHANNELS)
 
@@ -122,9 +122,9 @@ NUMBERS: Final = {channel.topic: number for number, channel in enumerate(CHANNEL
 
 
 def nanoseconds(time: float) -> int:
-    """A simulated time (s) in ns, as traces store it.
+    """Convert a simulated time (s) to ns, as traces store it.
 
-    It is rounded to a microsecond, because the cell's clock is a sum of many steps, the clock of the events is
-    rounded, and both must agree.
+    The time is rounded to a microsecond so that the clock of the cell, which is a sum of many steps, and the
+    clock of the events, which is rounded, agree.
     """
     return round(time * 1e6) * 1000

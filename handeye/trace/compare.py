@@ -1,4 +1,5 @@
-"""Compares two traces: finds the first difference, and whether only last digits differ."""
+"""Compares two traces: finds their first difference, and whether they differ only in the last digits of
+numbers."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,17 +15,18 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Repetition:
-    """The differences of two traces, a sentence each; both None: the traces are identical, byte for byte."""
+    """The differences between two traces, in a sentence each. If both are None, the traces are identical, byte
+    for byte."""
 
     parts: str | None = None  # where they truly part
     rounded: str | None = None  # where they first differ by last places of numbers alone
 
 
 def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> Repetition:
-    """Compare two traces, however they are compressed.
+    """Compare the contents of two traces, which may be compressed differently.
 
-    Only the first `events` events, and the messages before and between them, are compared, without the messages
-    recorded beside the first `unseen` events. Processor and versions of the two runs may differ.
+    Only the first `events` events, and the messages before and between them, are compared. Messages recorded
+    before event number `unseen` are left out. The two runs may have used different processors and versions.
     """
     if a.plan != b.plan:
         return Repetition(parts="the traces belong to different plans")
@@ -48,13 +50,14 @@ def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) 
 
 
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
-    """The first difference, even if only in last digits, as a sentence; arguments as for `compared`."""
+    """Return the first difference of two traces as a sentence, even if it is only in the last digits. Returns
+    None if there is none. Arguments are those of `compared`."""
     found = compared(a, b, events=events, unseen=unseen)
     return found.rounded or found.parts
 
 
 def _begin_alike(a: Trace, b: Trace) -> bool:
-    """True if two runs begin in the same way, apart from processor and versions."""
+    """Return True if two runs begin in the same way, apart from processor and versions."""
     return a.head.made_alike == b.head.made_alike
 
 
@@ -66,7 +69,7 @@ class _SoFar:
 
 
 def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMessage]:
-    """The messages, without those recorded beside the first `unseen` events."""
+    """Yield the messages to compare. Messages recorded before event number `unseen` are left out."""
     count = 0
     for message in until(trace.messages, events):
         if count >= unseen or message.topic not in MOMENTS:
@@ -87,7 +90,8 @@ def _difference(
     *,
     rounded: bool = False,
 ) -> str:
-    """The difference as a sentence; with `rounded`, of a quantity that differs by more than its last digits."""
+    """Describe the difference in a sentence. With `rounded`, describe the first quantity that differs by more
+    than its last digits."""
     events = so_far.events
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"

@@ -1,4 +1,5 @@
-"""Event lists on disk (`events.jsonl`): one JSON object per line, appended as events happen, never rewritten."""
+"""Reads and writes event lists (`events.jsonl`): one JSON object per line, appended as events happen, and never
+changed afterwards."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -13,10 +14,10 @@ from handeye.program.events import AnyEvent, RunStarted, WentBack, to_line
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
-    """The events in a file, including those that were undone later.
+    """Return the events in a file, including those from which the run went back later.
 
-    Raises BadFile if a line is no event, or is incomplete (unless `growing`), or if the run does not begin at time
-    0.
+    Raises BadFile if a line is not an event, if the last line is incomplete (unless `growing`), or if the run
+    does not begin at time 0.
     """
     text = read_whole(path)
     if growing:
@@ -37,7 +38,7 @@ def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
 
 
 def effective(events: Iterable[AnyEvent]) -> list[AnyEvent]:
-    """The events that were not undone."""
+    """Return the events that still count, without those from which the run went back."""
     left: list[AnyEvent] = []
     for event in events:
         if isinstance(event, WentBack):
@@ -48,12 +49,13 @@ def effective(events: Iterable[AnyEvent]) -> list[AnyEvent]:
 
 
 class Journal:
-    """Appends events to a file; undone events stay in the file, followed by a `WentBack`."""
+    """Appends events to a file. When the run goes back, the undone events stay in the file, and a `WentBack`
+    event follows them."""
 
     def __init__(self, path: Path, events: Sequence[AnyEvent], *, again: bool) -> None:
         """Begin a journal with these events, or resume one.
 
-        An incomplete last line is dropped; a journal that has lost some of the events is started again.
+        An incomplete last line is dropped. A journal in which some of the events are missing is begun anew.
         """
         self._owed: WentBack | None = None  # there was no room for it
         self._file = LineFile(path, "another run", again=again)
@@ -66,19 +68,19 @@ class Journal:
 
     @property
     def unlocked(self) -> str:
-        """The reason why other runs cannot be kept from writing to the file; empty if they are."""
+        """The reason why the file cannot be locked against writing by other runs; empty if it is locked."""
         return self._file.unlocked
 
     def append(self, event: AnyEvent) -> None:
-        """Write one event; raises CannotWrite if the disk is full."""
+        """Write one event. Raises CannotWrite if the disk is full."""
         owed, self._owed = self._owed, None
         if owed is not None and not isinstance(event, WentBack):
             self._write(owed)
         self._write(event)
 
     def undone(self, events: int, time: float, why: Literal["back", "resumed"]) -> None:
-        """Record that only the first `events` events count; if the disk is full, this is recorded before the next
-        event.
+        """Record that only the first `events` events count. If the disk is full, this is recorded before the
+        next event.
         """
         self.append(WentBack(time=time, events=events, why=why))
 

@@ -1,4 +1,4 @@
-"""The force of the hand on the world during a run, as arrays."""
+"""The forces that the hand exerts on its surroundings during a run, as arrays."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
@@ -20,11 +20,11 @@ NO_VECTOR: Final = (np.nan, np.nan, np.nan)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Forces(Brief):
-    """The force of the hand on the world, and the guard that watches it, in n servo periods.
+    """The force that the hand exerts on its surroundings, and the guard that watches it, in n servo periods.
 
-    Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates force only in guarded
-    and compliant motions, relative to the force at their beginning. In all other periods there is no estimate, and
-    the figures are NaN.
+    Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates forces only during
+    guarded and compliant motions, relative to the force at the beginning of the motion. In all other periods
+    the values are NaN.
     """
 
     times: Array  # ends of the servo periods, shape (n,), s
@@ -46,14 +46,15 @@ class Forces(Brief):
     limit: Array  # limit of the guard, shape (n,); NaN: no guard
 
     def within(self, spans: Sequence[Span]) -> "Forces":
-        """The forces within some time spans."""
+        """Return the forces within some time spans."""
         inside = np.zeros(len(self.times), dtype=np.bool_)
         for span in spans:
             inside[span.rows(self.times)] = True
         return self._rows(inside)
 
     def motions(self) -> "tuple[Forces, ...]":
-        """The motions in which force was estimated, each separately, in order."""
+        """Divide the forces by motion. Each motion in which forces were estimated gets its own `Forces`, in
+        order."""
         known = np.concatenate([[False], self.estimated, [False]])
         borders = np.flatnonzero(known[1:] != known[:-1])
         return tuple(
@@ -67,7 +68,8 @@ class Forces(Brief):
 
 
 def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
-    """Make the arrays from messages about the hand, one per servo period; raises ValueError if some are missing."""
+    """Make the arrays from messages about the hand, one per servo period. Raises ValueError if messages are
+    missing."""
     told = [read_hand(message.data) for message in messages]
     if len(told) != len(times):
         raise ValueError("the number of servo periods and the number of hand forces differ")
@@ -89,14 +91,14 @@ def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
 
 
 def looked_at(guard: NDArray[np.str_], axis: Array, force: Array, moment: Array, sensed: Array) -> Array:
-    """Readings of guards, shape (n,): a component of force or moment, or another sensed value."""
+    """Return the reading of each guard, shape (n,): a component of force or moment, or another sensed value."""
     pressing = (guard == GuardKind.FORCE) | (guard == GuardKind.AGAINST)
     components = [(force * axis).sum(axis=1), (moment * axis).sum(axis=1)]
     return np.select([pressing, guard == GuardKind.MOMENT], components, default=sensed)
 
 
 def _sensed(message: HandMessage, guard: GuardMessage | None) -> float:
-    """Sensed value of a guard that watches neither force nor moment."""
+    """Return the sensed value of a guard that watches neither a force nor a moment."""
     if guard is not None and guard.guard == GuardKind.TORQUE:
         return abs(message.driver_torque)
     if guard is not None and guard.guard == GuardKind.TOUCH:
@@ -105,6 +107,6 @@ def _sensed(message: HandMessage, guard: GuardMessage | None) -> float:
 
 
 def _vectors(vectors: Iterable[Any]) -> Array:
-    """Vectors as an array of shape (n, 3); NaN where there is none."""
+    """Return vectors as an array of shape (n, 3), with NaN for missing vectors."""
     rows = [(v.x, v.y, v.z) if isinstance(v, Axes) else NO_VECTOR for v in vectors]
     return np.array(rows, dtype=np.float64).reshape(len(rows), 3)

@@ -1,4 +1,4 @@
-"""Poses of all bodies in the simulated cell, for the trace; an observer that changes nothing."""
+"""Provides the trace with the poses of all bodies in the simulated cell, without changing the cell."""
 
 import numpy as np
 from foxglove_schemas_protobuf.Color_pb2 import Color
@@ -18,13 +18,14 @@ from handeye.trace.messages import Poses, stamp
 
 
 def looks(truth: Truth, body: int) -> list[int]:
-    """The geoms of a body that are visible, or will be after an event."""
+    """Return the geoms of a body that are visible, or that will become visible after an event."""
     mine = np.flatnonzero(truth.model.geom_bodyid == body)
     return [int(shape) for shape in mine if truth.drawn.geom_group[shape] in (SEEN, LATENT)]
 
 
 def scene(truth: Truth, time: int) -> bytes:
-    """All visible bodies at the start, with each body's shapes in the frame of the body; `time` in ns."""
+    """Encode all visible bodies at the start of a run, each with its shapes in the body's frame; `time` is in
+    ns."""
     entities = []
     for body in range(truth.model.nbody):
         name = truth.model.body(body).name if body else WORLD
@@ -36,7 +37,7 @@ def scene(truth: Truth, time: int) -> bytes:
 
 
 def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
-    """Add a shape to the entity of its body. The lamp, the only ball, is left out."""
+    """Add a shape to its body's entity. The lamp, the only ball, is left out."""
     model = truth.model
     material = model.geom_matid[shape]
     r, g, b, a = _short(truth.drawn.mat_rgba[material] if material >= 0 else model.geom_rgba[shape])
@@ -63,7 +64,7 @@ def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
 
 
 def _short(values: Array) -> list[float]:
-    """Figures rounded to seven digits, to keep files small."""
+    """Return the numbers rounded to seven digits, which keeps files small."""
     return [float(value) for value in values.astype(np.float32)]
 
 
@@ -76,10 +77,11 @@ Mask = NDArray[np.bool_]
 
 
 class Frames:
-    """The poses of a cell's bodies, as the simulator last computed them, one physics step before the tick."""
+    """The poses of a cell's bodies. They are those that the simulator computed last, one physics step before
+    the tick."""
 
     def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
-        """Observe a cell; `joints` are the names of the arm's joints, in order."""
+        """Observe a cell. `joints` are the names of the arm's joints, in order."""
         self._truth = truth
         bodies = range(1, truth.model.nbody)  # body 0 is the world
         self.names = tuple(str(truth.model.body(number).name) for number in bodies)
@@ -91,17 +93,17 @@ class Frames:
         return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
 
     def there(self) -> Mask:
-        """Mask of the frames whose bodies exist now, including bodies that are put away, shape (n,)."""
+        """Return a mask of the bodies that exist now, including bodies that are put away, shape (n,)."""
         there: Mask = self._truth.model.geom_group[self._looks] != LATENT
         return there
 
     def scene(self, time: int) -> bytes:
-        """The bodies of the scene, as a message; `time` in ns."""
+        """Encode the bodies of the scene as a message; `time` is in ns."""
         return scene(self._truth, time)
 
 
 class NoFrames(Frames):
-    """No poses, for a system without a cell."""
+    """Provides no poses, for a system without a cell."""
 
     def __init__(self) -> None:
         self.names, self.joints = (), ()

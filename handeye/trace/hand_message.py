@@ -1,5 +1,5 @@
-"""Servo periods as JSON messages: force, gap and guards of the hand, for which there is no typed message, and the
-machines' channels.
+"""Encodes servo periods as JSON messages. They contain what no typed message covers: force, finger gap and
+guards of the hand, and the channels of machines.
 """
 
 from typing import Annotated, Any, Final
@@ -20,7 +20,7 @@ PLACES: Final = 6  # decimal places of all figures, as of a trip in its event: a
 
 
 class Axes(Record, frozen=True, kw_only=True):
-    """A vector, world axes."""
+    """A vector in world axes."""
 
     x: float
     y: float
@@ -31,7 +31,7 @@ class Axes(Record, frozen=True, kw_only=True):
 
 
 class GuardMessage(Record, frozen=True, kw_only=True):
-    """An active guard."""
+    """A guard that watches a motion in this servo period."""
 
     guard: Annotated[GuardKind, msgspec.Meta(extra_json_schema={"type": "string"})]
     limit: float  # N, N m, or finger switches as a mask
@@ -72,7 +72,7 @@ def hand_message(period: ServoPeriod) -> bytes:
 
 
 def read_hand(data: bytes) -> HandMessage:
-    """Decode a hand message; raises msgspec.DecodeError if the data are none."""
+    """Decode a hand message. Raises msgspec.DecodeError if the data are not a hand message."""
     return _decoder.decode(data)
 
 
@@ -81,13 +81,13 @@ def hand_schema() -> bytes:
 
 
 def in_one_piece(kind: type[Record]) -> bytes:
-    """JSON schema of a record without internal references, because not all tools follow them."""
+    """Return the JSON schema of a record without internal references, because some tools do not follow them."""
     whole = msgspec.json.schema(kind)
     return msgspec.json.encode(_in_place(whole, whole["$defs"]), order="sorted")
 
 
 def _in_place(schema: Any, defined: dict[str, Any]) -> Any:
-    """The schema with each reference replaced by its definition."""
+    """Return the schema with each reference replaced by its definition."""
     match schema:
         case {"$ref": str(name)}:
             return _in_place(defined[name.rsplit("/", 1)[-1]], defined)
@@ -142,7 +142,7 @@ def channels_schema() -> bytes:
 
 
 def decoded_channels(data: bytes) -> tuple[ChannelValues, ...]:
-    """The channels in a channels message; raises DecodeError if the data are none."""
+    """Decode a channels message. Raises DecodeError if the data are not a channels message."""
     channels = _channels_decoder.decode(data).channels
     if any(channel.width != len(channel.values) for channel in channels):
         raise msgspec.DecodeError("a channel has another number of values than it declares")

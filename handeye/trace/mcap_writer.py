@@ -1,4 +1,4 @@
-"""Writes an MCAP file that grows; after a sync, its content survives a crash of the program."""
+"""Writes an MCAP file while a run goes on. Everything written before a sync survives a crash of the program."""
 
 import os
 from collections.abc import Iterator
@@ -33,7 +33,7 @@ _HARDEST: Final = 19  # level at which a plan is packed: a tenth of its size, in
 
 @dataclass(slots=True)
 class _Sink:
-    """Output of the MCAP writer: every byte is written at once, without a buffer, or raises OSError."""
+    """Output of the MCAP writer. It writes every byte at once, without a buffer, or raises OSError."""
 
     handle: int
     count: int = 0
@@ -49,15 +49,14 @@ class _Sink:
         return self.count
 
     def flush(self) -> None:
-        """Nothing to do: there is no buffer."""
+        """Do nothing, because there is no buffer."""
 
 
 class GrowingFile:
-    """A trace that is being written; a write error raises CannotWrite once.
+    """A trace that is being written. The first write error raises CannotWrite.
 
-    The ends of chunks depend only on the messages: at `CHUNK` bytes, after the start of the run, and at the end of
-    each stage. Equal messages therefore give equal bytes, unless a sync falls within a chunk, which makes the file
-    `uneven`.
+    A chunk ends after `CHUNK` bytes, after the start of the run, and at the end of each stage. Equal messages
+    therefore give equal bytes, unless a sync ends a chunk early. In that case the file is marked as `uneven`.
     """
 
     def __init__(self, file: Path) -> None:
@@ -72,8 +71,8 @@ class GrowingFile:
         self._writer = Writer(cast(IO[Any], self._sink), chunk_size=1 << 62, enable_data_crcs=True)
 
     def begin(self, head: RunStarted, plan: bytes, *, thinned: bool = False) -> None:
-        """Write everything that precedes the messages; `thinned`: the file will have only some of the run's servo
-        periods.
+        """Write everything that precedes the messages. `thinned` means that the file will contain only some of
+        the run's servo periods.
         """
         said = msgspec.to_builtins(head)
         said["seed"], said["world"] = head.world.seed, msgspec.json.encode(head.world).decode()
@@ -100,7 +99,8 @@ class GrowingFile:
                 self._writer.register_channel(channel.topic, channel.encoding, schema)
 
     def write(self, topic: str, time: int, data: bytes, *, boundary: bool = False) -> None:
-        """Write a message (`time` in ns), or do nothing after a failed write; a `boundary` ends the chunk."""
+        """Write a message; `time` is in ns. A `boundary` ends the chunk. After a failed write, nothing is
+        written."""
         if self.broken:
             return
         with self._complaining():
@@ -120,21 +120,21 @@ class GrowingFile:
             settle(self._sink.handle)
 
     def finish(self) -> None:
-        """Write the summary, which completes the file. If the summary cannot be written, the messages stay
-        readable.
+        """Write the summary, which completes the file. If the summary cannot be written, the messages can still
+        be read.
         """
         with self._complaining():
             self._writer.finish()
             settle(self._sink.handle)
 
     def release(self) -> None:
-        """Close the file as it is."""
+        """Close the file without completing it."""
         if not self.released:
             os.close(self._sink.handle)
         self.released = True
 
     def move(self, file: Path) -> None:
-        """Rename the file; a file of that name is replaced."""
+        """Rename the file. A file that has the new name is replaced."""
         with self._complaining():
             os.replace(self.file, file)
         self.file = file
@@ -145,8 +145,8 @@ class GrowingFile:
 
     @contextmanager
     def _complaining(self) -> Iterator[None]:
-        """In this context, an error of the operating system becomes a CannotWrite, and nothing more is written
-        afterwards.
+        """Within this context, turn an error of the operating system into a CannotWrite. Nothing more is
+        written afterwards.
         """
         try:
             yield
@@ -159,7 +159,7 @@ class GrowingFile:
 
 
 def _flat(fields: dict[str, Any], before: str = "") -> dict[str, Any]:
-    """Nested fields as flat fields, with names joined by dots."""
+    """Flatten nested fields. Names of nested fields are joined by dots."""
     flat: dict[str, Any] = {}
     for name, value in fields.items():
         inner = isinstance(value, dict)

@@ -1,4 +1,4 @@
-"""Encodes the typed messages of a trace, including marks on pictures. Times are in ns of the cell's clock."""
+"""Encodes the typed messages of a trace, including the marks on pictures. Times are in ns on the cell's clock."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, Final
@@ -40,8 +40,8 @@ def stamp(time: int) -> Timestamp:
 
 
 class JointMessage:
-    """Sensed position and rate of each joint, its torque (N m) or force (N), and the gap; one object is refilled 60
-    times per second.
+    """The sensed position (rad or m) and rate of each joint, its torque (N m) or force (N), and the finger gap
+    (m). One object is reused for all servo periods.
     """
 
     def __init__(self, names: tuple[str, ...]) -> None:
@@ -50,7 +50,7 @@ class JointMessage:
         *self._joints, self._gap = self._message.joints
 
     def filled(self, time: int, sensed: Sensed, effort: Array) -> bytes:
-        """Encode the message of a servo period."""
+        """Fill in the values of a servo period, and encode the message."""
         self._message.timestamp.seconds, self._message.timestamp.nanos = divmod(time, SECOND)
         figures = zip(self._joints, sensed.q.tolist(), sensed.qd.tolist(), effort.tolist(), strict=True)
         for joint, q, qd, tau in figures:
@@ -60,13 +60,13 @@ class JointMessage:
 
 
 class FramesMessage:
-    """Poses of frames in W; one object is refilled, like `JointMessage`."""
+    """Poses of frames in W. Like `JointMessage`, one object is reused for all messages."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self._frames = [FrameTransform(parent_frame_id=WORLD, child_frame_id=name) for name in names]
 
     def filled(self, time: int, which: list[int], poses: Poses) -> bytes:
-        """Encode the message about some frames, given by number, with their poses, shape (len(which), 7)."""
+        """Encode the poses of the frames with the numbers `which`. The shape of `poses` is (len(which), 7)."""
         seconds, nanos = divmod(time, SECOND)
         frames = [self._frames[number] for number in which]
         for frame, pose in zip(frames, poses.tolist(), strict=True):
@@ -77,7 +77,7 @@ class FramesMessage:
 
 
 def picture(time: int, levels: Picture) -> bytes:
-    """Encode a picture, with its levels 0 to 15 spread over the range of a byte."""
+    """Encode a picture. Its grey levels 0 to 15 are scaled to the range of a byte."""
     height, width = levels.shape
     grey = (levels * np.uint8(LEVEL)).tobytes()
     return RawImage(
@@ -92,13 +92,14 @@ def picture(time: int, levels: Picture) -> bytes:
 
 
 def log(time: int, level: Log.Level.ValueType, sentence: str, *, name: str, file: str, line: int) -> bytes:
-    """Encode a sentence. `name` is the program's name; `file` and `line` are the place in the script (0: no line)."""
+    """Encode a sentence as a log message. `name` is the name of the program; `file` and `line` are the place in
+    the script (line 0 if there is none)."""
     message = Log(timestamp=stamp(time), level=level, message=sentence, name=name, file=file, line=line)
     return message.SerializeToString()
 
 
 def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
-    """Encode marks on the picture taken at a time (ns), by which tools find the picture."""
+    """Encode the marks on a picture. Tools find the picture by the time at which it was taken (ns)."""
     message = ImageAnnotations(timestamp=stamp(taken))
     for mark in marks:
         match mark:
@@ -112,15 +113,15 @@ def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
 
 
 def read_annotations(data: bytes) -> tuple[int, tuple[Mark, ...]]:
-    """Decode marks: returns the time (ns) of their picture, and the marks; raises DecodeError if the data are no
-    marks.
+    """Decode marks. Returns the time at which their picture was taken (ns), and the marks. Raises DecodeError
+    if the data are not marks.
     """
     message = ImageAnnotations.FromString(data)
     return message.timestamp.seconds * SECOND + message.timestamp.nanos, tuple(_marks(message))
 
 
 def _marks(message: ImageAnnotations) -> Iterator[Mark]:
-    """The marks of a message, in the order in which they are drawn: lines first, then discs."""
+    """Yield the marks of a message in drawing order: lines first, then discs."""
     for lines in message.points:
         points = tuple((point.x - 0.5, point.y - 0.5) for point in lines.points)
         colour = _levels(lines.outline_color)
@@ -162,8 +163,8 @@ def _disc(mark: Disc, taken: int) -> CircleAnnotation:
 
 
 def _point(point: Point) -> Point2:
-    """A picture point in the message's coordinates, which count from the corner of the first point; ours count from
-    its centre.
+    """Convert a point of a picture to the message's coordinates, whose origin is the corner of the first pixel.
+    Ours is the centre of the first pixel.
     """
     u, v = point
     return Point2(x=u + 0.5, y=v + 0.5)

@@ -1,4 +1,4 @@
-"""Plots traces: joints, forces and events over time, in the units of the task; equal traces give equal files."""
+"""Plots traces: joints, forces and events over time, in the units of the task. Equal traces give equal files."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -67,8 +67,8 @@ _MARKED: Final[Mapping[str, type[AnyEvent]]] = {
 
 
 def plot(trace: Trace, stage: str | None = None) -> Plot:
-    """Make the plot of a trace, or of one `stage`, given by its number among the executed stages, its name, or a
-    part of the name.
+    """Make the plot of a trace, or of one stage. `stage` is its number among the executed stages, its name, or
+    a part of its name.
     """
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
@@ -85,7 +85,7 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
 
 
 def _covers(trace: Trace, stage: str) -> tuple[float, float]:
-    """Start of the first and end of the last execution of a stage, s."""
+    """Return the start of a stage's first execution and the end of its last execution (s)."""
     names = tuple(dict.fromkeys(each.name for each in trace.stages))
     name = names[stage_index(stage, names)]
     found = [each for each in trace.stages if each.name == name]
@@ -93,8 +93,8 @@ def _covers(trace: Trace, stage: str) -> tuple[float, float]:
 
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
-    """Panels for the revolute joints, and for the prismatic joints with the fingers; in SI units if the arm is
-    unknown.
+    """Yield one panel for the revolute joints, and one for the prismatic joints and the fingers. Units are SI
+    if the arm is unknown.
     """
     task, measures = known_any(trace.head.task), measures_of(trace.head.task)
     kinds = {} if task is None else task.joint_kinds
@@ -141,7 +141,7 @@ def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
 
 
 def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:
-    """Events by kind; events of the run's own system are named by their type."""
+    """Yield the events by kind. Events that only the run's system emits are named by their type."""
     own = {type(event).__name__: type(event) for event in trace.events if isinstance(event, SystemEvent)}
     for name, kind in {**_MARKED, **own}.items():
         times = (event.time for event in trace.events if isinstance(event, kind))
@@ -174,7 +174,7 @@ _BANDS: Final = ("#f2f2f2", "#ffffff")
 
 
 def drawn(plot: Plot, ending: str) -> bytes:
-    """Draw a plot as a file of a type in KINDS; raises MissingExtra without matplotlib."""
+    """Draw a plot as a file. `ending` is one of KINDS. Raises MissingExtra if matplotlib is not installed."""
     try:
         import matplotlib
         from matplotlib.figure import Figure
@@ -210,7 +210,7 @@ def _draw_marks(axis: Any, plot: Plot) -> None:
 
 
 def _name_stages(axis: Any, plot: Plot) -> None:
-    """Write the name of each stage above its beginning, or slightly to the right if there is no space."""
+    """Write the name of each stage above its beginning, or further to the right if there is no space."""
     least, free = (plot.end - plot.begin) * _LEAST_GAP, plot.begin
     for stage in plot.stages:
         if plot.begin <= stage.begin < plot.end:

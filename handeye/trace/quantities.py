@@ -1,6 +1,4 @@
-"""Quantities in the messages of a trace: finds the first quantity in which two messages differ, and describes it in
-words.
-"""
+"""Finds the first quantity in which two messages of a trace differ, and describes it in words."""
 
 from collections.abc import Callable, Iterator, Mapping
 from itertools import zip_longest
@@ -37,17 +35,18 @@ class QuantityDifference(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Name of the quantity as one word, for programs, such as `joint.boom.position`."""
+        """The name of the quantity as one word that programs can use, for example `joint.boom.position`."""
         return ".".join(part.replace(" ", "_") for part in self.quantity)
 
 
 def differing(
     a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None, *, rounded: bool = False
 ) -> QuantityDifference | None:
-    """The first quantity, except times, in which two messages on a channel differ; None if there is none.
+    """Return the first quantity, except times, in which two messages on a channel differ, or None if there is
+    none.
 
-    A message is None if its run has none there. Without the `arm` whose joints the messages describe, units are
-    unknown. With `rounded`, differences in the last digits do not count.
+    A message is None if its run has no message at this point. `arm` is the arm whose joints the messages
+    describe; without it, units are unknown. With `rounded`, differences in the last digits do not count.
     """
     message = a or b
     tell = None if message is None else _TELLERS.get(message.topic)
@@ -63,12 +62,13 @@ def differing(
 
 
 def has_quantities(message: RawMessage) -> bool:
-    """True if the values in a message have names."""
+    """Return True if the values in a message have names."""
     return message.topic in _TELLERS
 
 
 def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
-    """The first quantity, except times, in which two events of one kind differ; None if there is none."""
+    """Return the first quantity, except times, in which two events of the same kind differ, or None if there is
+    none."""
     plain = msgspec.to_builtins(a)
     found = next(_differing(_event(plain), _event(msgspec.to_builtins(b))), None)
     if found is None:
@@ -78,7 +78,7 @@ def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
 
 
 def _differing(a: Any, b: Any, name: tuple[str, ...] = ()) -> Iterator[Found]:
-    """Differences of two values made of dictionaries and lists, in the order of the first value."""
+    """Yield the differences between two values made of dictionaries and lists, in the order of the first value."""
     if isinstance(a, Mapping) or isinstance(b, Mapping):
         one, other = a or {}, b or {}
         for key in dict.fromkeys((*one, *other)):
@@ -135,7 +135,7 @@ def _marks(data: bytes) -> dict[str, Any]:
 
 
 def _event(event: dict[str, Any]) -> dict[str, Any]:
-    """The values of an event (dictionaries and lists) by the names of the quantities."""
+    """Return the contents of an event as dictionaries and lists, by the names of quantities."""
     if event["event"] == FrictionMeasured.__name__:
         joints = {each["joint"]["name"]: {"friction": each["friction"]} for each in event["joints"]}
         links = {f"{number}": {"weight": weight} for number, weight in enumerate(event.get("links", ()), 1)}
@@ -145,7 +145,7 @@ def _event(event: dict[str, Any]) -> dict[str, Any]:
 
 
 def _named(value: Any) -> Any:
-    """A position or difference by the names of its components; other values unchanged."""
+    """Return the components of a position or difference by name. Other values are returned unchanged."""
     if not isinstance(value, list | tuple) or len(value) > len(_AXES):
         return value
     numbers = all(isinstance(each, int | float) for each in value)
@@ -244,7 +244,8 @@ _EVENTS: Final[Mapping[str, str]] = {
 
 
 def quantity_text(quantity: tuple[str, ...]) -> str:
-    """A quantity in words, such as `position of joint boom`, `place x of body base` or `value of the stop`."""
+    """Name a quantity in words, such as `position of joint boom`, `place x of body base` or `value of the
+    stop`."""
     match quantity:
         case (("joint" | "body" | "link") as kind, name, *what):
             said = f"{' '.join(what)} of {kind} {name}"
@@ -260,7 +261,8 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
 
 
 def values_text(found: QuantityDifference, measures: Measures = INCHES) -> tuple[str, str]:
-    """Both values in units of 1973, or in those of the task (`measures`), with enough decimals to distinguish them."""
+    """Return both values as text with enough decimals to distinguish them. Units are those of 1973, or those of
+    `measures`."""
     numbers = [value for value in (found.a, found.b) if _is_number(value)]
     told = iter(_numbers(numbers, found.unit, measures))
     one, other = (
@@ -275,7 +277,8 @@ def _is_number(value: Value) -> bool:
 
 
 def _numbers(values: list[Value], unit: str, measures: Measures) -> list[str]:
-    """Numbers in the displayed unit; in SI with all digits if they would look equal."""
+    """Return the numbers as text in the displayed unit. Numbers that would look equal are given in SI units
+    with all digits."""
     numbers = [float(value) for value in values if isinstance(value, int | float)]
     if all(isinstance(value, int) for value in values):
         return [f"{value}" for value in values]

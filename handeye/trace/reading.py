@@ -1,5 +1,5 @@
-"""Reads traces and their plans from disk. A trace that is incomplete, invalid or of another program is refused with
-one sentence.
+"""Reads traces and their plans from disk. A trace that is incomplete, invalid or written by another program is
+refused with a one-sentence message.
 """
 
 import re
@@ -29,8 +29,8 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
-    """Read a trace from a file; raises BadFile if the trace is incomplete (unless `lenient`), invalid, or does not
-    fit its plan.
+    """Read a trace from a file. Raises BadFile if the trace is incomplete (unless `lenient`), is invalid, or
+    does not fit its plan.
     """
     return read_trace_as(Trace, path, lenient=lenient)
 
@@ -68,14 +68,14 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
 
 
 def is_cut_short(path: Path) -> bool:
-    """True if a file is a trace that was not written to its end."""
+    """Return True if a file is a trace that was not written to its end."""
     data = read_whole(path)
     return is_mcap(data) and not is_ended(data)
 
 
 def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
-    """The plan in a file that is marked as a handeye trace, the version of the trace format, and whether the trace
-    is thinned.
+    """Check that a file is a handeye trace. Returns the plan in the file, the version of the trace format, and
+    whether the trace is thinned.
     """
     if not is_mcap(data):
         raise BadFile(f"{path} is not a trace: it is not an MCAP file")
@@ -95,15 +95,16 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
 
 
 def plan_of(trace: Trace) -> Plan:
-    """The plan of a recorded run; raises InvalidInput if the plan is invalid, or the system executes no plans of
-    motions.
+    """Return the plan of a recorded run. Raises InvalidInput if the plan is invalid, or if the run's system
+    executes no plans of motions.
     """
     require(trace.head.system, "plans", trace.name)
     return decode(trace.plan, f"the plan in {trace.name}")
 
 
 def stage_names(trace: Trace) -> tuple[str, ...]:
-    """The stages of the program; for a system without plans of motions, the stages that began."""
+    """Return the names of all stages of the program or, for a system without plans of motions, of the stages
+    that began."""
     if "plans" in entry_named(trace.head.system).can:
         return plan_of(trace).program.stages
     return tuple(dict.fromkeys(stage.name for stage in trace.stages))

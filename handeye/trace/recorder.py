@@ -1,4 +1,4 @@
-"""Records a run as it happens: every event, and the poses of all bodies sixty times per second."""
+"""Records every event of a run when it happens, and the poses of all bodies sixty times per second."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -29,24 +29,23 @@ from handeye.vision.marks import Mark
 
 
 def part(path: Path) -> Path:
-    """Path of a trace while it grows; when it is complete, it is renamed to `path`."""
+    """Return the path of a trace that is still being written. When complete, the trace is renamed to `path`."""
     return path.with_name(f"{path.name}.part")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSource:
-    """Pictures of a program and the marks on them, requested when an event concerns a picture."""
+    """Provides the pictures of a program and the marks on them, when an event concerns a picture."""
 
     picture: Callable[[str], Picture]  # the picture of a name, as it was taken last
     found: Callable[[], tuple[str, Sequence[Mark]]]  # picture and marks that the present step found
 
 
 class Recorder:
-    """Writes the trace of a run; messages about undone steps are removed, so that the file contains only what
-    counts.
+    """Writes the trace of a run. When the run goes back, the messages about the undone steps are removed.
 
-    A run that was interrupted and resumed leaves the same bytes as an uninterrupted one. A write error raises
-    CannotWrite once, and nothing more is written.
+    A run that was interrupted and resumed leaves the same bytes as an uninterrupted run. The first write error
+    raises CannotWrite, and nothing more is written.
     """
 
     def __init__(
@@ -59,10 +58,10 @@ class Recorder:
         old: bytes = b"",
         prefix: Sequence[Event] = (),
     ) -> None:
-        """Begin a trace; an unfinished trace of another run at this path is replaced.
+        """Begin a trace. An unfinished trace of another run at this path is replaced.
 
-        `plan` is the content of `plan.json`; `old` is a trace to resume, complete or not, that begins with the
-        events `prefix`.
+        `plan` is the content of `plan.json`. `old` is the content of a trace to resume, complete or not, which
+        begins with the events `prefix`.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
@@ -85,8 +84,8 @@ class Recorder:
     ) -> "Recorder":
         """Resume the trace of an interrupted run after its event number `events`.
 
-        `prefix` are the events so far. Events that the trace has lost are written again, without the messages
-        between them; if there is no trace, or it belongs to another run, these are all events.
+        `prefix` are the events so far. Events that the trace lacks are written again, without the messages
+        between them. If there is no trace, or if it belongs to another run, all events are written again.
         """
         prefix = prefix[:events]
         left = [read_whole(file) for file in (part(path), path) if file.exists()]
@@ -97,7 +96,7 @@ class Recorder:
 
     @property
     def broken(self) -> bool:
-        """True if a write has failed; the trace ends there."""
+        """True if a write failed. The trace ends there."""
         return self._writing.file.broken
 
     # -- what happens -------------------------------------------------------------------------------
@@ -118,9 +117,9 @@ class Recorder:
     def tick(self, period: ServoPeriod) -> None:
         """Record a servo period that has passed, with the poses of all bodies.
 
-        The period is written before the next event, together with the other periods since the last one, because
-        writing each period separately takes twice as long: the simulation displaces the recorder from the
-        processor's cache.
+        All periods since the last event are written together, just before the next event. Writing each period
+        separately takes twice as long, because the simulation displaces the recorder from the processor's
+        cache.
         """
         if self._writing.head is None:  # what was before the run is no part of it
             return
@@ -164,14 +163,16 @@ class Recorder:
             self._writing.frames(period.sensed.time, poses, there)
 
     def _rewrite(self, events: int | None) -> None:
-        """Replace the file by a new one with its content up to event number `events`, or with all of it if None."""
+        """Replace the file by a new one with the same content up to event number `events`, or with all of it if
+        `events` is None."""
         old = self._writing
         old.file.sync()
         self._writing = self._copied(read_whole(old.file.file), events, old.head)
         old.file.release()
 
     def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> TraceWriter:
-        """Begin a new file with the content of an old one up to an event; the new file replaces the old one."""
+        """Begin a new file with the content of an old one up to event number `events`. The new file replaces
+        the old one."""
         file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))
         writing = TraceWriter(file, self._frames, self._plan)
         try:

@@ -1,7 +1,7 @@
-"""Records of an MCAP file, and checks that the file is complete and undamaged.
+"""Reads the records of an MCAP file, and checks that the file is complete and undamaged.
 
-The MCAP reader verifies only some check sums of a file. Here all are verified, so that no changed bit goes
-unnoticed.
+The MCAP library verifies only some of a file's checksums. This module verifies all of them, so that it detects
+every changed bit.
 """
 
 import struct
@@ -33,12 +33,12 @@ Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 
 
 class DamagedTrace(Exception):
-    """A file is damaged; the message says how."""
+    """Raised if a file is damaged. The message describes the damage."""
 
 
 @dataclass(frozen=True, slots=True)
 class RawMessage:
-    """A message as stored in the file; `time` in ns."""
+    """A message as stored in the file; `time` is in ns."""
 
     topic: str
     time: int
@@ -47,26 +47,26 @@ class RawMessage:
 
 @dataclass(frozen=True, slots=True)
 class Front:
-    """The beginning of a trace, before all messages."""
+    """The beginning of a trace, before the first message."""
 
     metadata: dict[str, str]
     plan: bytes | None
 
 
 def is_mcap(data: bytes) -> bool:
-    """True if a file begins as an MCAP file does."""
+    """Return True if a file begins like an MCAP file."""
     return data.startswith(MCAP0_MAGIC)
 
 
 def is_ended(data: bytes) -> bool:
-    """True if a file ends as an MCAP file does that was written to its end."""
+    """Return True if a file ends like an MCAP file that was written completely."""
     return data.endswith(MCAP0_MAGIC) and len(data) >= 2 * len(MCAP0_MAGIC) + _DATA_END + _FOOTER
 
 
 def check(data: bytes) -> None:
-    """Raises DamagedTrace unless an MCAP file is complete and every bit is as written.
+    """Raise DamagedTrace unless an MCAP file is complete and every bit is as written.
 
-    Two check sums cover the whole file: one covers the records up to the end of the data, the other the summary.
+    Two checksums cover the whole file: one covers the records up to the end of the data, and one the summary.
     """
     if not is_ended(data):
         raise DamagedTrace("is cut short")
@@ -82,7 +82,7 @@ def check(data: bytes) -> None:
 
 
 def front(data: bytes) -> Front:
-    """The trace's own metadata, empty if there are none, and its plan."""
+    """Return the trace's own metadata, which may be empty, and its plan."""
     metadata: dict[str, str] = {}
     plan = None
     for opcode, body in _records(data):
@@ -98,7 +98,8 @@ def front(data: bytes) -> Front:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """Decompress bytes; raises DamagedTrace if they are damaged, or would fill the memory."""
+    """Decompress bytes. Raises DamagedTrace if they are damaged, or if the result would be too large for the
+    memory."""
     try:
         if not 0 <= frame_content_size(data) <= LARGEST:
             raise DamagedTrace("is damaged")
@@ -108,8 +109,8 @@ def _unpacked(data: bytes) -> bytes:
 
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
-    """The messages in complete chunks of a file; a damaged chunk raises DamagedTrace, or ends the messages if
-    `lenient`.
+    """Yield the messages in the complete chunks of a file. A damaged chunk raises DamagedTrace or, with
+    `lenient`, ends the messages.
     """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):
@@ -129,7 +130,7 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
 
 
 def _modest(chunk: Chunk) -> Chunk:
-    """Check that a chunk will not fill the memory; raises DamagedTrace if it would."""
+    """Raise DamagedTrace if a decompressed chunk would be too large for the memory; return the chunk if not."""
     packed = chunk.compression == "zstd"
     size = max(chunk.uncompressed_size, frame_content_size(chunk.data) if packed else len(chunk.data))
     if size > LARGEST or not (packed or chunk.compression == ""):
@@ -149,7 +150,7 @@ def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
 
 
 def _parsed(kind: type[Kind], body: bytes) -> Kind:
-    """Parse a record of one kind; raises DamagedTrace if the bytes are none."""
+    """Parse a record of one kind. Raises DamagedTrace if the bytes are not such a record."""
     try:
         found: Kind = kind.read(ReadDataStream(BytesIO(body)))
     except _TROUBLE:
@@ -158,12 +159,12 @@ def _parsed(kind: type[Kind], body: bytes) -> Kind:
 
 
 def event_data(event: Event) -> bytes:
-    """An event as stored in a trace."""
+    """Encode an event as a trace stores it."""
     return to_line(event)[:-1]
 
 
 def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMessage]:
-    """The messages up to event number `events`, or all if None."""
+    """Yield the messages up to event number `events`, or all messages if `events` is None."""
     if events == 0:
         return
     count = 0
@@ -175,7 +176,7 @@ def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMes
 
 
 def known(data: bytes, events: Sequence[Event]) -> int:
-    """Number of these events, from the first on, that a trace contains unchanged."""
+    """Return how many of these events, counted from the first, a trace contains unchanged."""
     written = (message.data for message in read_messages(data, lenient=True) if message.topic == EVENTS)
     count = 0
     for event, there in zip(events, written, strict=False):

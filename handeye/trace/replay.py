@@ -1,4 +1,4 @@
-"""The state of a recorded run at any time, without simulation: motions, pictures, poses."""
+"""Reconstructs the state of a recorded run at any time, without simulation: motions, pictures and poses."""
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
@@ -30,7 +30,7 @@ class TakenPicture(Brief):
 
 
 def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
-    """The pictures in messages, in order; the name of a picture is in the event after it."""
+    """Yield the pictures in messages, in order. The event that follows a picture gives its name."""
     picture: Picture | None = None
     reader = EventReader()
     for message in messages:
@@ -51,7 +51,7 @@ def _levels(data: bytes) -> Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Motion(Brief):
-    """Joints of an arm over a run, by its sensors: arrays over n servo periods and m joints."""
+    """The sensed motion of an arm's joints during a run, as arrays over n servo periods and m joints."""
 
     names: tuple[str, ...]  # names of the joints, in order
     times: Array  # ends of the servo periods, shape (n,), s
@@ -62,7 +62,7 @@ class Motion(Brief):
 
 
 def read_motion(messages: Iterable[RawMessage]) -> Motion:
-    """The arrays from messages about joints; raises ValueError if a message is from another arm than the first."""
+    """Make the arrays from messages about joints. Raises ValueError if the messages describe more than one arm."""
     times, rows, names = [], [], None
     for message in messages:
         joints = JointStates.FromString(message.data).joints
@@ -96,7 +96,7 @@ class ChannelCurve(Brief):
 
 
 def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
-    """All components of the channels in messages, in order; raises DecodeError if a message is invalid."""
+    """Return all components of the channels in messages, in order. Raises DecodeError if a message is invalid."""
     found: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for message in messages:
         for channel in decoded_channels(message.data):
@@ -133,7 +133,7 @@ class _StageSpan:
 
 
 class Replay:
-    """A run prepared for access at any time; it has at least one servo period."""
+    """A run prepared for access at any time. It has at least one servo period."""
 
     def __init__(
         self,
@@ -148,8 +148,8 @@ class Replay:
         self.names, self.poses = _placed(moves(messages), len(motion.times))
 
     def seek(self, time: float) -> Moment:
-        """The state at a time (s); times before the first and after the last servo period give the first or the
-        last state.
+        """Return the state at a time (s). A time before the first or after the last servo period gives the
+        first or the last state.
         """
         row = max(bisect_right(self._motion.times, time) - 1, 0)
         told = bisect_right(self._told, time, key=lambda telling: telling.time) - 1
@@ -172,8 +172,8 @@ class Replay:
 
 
 def moves(messages: Iterable[RawMessage]) -> Iterable[tuple[int, dict[str, Pose7]]]:
-    """The recorded poses: number of the servo period (0 before the first one), and the poses of the frames that
-    moved.
+    """Yield the recorded poses: the number of the servo period (0 before the first one), and the poses of the
+    frames that moved.
     """
     row = -1
     for message in messages:
@@ -192,8 +192,8 @@ def _poses(data: bytes) -> dict[str, Pose7]:
 
 
 def _placed(moved: Iterable[tuple[int, dict[str, Pose7]]], rows: int) -> tuple[tuple[str, ...], Poses]:
-    """Names of the frames, and their poses in each servo period, shape (rows, frames, 7); NaN before a frame first
-    appears.
+    """Return the names of the frames, and their poses in each servo period, shape (rows, frames, 7). Poses are
+    NaN before a frame first appears.
     """
     written = list(moved)
     names = tuple(dict.fromkeys(name for _, poses in written for name in poses))

@@ -1,4 +1,4 @@
-"""Sentences for events, in the units of the arm language: inches, ounces, degrees."""
+"""Describes events in sentences, in the units of the arm language: inches, ounces, degrees."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -44,7 +44,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
 
 
 def level_of(event: Event) -> Log.Level.ValueType | None:
-    """Log level of an event; None if the event is not logged."""
+    """Return the log level of an event, or None if the event is not logged."""
     return _IMPORTANCE[event.importance] if isinstance(event, SystemEvent) else LEVELS.get(type(event))
 
 
@@ -70,18 +70,20 @@ _PLACES: Final = ("saved", "position")  # kinds of experiments whose values are 
 
 
 def measures_of(task: str) -> Measures:
-    """The display units for runs of a task, given by name; those of the arm language if the task is unknown here."""
+    """Return the display units for runs of the task called `task`. An unknown task has the units of the arm
+    language."""
     found = known_any(task)
     return INCHES if found is None else found.measures
 
 
 def inches(vector: Sequence[float], places: int = 2) -> str:
-    """A vector (m) as the language writes it, in inches."""
+    """Return a vector (m) as text in inches, as the arm language writes it."""
     return "(" + ", ".join(f"{c / INCH:z.{places}f}" for c in vector) + ") in"
 
 
 def renderer_name(renderer: Renderer) -> str:
-    """Name of a renderer: `OpenGL (EGL)`, `ray casting`, `none`, `the caller's code (fog.Foggy)`."""
+    """Return the name of a renderer, such as `OpenGL (EGL)`, `ray casting`, `none` or `the caller's code
+    (fog.Foggy)`."""
     named = {"opengl": "OpenGL", "rays": "ray casting", "none": "none", "replaced": "the caller's code"}[
         renderer.method
     ]
@@ -89,8 +91,8 @@ def renderer_name(renderer: Renderer) -> str:
 
 
 def sentence(event: Event, measures: Measures = INCHES) -> str:
-    """An event as a sentence, without the time; `measures` are used for the end of a step and for events of the
-    system.
+    """Describe an event in a sentence, without the time. `measures` are the units for the end of a step and for
+    events of the run's system.
     """
     match event:
         case happened.RunStarted():
@@ -198,7 +200,7 @@ def _faint(event: happened.GuardFaint) -> str:
 
 
 def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:
-    """A sentence with the sensed value and the limit that it exceeds."""
+    """Return a function that describes, in a sentence, a sensed value and the limit that it exceeds."""
 
     def sentence(event: happened.GuardTripped) -> str:
         felt, limit = distinct_digits([event.value / si, event.limit / si], 1)
@@ -225,6 +227,6 @@ def _seen(event: happened.PartSeen) -> str:
 
 
 def _value(value: tuple[float, ...]) -> str:
-    """A difference or position as text, with the angles of a position after it."""
+    """Return a difference or position as text. The angles of a position come last."""
     angles = "".join(f" {math.degrees(angle):.1f}" for angle in value[3:])
     return inches(value[:3], 3) + (f", angles{angles}" if angles else "")

@@ -1,4 +1,4 @@
-"""The stages and steps of a run, as executed."""
+"""The stages and steps of a run, as they were executed."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -26,20 +26,21 @@ CLOCKS = 1e-4  # s by which the rounded clock of events may be off that of servo
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A time span, from the beginning to the end of a stage or step, s."""
+    """The time from the beginning to the end of a stage or step (s)."""
 
     begin: float
     end: float
 
     def rows(self, times: Array) -> slice:
-        """The servo periods within the span, as a slice of `times`, shape (n,), at which the periods end."""
+        """Return the servo periods within the span, as a slice of `times`, shape (n,). `times` are the ends of
+        the periods."""
         first, last = np.searchsorted(times, [self.begin + CLOCKS, self.end + CLOCKS]).tolist()
         return slice(first, last)
 
 
 @dataclass(slots=True)
 class DoneStep:
-    """A step, as executed."""
+    """A step, as it was executed."""
 
     started: StepStarted
     events: list[AnyEvent] = field(default_factory=list)  # its end among them, if it ended
@@ -50,12 +51,12 @@ class DoneStep:
 
     @property
     def span(self) -> Span:
-        """The duration of the step; a step that was interrupted lasts until the end of the run."""
+        """The time span of the step. An interrupted step lasts until the end of the run."""
         return Span(self.started.time, self.events[-1].time if self.finished else np.inf)
 
 
 def done_steps(events: Iterable[AnyEvent]) -> Iterator[DoneStep]:
-    """The steps in the order in which they were executed."""
+    """Yield the steps in the order in which they were executed."""
     step: DoneStep | None = None
     for event in events:
         if isinstance(event, StepStarted):
@@ -74,7 +75,7 @@ Status = Literal["done", "stopped", "skipped", "broken off", "turned"]  # `turne
 
 
 class Stage(Record, frozen=True, kw_only=True):
-    """One execution of a stage, from beginning to end; a repeated stage has several."""
+    """One execution of a stage. A repeated stage has several executions."""
 
     name: str
     begin: float  # s
@@ -84,7 +85,7 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """The stages, in the order in which they began."""
+    """Return the stages in the order in which they began."""
     found: list[Stage] = []
     begun: StageStarted | None = None
     time = 0.0
@@ -101,7 +102,8 @@ def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 
 
 def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """The stages in the order in which the arm went through them, forwards or, while undoing, backwards."""
+    """Return the stages in the order in which the arm went through them, forwards or, while undoing its work,
+    backwards."""
     walk, time = _Walk(), 0.0
     for event in events:
         time = event.time
@@ -139,7 +141,7 @@ class _Walk:
                 self.end(event.time, "done")
 
     def _turn(self, time: float, *, back: bool) -> None:
-        """Change the direction, forwards or backwards, in which the arm goes through stages."""
+        """Change the direction in which the arm goes through stages."""
         if self._begun is not None and self._back != back:
             self.end(time, "turned")
         if self._begun is None:

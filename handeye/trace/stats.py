@@ -1,4 +1,4 @@
-"""Statistics of a run: where the time went, and how often each kind of event happened."""
+"""Computes statistics of a run: how long each part took, and how often each kind of event happened."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -47,7 +47,7 @@ class Figures(msgspec.Struct, kw_only=True):
 
 
 class StageFigures(Figures, kw_only=True):
-    """Statistics of a stage; repetitions of a stage are added up."""
+    """Statistics of a stage. The figures of repetitions are added up."""
 
     stage: str
     status: str = BROKEN_OFF  # how it last ended: done, stopped, skipped, or interrupted
@@ -64,7 +64,7 @@ class Statistics(msgspec.Struct, kw_only=True):
 
 
 def statistics(events: Sequence[AnyEvent], messages: dict[str, int]) -> Statistics:
-    """Statistics of a run, with the number of `messages` on each channel of its trace."""
+    """Compute the statistics of a run. `messages` is the number of messages on each channel of the run's trace."""
     total = Figures()
     for event in events:
         total.add(event)
@@ -102,7 +102,7 @@ def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
 
 
 def statistics_table(figures: Statistics, columns: int) -> RenderableType:
-    """A table of the statistics for a terminal with `columns` columns; times in simulated seconds."""
+    """Return the statistics as a table for a terminal with `columns` columns. Times are in simulated seconds."""
     table = _table(figures) if columns >= NARROW else _lines(figures)
     told = f"operator called: {figures.operator}; experiments: {figures.experiments}"
     parts: list[RenderableType] = [table, Text(), Text(told)]
@@ -124,8 +124,8 @@ def _table(figures: Statistics) -> Table:
 
 
 def _lines(figures: Statistics) -> Group:
-    """The statistics as a paragraph for each stage and one for the total, for narrow terminals in which a table
-    would break words.
+    """Return the statistics as one paragraph per stage and one for the total. Narrow terminals need this,
+    because a table would break words.
     """
     rows = [*((_name(stage), _cells(stage)) for stage in figures.stages), ("all", _cells(figures.total))]
     told = (

@@ -29,7 +29,7 @@ class Column(Brief):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Table:
-    """A table; each column is an array, or a tuple of texts.
+    """A table of data. Each column is an array, or a tuple of texts.
 
     >>> events = handeye.open(handeye.demo).table("events")
     >>> events["event"][0], len(events[10:20])
@@ -80,7 +80,7 @@ class Table:
         )
 
     def _repr_html_(self) -> str:
-        """The first rows as HTML; `table[100:110]` shows others."""
+        """Return the first rows as HTML. A slice such as `table[100:110]` shows other rows."""
         columns = [column for column in self.columns if column.name != "data"]
         heads = [f"{each.name}, {each.unit}" if each.unit else each.name for each in columns]
         rows = zip(*(each.values[:SHOWN_ROWS] for each in columns), strict=True)

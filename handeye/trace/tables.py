@@ -1,4 +1,4 @@
-"""A trace as tables for data analysis, and the folder to which they are exported."""
+"""Converts a trace to tables for data analysis, and exports the tables to a folder."""
 
 import csv
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -26,14 +26,14 @@ NO_STEP: Final = -1  # instead of the number of a step, and of its line, where n
 
 
 def table(trace: Trace, name: str) -> Table:
-    """One of the tables of a run, by name; raises NoSuchName if there is no table of that name."""
+    """Return the table of a run called `name`. Raises NoSuchName if there is no such table."""
     if name not in _TABLES:
         raise NoSuchName(f"there is no table {name!r}; there are {', '.join(_TABLES)}")
     return _TABLES[name](trace)
 
 
 def tables(trace: Trace) -> tuple[Table, ...]:
-    """The tables of a run: joints, forces, events and, if its machines have channels, the channels."""
+    """Return the tables of a run: joints, forces, events and, if its machines have channels, the channels."""
     return tuple(make(trace) for name, make in _TABLES.items() if name != "channels" or trace.channels)
 
 
@@ -156,7 +156,8 @@ def _happening(events: Iterable[AnyEvent]) -> Iterator[_RunPosition]:
 
 
 def _under_way(trace: Trace, times: Array) -> tuple[Column, ...]:
-    """Columns with the end of each servo period, shape (n,), and the step in progress then."""
+    """Return columns with the end of each servo period, and with the step that was in progress at that time.
+    `times` has shape (n,)."""
     happening = tuple(_happening(trace.events))
     begun = np.array([event.time for event in trace.events]) + CLOCKS
     rows = np.searchsorted(begun, times, side="right") - 1
@@ -195,7 +196,8 @@ EXPORT: Final = FolderKind(
 def export_tables(
     path: Path, trace: Callable[[], Trace], kind: Format, *, overwrite: bool
 ) -> tuple[Table, ...]:
-    """Write the tables of a trace, which is read only after the folder has been checked; returns the tables."""
+    """Write the tables of a trace to a folder, and return them. `trace` is called, and so the trace read, only
+    after the folder has been checked."""
     check_folder(path, EXPORT, overwrite=overwrite)
     made = tables(trace())
     write_tables(path, made, kind)
@@ -203,14 +205,14 @@ def export_tables(
 
 
 def check_tables(path: Path, kind: Format) -> None:
-    """Raises CannotWrite or MissingExtra if tables of this kind cannot be written to a folder."""
+    """Raise CannotWrite or MissingExtra if tables of this format cannot be written to a folder."""
     check_folder(path, EXPORT, overwrite=True)
     _WRITERS[kind](Table(name="", about="", columns=()))
 
 
 def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _SI) -> None:
-    """Write tables to a folder, replacing the tables in it, with a README about their columns and (`units`) their
-    units.
+    """Write tables to a folder, replacing the tables in it, with a README that describes the columns. `units`
+    is the README's sentence about units.
     """
     check_folder(path, EXPORT, overwrite=True)
     written = _WRITERS[kind]
@@ -220,8 +222,8 @@ def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _
 
 
 def csv_bytes(table: Table) -> bytes:
-    """A table as CSV: the names of the columns, then one row per line; numbers have full precision, None and NaN
-    are empty cells.
+    """Encode a table as CSV: the names of the columns, then one line per row. Numbers have full precision. None
+    and NaN become empty cells.
     """
     text = StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -238,7 +240,7 @@ def _cells(column: Column) -> Iterable[object]:
 
 
 def parquet_bytes(table: Table) -> bytes:
-    """A table as Parquet, with units and meanings as metadata of the fields."""
+    """Encode a table as Parquet. Units and descriptions are metadata of the fields."""
     try:
         import pyarrow as pa
         from pyarrow import parquet

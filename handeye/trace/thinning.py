@@ -1,4 +1,5 @@
-"""Thinned traces: keep only the servo periods needed to show the run; all others can be interpolated linearly."""
+"""Thins traces: keeps only the servo periods that are needed to show the run. All other periods can be
+interpolated linearly."""
 
 from collections.abc import Iterator
 from math import radians
@@ -36,9 +37,10 @@ _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
 
 
 def kept_periods(trace: Trace) -> Rows:
-    """Numbers of the servo periods to keep, in order, for a run that has any.
+    """Return the numbers of the servo periods to keep, in order. The run must have at least one period.
 
-    The first and last period of each guard, and the period with its greatest value, are always kept.
+    The first and last period of each guarded motion, and the period with the guard's greatest value, are always
+    kept.
     """
     times, forces = trace.times, trace.forces()
     offs = [*_bodies(times, trace.poses), _felt(times, forces)]
@@ -59,7 +61,7 @@ def _bodies(times: Array, poses: dict[str, Poses]) -> Iterator[Off]:
 
 
 def _felt(times: Array, forces: Forces) -> Off:
-    """A function for the deviation of the guards' values from interpolation."""
+    """Return a function that computes how far the guards' values deviate from linear interpolation."""
     allowed: NDArray[np.float64] = np.full(len(times), np.inf)
     for kind, most in FELT.items():
         allowed[forces.guard == kind] = most
@@ -67,7 +69,8 @@ def _felt(times: Array, forces: Forces) -> Off:
 
 
 def _watching(forces: Forces) -> Iterator[int]:
-    """First and last servo period of each guarded motion, and the period with the greatest value."""
+    """Yield the first and last servo period of each guarded motion, and the period with the guard's greatest
+    value."""
     watched = np.concatenate([[False], forces.guard != "", [False]])
     borders = np.flatnonzero(watched[1:] != watched[:-1]).reshape(-1, 2).tolist()
     for first, after in borders:
@@ -82,11 +85,11 @@ degrees.
 
 
 def write_thinned(trace: Trace, path: Path) -> int:
-    """Write a thinned trace of a run; returns the number of servo periods kept.
+    """Write a thinned trace of a run. Returns the number of servo periods that it keeps.
 
-    Joints, hand and frames of all other periods are left out, and the shapes of the bodies, which only other
-    programs use. Frames are rounded. Everything else is unchanged, byte for byte. Raises Refused if the trace is
-    already thinned or contains no motion.
+    The thinned trace lacks the joints, hand and frames of all other periods, and the shapes of the bodies,
+    which only other programs use. Frames are rounded. Everything else is unchanged, byte for byte. Raises
+    Refused if the trace is already thinned or contains no motion.
     """
     if trace.thinned:
         raise Refused(f"{trace.name} is already thinned")
@@ -111,7 +114,7 @@ def write_thinned(trace: Trace, path: Path) -> int:
 
 
 def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:
-    """The messages of the thinned trace. In a kept period, the poses follow the message about joints."""
+    """Yield the messages of the thinned trace. In a kept period, the poses follow the message about the joints."""
     frames, row = _Frames(trace), -1
     for message in trace.messages:
         row += message.topic == JOINTS
@@ -125,7 +128,7 @@ def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:
 
 
 class _Frames:
-    """Poses, as messages about the bodies that have moved since the last message."""
+    """Converts poses to messages about those bodies that have moved since the last message."""
 
     def __init__(self, trace: Trace) -> None:
         self._poses = np.rint(np.stack(list(trace.poses.values()), axis=1) / STEP) * STEP
@@ -133,7 +136,7 @@ class _Frames:
         self._told = np.full_like(self._poses[0], np.nan)
 
     def moved(self, row: int, time: int) -> Iterator[RawMessage]:
-        """The message for a servo period; none if nothing has moved."""
+        """Yield the message for a servo period, unless no body has moved."""
         now = self._poses[row]
         which = np.flatnonzero(~np.isnan(now[:, 0]) & (now != self._told).any(axis=1))
         if which.size:

@@ -1,4 +1,4 @@
-"""A trace read from a file: the events of a run, and the recordings between the events."""
+"""A trace read from a file: the events of a run, and what was recorded between them."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -40,8 +40,8 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace:
-    """The recording of a run, read from a file and checked. Values computed from the recording are computed once
-    and kept.
+    """The recording of a run, read from a file and checked. Values derived from the recording are computed on
+    first use and then cached.
 
     Times are in seconds since the program began. Reading raises `InvalidInput` if a message does not match its
     channel.
@@ -60,12 +60,12 @@ class Trace:
 
     @cached_property
     def stages(self) -> tuple[Stage, ...]:
-        """The stages, as executed, in order."""
+        """The stages in the order in which they were executed."""
         return Several(stages(self.events))
 
     @cached_property
     def stages_both_ways(self) -> tuple[Stage, ...]:
-        """Like `stages`, but also with the stages through which the arm went back to undo its work."""
+        """Like `stages`, but includes the stages through which the arm went backwards to undo its work."""
         return Several(stages_both_ways(self.events))
 
     @cached_property
@@ -77,34 +77,37 @@ class Trace:
 
     @property
     def times(self) -> Array:
-        """Ends of the servo periods, s, shape (n,)."""
+        """Times at the end of each servo period (s), shape (n,)."""
         return self.motion.times
 
     @property
     def joints(self) -> Array:
-        """Sensed joint positions, shape (n, m): rad, or m for prismatic joints."""
+        """Sensed joint positions, in rad, or in m for prismatic joints; shape (n, m)."""
         return self.motion.joints
 
     @property
     def rates(self) -> Array:
-        """Sensed joint rates, shape (n, m): rad/s, or m/s for prismatic joints."""
+        """Sensed joint velocities, in rad/s, or in m/s for prismatic joints; shape (n, m)."""
         return self.motion.rates
 
     @property
     def efforts(self) -> Array:
-        """Commanded joint torques, shape (n, m): N m, or N for prismatic joints; zero under the brakes."""
+        """Commanded joint torques (N m), or forces (N) for prismatic joints; shape (n, m). Zero while the
+        brakes are on."""
         return self.motion.efforts
 
     @property
     def gaps(self) -> Array:
-        """Sensed opening of the fingers, m, shape (n,)."""
+        """Sensed opening of the fingers (m), shape (n,)."""
         return self.motion.gaps
 
     @property
     def poses(self) -> dict[str, Poses]:
-        """Poses of all bodies by name, shape (n, 7) each: position in W (m), then a unit quaternion w, x, y, z.
+        """Poses of all bodies by name, shape (n, 7) each: the position in W (m), then a unit quaternion w, x,
+        y, z.
 
-        NaN while a body does not exist, such as the carrier of a screw before the screw is driven.
+        A pose is NaN while its body does not exist. The carrier of a screw, for example, exists only when the
+        screw is being driven.
         """
         return Named(zip(self._replay.names, self._replay.poses.swapaxes(0, 1), strict=True))
 
@@ -114,11 +117,13 @@ class Trace:
         return self._read(lambda messages: read_motion(m for m in messages if m.topic == JOINTS))
 
     def forces(self, line: int | str | None = None) -> Forces:
-        """The force of the hand on its surroundings, in the whole run or during one line of the script.
+        """Return the force that the hand exerts on its surroundings, in the whole run or during one line of the
+        script.
 
         Args:
-            line: number of the line in the script, or `"pins.al:12"` for a line of a required file; all executions
-                of the line are included. A motion belongs to its own line, not to the line of its `STOP`.
+            line: number of the line in the script, or, for a line of a required file, a text such as
+                `"pins.al:12"`. All executions of the line are included. A motion belongs to its own line, not
+                to the line of its `STOP`.
 
         Raises:
             InvalidInput: no such line was executed.
@@ -132,7 +137,8 @@ class Trace:
         return self._forces.within(spans)
 
     def _line_below(self, place: str) -> str:
-        """A hint with the next executed line, which is that of the motion if `place` is the line of its `STOP`."""
+        """Return a hint that names the next executed line. If `place` is the line of a `STOP`, that is the line
+        of its motion."""
         file, _, number = place.rpartition(":")
         started = [step.started for step in done_steps(self.events) if step.started.file == file]
         below = [step for step in started if number.isdecimal() and step.line > int(number)]
@@ -143,7 +149,7 @@ class Trace:
 
     @cached_property
     def channels(self) -> tuple[ChannelCurve, ...]:
-        """Readings of the machines' own channels, each component over time; empty for a planned program."""
+        """Readings of the machines' own channels: each component over time. Empty for a planned program."""
         return self._read(lambda messages: read_channels(m for m in messages if m.topic == MACHINES))
 
     @cached_property
@@ -154,11 +160,11 @@ class Trace:
     # -- at a moment -------------------------------------------------------------------------------------
 
     def at(self, time: float) -> Moment:
-        """The state of the run at a time (s).
+        """Return the state of the run at a time (s).
 
         Raises:
-            InvalidInput: the time is no number or lies outside the recording, or nothing was recorded between the
-                events.
+            InvalidInput: the time is not a number, or lies outside the recording, or the trace contains no
+                motion.
         """
         if not isinstance(time, (int, float, np.number)):
             raise BadArgument(f"a time is a number of seconds, not {time!r}")
@@ -171,20 +177,23 @@ class Trace:
         self, time: float, camera: str | None = None, *, width: int = 1280, height: int = 960,
         fine: bool = False, film: str | None = None, exposures: int | None = None,
     ) -> NDArray[np.uint8]:  # fmt: skip
-        """A photograph of the cell at a time (s), shape (height, width, 3), red, green, blue.
+        """Return a photograph of the cell at a time (s), as red, green and blue values of shape (height, width,
+        3).
 
-        It is drawn from the recording, without simulation, and needs OpenGL.
+        The photograph is rendered from the recorded poses, without simulation. This needs OpenGL.
 
         Args:
-            camera: one of the scene's cameras; by default the one that shows the whole cell.
-            fine: average many exposures with special lighting: soft shadows, depth of field, smooth edges.
+            camera: name of a camera in the scene; by default the camera that shows the whole cell.
+            fine: average many exposures with special lighting, which gives soft shadows, depth of field and
+                smooth edges.
             film: film of a fine photograph: `"colour"`, or `"1973"` for black and white.
-            exposures: number of exposures of a fine photograph, 24 by default. Giving `exposures` or `film` implies
+            exposures: number of exposures of a fine photograph, 24 by default. Giving `exposures` or `film`
+                implies
                 `fine`.
 
         Raises:
-            InvalidInput: for the reasons given at `at`; or the size or number of exposures is out of range, there
-                is no such camera or film, or OpenGL is missing.
+            InvalidInput: for the same reasons as `at`; or the size or the number of exposures is out of range,
+                there is no such camera or film, or OpenGL is missing.
         """
         from handeye.cell.exposures import exposing, photographed
         from handeye.cell.posed import posed
@@ -199,7 +208,7 @@ class Trace:
         """The MuJoCo model of the run's scene in its initial state.
 
         Raises:
-            InvalidInput: the run's task is unknown here.
+            InvalidInput: this Python program does not know the run's task.
         """
         from handeye.tasks import any_task
 
@@ -207,7 +216,7 @@ class Trace:
 
     @property
     def overview(self) -> str:
-        """The camera of the run's scene that shows the whole cell."""
+        """Name of the camera that shows the whole cell."""
         from handeye.tasks import any_task
 
         return any_task(self.head.task).camera
@@ -225,10 +234,10 @@ class Trace:
         return f"<Trace of {self.head.program}, {self.head.world}: {told}, {self.begins:.2f} to {last:.2f} s>"
 
     def table(self, name: str = "events") -> "Table":
-        """One of the tables of the run: `joints` and `forces` have one row per servo period; `events` has time,
-        line and text of each event.
+        """Return one of the tables of the run. `joints` and `forces` have one row per servo period; `events`
+        has the time, line and text of each event.
 
-        A notebook shows the table; `["time"]` gives a column, `to_pandas()` a DataFrame.
+        A notebook displays the table. `["time"]` returns a column, and `to_pandas()` a DataFrame.
 
         Raises:
             InvalidInput: there is no such table, or a message does not match its channel.
@@ -241,10 +250,11 @@ class Trace:
 
     @cached_property
     def unseen(self) -> int:
-        """Number of events before recordings begin between the events.
+        """Number of events before the first message that is recorded between events.
 
-        It is greater than that of the start of the run and of its first stage if the run was resumed from a
-        checkpoint. 0 for a system that moves no arm.
+        A run resumed from a checkpoint has more such events than the start of the run and of its first stage,
+        because its earlier events are copied without the messages between them. 0 for a system that moves no
+        arm.
         """
         if not self.head.arm:
             return 0
@@ -257,22 +267,23 @@ class Trace:
 
     @property
     def begins(self) -> float:
-        """Time at which the recording of motions begins, s: 0, except for a run resumed from a checkpoint."""
+        """Time at which the recording of motions begins (s). It is 0, unless the run was resumed from a
+        checkpoint."""
         return self.events[max(self.unseen - 1, 0)].time
 
     @property
     def covers(self) -> tuple[float, float]:
-        """Begin and end of the recording of motions, s.
+        """The beginning and the end of the recording of motions (s).
 
         Raises:
-            InvalidInput: nothing was recorded between the events.
+            InvalidInput: the trace contains no motion.
         """
         if not len(self.times):
             raise Refused(f"{self.name} contains no motion to show")
         return self.begins, max(float(self.times[-1]), self.events[-1].time)
 
     def _read(self, make: Callable[[Iterator[RawMessage]], Read]) -> Read:
-        """Compute a value from the messages; raises BadFile if a message is invalid."""
+        """Compute a value from the messages. Raises BadFile if a message is invalid."""
         handed = self.messages[:1]
 
         def hand_out() -> Iterator[RawMessage]:

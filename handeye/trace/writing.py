@@ -41,9 +41,9 @@ BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may 
 class TraceWriter:
     """Writes the messages of a trace to a file.
 
-    The writer's state can be derived from the file, so that messages copied from another file can be continued.
-    Messages that belong to an event (sentence, picture, frames) precede it, so that a trace can be cut after any
-    event.
+    The writer's state can be derived from the messages, so the writer can continue after messages that were
+    copied from another file. Messages that belong to an event (sentence, picture, frames) precede the event, so
+    a trace can be cut after any event.
     """
 
     def __init__(self, file: GrowingFile, frames: Frames, plan: bytes) -> None:
@@ -61,7 +61,7 @@ class TraceWriter:
         self._frames_message = messages.FramesMessage(frames.names)
 
     def begin(self, head: RunStarted) -> None:
-        """Write everything that precedes the messages."""
+        """Write everything that precedes the messages in the file."""
         self.head, self._measures = head, measures_of(head.task)
         self.file.begin(head, self._plan)
 
@@ -83,7 +83,7 @@ class TraceWriter:
         self.events += 1
 
     def picture(self, event: PictureTaken, picture: Picture) -> None:
-        """Write a picture, without marks yet; the picture's event follows."""
+        """Write a picture, still without marks. The event of the picture follows."""
         time = nanoseconds(event.time)
         self.file.write(PICTURE, time, messages.picture(time, picture))
         self.file.write(
@@ -91,7 +91,7 @@ class TraceWriter:
         )  # else those of the picture before would stay on it
 
     def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
-        """Write the marks for the findings in a picture; the event of the finding follows."""
+        """Write the marks for what vision found in a picture. The event of the finding follows."""
         self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))
 
     def period(self, period: ServoPeriod) -> None:
@@ -103,10 +103,11 @@ class TraceWriter:
             self.file.write(MACHINES, time, channels_message(period.sensed))
 
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
-        """Write the poses of the frames that moved or appeared since they were last written; `anew`: of all frames.
+        """Write the poses of the frames that moved or appeared since they were last written, or with `anew`, of
+        all frames.
 
-        Bodies that are put away are written only with `anew`, because their poses do not matter. A body that ceases
-        to exist, such as the carrier of a screw that has been turned out, counts as put away in the trace.
+        Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
+        has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
         """
         sent = self._sent
         gone = ~there & ~np.isnan(sent[:, 0])

@@ -1,1 +1,1 @@
-"""One pin and one hole: the task of the insertion bench."""
+"""The task of the insertion bench: insert one pin into one hole."""

@@ -1,5 +1,5 @@
-"""The insertion bench: an arm, a pin in a holder, a face with one hole, and a witness that records the truth for
-the referee.
+"""Builds the insertion bench: an arm, a pin in a holder, a face with one hole, and a witness, which records for
+the referee what really happened.
 """
 
 import math
@@ -44,8 +44,8 @@ _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
 
 
 def build(world: InsertionWorld) -> mujoco.MjModel:
-    """Compile the scene. Its arm is at joint positions of zero, outside the limits of joint 3: set a configuration
-    before stepping.
+    """Compile the scene. All joint positions are zero, which is outside the limits of joint 3: set a
+    configuration before the first physics step.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     add_arm(spec, world)  # first: free bodies before it would shift its joints
@@ -103,7 +103,7 @@ def _add_holder(shaper: Shaper) -> None:
 
 
 def in_holder() -> Array:
-    """Position of the pin's origin when the pin stands in its holder, m, W, shape (3,)."""
+    """Return the position of the pin's origin in W (m, shape (3,)) when the pin stands in its holder."""
     d = dimensions()
     seat = pin_seat(d("pin_holder.chamfer"), d("pin_holder.hole_radius"))
     return np.array([*HOLDER, d("pin_holder.height") + seat])
@@ -160,7 +160,7 @@ class InsertionCell(SimulatedCell):
     """A cell with a witness that records the contacts of pin and plate."""
 
     def __init__(self, world: InsertionWorld) -> None:
-        """Switch on the cell of a world."""
+        """Build the cell of a world and switch it on."""
         model = build(world)
         data, noise = mujoco.MjData(model), world.generator("sensors")
         arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
@@ -170,17 +170,17 @@ class InsertionCell(SimulatedCell):
 
 
 def shoulder(data: mujoco.MjData) -> float:
-    """Height of the pin's shoulder over the face, m."""
+    """Return the height of the pin's shoulder above the face (m)."""
     return float(data.body("pin").xpos[2]) - FACE
 
 
 def off_holder(data: mujoco.MjData) -> tuple[float, float]:
-    """Distance of the pin from its position in the holder, m, and its tilt, rad."""
+    """Return the distance of the pin from its position in the holder (m), and the tilt of the pin (rad)."""
     pin = data.body("pin")
     return float(np.linalg.norm(pin.xpos - in_holder())), math.acos(min(1.0, float(pin.xmat[8])))
 
 
 def tip(data: mujoco.MjData) -> Array:
-    """Centre of the end of the pin's nose in W, m, shape (3,)."""
+    """Return the centre of the end of the pin's nose in W (m, shape (3,))."""
     pin = data.body("pin")
     return np.asarray(pin.xpos - dimensions()("pin.nose_length") * pin.xmat.reshape(3, 3)[:, 2])

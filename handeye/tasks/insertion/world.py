@@ -38,7 +38,7 @@ VARIATION: Final = Variation(*arm(), *hand(), *rubbing(_RUBBING), *_hole())  # t
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWorld(ArmWorld):
-    """One drawn world of the bench."""
+    """One drawn world of the insertion bench."""
 
     clearance: float  # diameter of the hole over that of the pin's nose, m
     chamfer: float  # width of the chamfer around the hole, m
@@ -46,7 +46,7 @@ class InsertionWorld(ArmWorld):
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
-        """Draw the world of a specification; raises InvalidInput if that is impossible for this task."""
+        """Draw the world of a specification. Raises InvalidInput if the specification does not fit this task."""
         world = VARIATION.draw(spec)
         return cls(
             **arm_values(world, _RUBBING),

@@ -1,1 +1,2 @@
-"""Parts common to all cells with the Stanford arm: the true arm with its errors; dimensions; shapes of metal parts."""
+"""Parts common to all cells with the Stanford arm: the arm with its true errors, dimensions, and shapes of
+metal parts."""

@@ -1,4 +1,4 @@
-"""Builds the true arm, with the errors of its world, on its riser."""
+"""Builds the simulated Stanford arm on its riser, with the arm errors of a world."""
 
 import math
 from typing import Final
@@ -16,7 +16,7 @@ ARM: Final = "stanford/"  # prefix of all names of the arm
 
 
 def add_arm(spec: mujoco.MjSpec, world: ArmWorld) -> None:
-    """Add the true arm on its riser, with the pad friction of the world."""
+    """Add the arm on its riser, with the arm errors and the pad friction of the world."""
     arm = mujoco.MjSpec.from_file(str(scenes() / "stanford_arm" / "stanford.xml"))
     _differ(arm, world.arm_build)
     arm.geom("lamp").pos += world.lamp  # in the frame of link 6, whose axes are those of the hand
@@ -30,7 +30,7 @@ def add_arm(spec: mujoco.MjSpec, world: ArmWorld) -> None:
 
 
 def _differ(arm: mujoco.MjSpec, build: ArmBuild) -> None:
-    """Change the arm of the design to the true arm."""
+    """Change the arm from its design to the arm of a world."""
     for i, friction in enumerate(build.friction):
         link, joint = arm.body(f"link{i + 1}"), arm.joint(f"j{i + 1}")
         link.mass *= build.link_mass[i]

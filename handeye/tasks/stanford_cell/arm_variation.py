@@ -1,4 +1,5 @@
-"""Quantities in which the Stanford arm and its hand differ from the controller's model; joints are counted from 1."""
+"""Quantities in which the Stanford arm and its hand differ from the controller's model. Joints are numbered
+from 1."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
@@ -46,7 +47,7 @@ def group(
     least: float = -np.inf,
     greatest: float = np.inf,
 ) -> Iterator[Quantity]:
-    """Quantities with a common source; magnitudes are never negative."""
+    """Yield quantities that share a source. The drawn values of magnitudes are never negative."""
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
@@ -131,7 +132,7 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Coulomb friction of the joints; for joint 1, which carries no weight, the paper gives no check."""
+    """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
     means = STANFORD.compliance.friction
     what = (
         "Coulomb friction of the joints, varied by a quarter. Without this error, the friction of a joint is its "
@@ -176,7 +177,7 @@ def hand() -> Iterator[Quantity]:
 
 
 def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
-    """Factors on the coefficients of friction of some kinds of shapes, by name."""
+    """Yield, for each named kind of shape, the relative error of its coefficient of friction."""
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
         "Coefficients of friction divided by those of the drawing.", least=-100.0,

@@ -1,4 +1,4 @@
-"""The arm and the hand of one world, from which a cell is built."""
+"""The errors of the arm and the hand in one world, from which a cell is built."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -26,12 +26,13 @@ class ArmWorld:
     """Factors on the coefficients of friction, by kind of shape; `pad` is the kind of the fingers."""
 
     def generator(self, stream: str) -> np.random.Generator:
-        """A random number generator for noise in this world; different streams are independent."""
+        """Return a random number generator for noise in this world. Generators of different streams are
+        independent."""
         return self.drawn.generator(stream)
 
 
 def arm_values(world: World, rubbing: Sequence[str]) -> dict[str, Any]:
-    """The fields of an `ArmWorld` with their values; `rubbing` are the kinds of shapes whose friction varies."""
+    """Return the values of an `ArmWorld`'s fields. `rubbing` names the kinds of shapes whose friction varies."""
     return {
         "drawn": world,
         "arm": _arm(world),
@@ -67,7 +68,7 @@ def _arm_build(world: World) -> ArmBuild:
 
 
 def _joints(world: World, name: str) -> Array:
-    """The values of a quantity for all joints, shape (6,)."""
+    """Return the values of a quantity for all joints, shape (6,)."""
     return np.array(world.numbered(f"arm.{name}"))
 
 

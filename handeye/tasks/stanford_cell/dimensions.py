@@ -1,5 +1,5 @@
-"""Dimensions of the work cell, read from `scenes/water_pump/dimensions.toml` and converted to SI, and values
-computed from them.
+"""Reads the dimensions of the work cell from `scenes/water_pump/dimensions.toml`, converts them to SI units,
+and computes further dimensions from them.
 """
 
 import math
@@ -38,7 +38,7 @@ UNITS: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Figure:
-    """One figure with its unit and source."""
+    """One dimension or other figure of the cell, with its unit and source."""
 
     values: tuple[float, ...]  # SI; a single one for a plain number
     unit: str  # the unit it was written in
@@ -47,19 +47,20 @@ class Figure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Dimensions:
-    """All figures, by dotted names such as `base.plate.length`."""
+    """All figures of the cell, by dotted names such as `base.plate.length`."""
 
     figures: dict[str, Figure]
 
     def __call__(self, name: str) -> float:
-        """A single figure in SI; raises InvalidInput if there is no such figure, or if it is a list."""
+        """Return a single figure in SI units. Raises InvalidInput if there is no such figure, or if it is a
+        list."""
         values = self.all(name)
         if len(values) != 1:
             raise BadFile(f"the dimension `{name}` is a list of {counted(len(values), 'figure')}")
         return values[0]
 
     def all(self, name: str) -> tuple[float, ...]:
-        """All figures of a list, in SI; raises InvalidInput if there is no such list."""
+        """Return all figures of a list in SI units. Raises InvalidInput if there is no such list."""
         try:
             return self.figures[name].values
         except KeyError:
@@ -67,8 +68,8 @@ class Dimensions:
 
 
 def parse(text: str) -> Dimensions:
-    """Dimensions from a TOML text; raises InvalidInput if the text is not TOML, or a figure lacks a value, a known
-    unit or a source.
+    """Parse dimensions from TOML text. Raises InvalidInput if the text is not TOML, or if a figure lacks a
+    value, a known unit or a source.
     """
     try:
         tree = tomllib.loads(text)
@@ -110,8 +111,8 @@ def _figure(name: str, entry: dict[str, Any]) -> Figure:
 
 @cache
 def screw_holes(count: int = 6) -> tuple[Point, ...]:
-    """Centres of the screw holes in part coordinates, m: four around large hole 1, two beside large hole 2 and,
-    with `count` 7, a seventh.
+    """Return the centres of the screw holes in part coordinates (m): four around large hole 1, two beside large
+    hole 2 and, if `count` is 7, a seventh.
     """
     d = dimensions()
     r1, r2, x2 = d("base.screw_holes.radius_1"), d("base.screw_holes.radius_2"), d("base.large_hole_2.x")
@@ -122,34 +123,35 @@ def screw_holes(count: int = 6) -> tuple[Point, ...]:
 
 
 def base_top() -> float:
-    """Height of the base's machined face above its underside, m."""
+    """Return the height of the base's machined face above its underside (m)."""
     d = dimensions()
     return d("base.plate.thickness") + d("base.casting.height")
 
 
 def pin_seat(chamfer: float, radius: float) -> float:
-    """Height above a hole's mouth (m, negative) at which the shoulder of a pin rests in the hole's 45 degree
-    chamfer.
+    """Return the height of a pin's shoulder above the mouth of its hole (m; negative if it is below), when the
+    shoulder rests in the hole's 45 degree chamfer. `chamfer` and `radius` are in m.
     """
     return min(0.0, dimensions()("pin.body_radius") - radius - chamfer)
 
 
 def standard() -> Pose:
-    """The pose `X_WP` of the base in its standard position."""
+    """Return `X_WP`, the pose of the base in its standard position."""
     d = dimensions()
     x, y = d.all("standard.place")
     return planar(x, y, 0.0, d("standard.yaw"))
 
 
 def dispenser_places(count: int = 6) -> tuple[Point, ...]:
-    """Positions of the screws in the dispenser, table frame, m; the seventh is behind the others."""
+    """Return the positions of the screws in the dispenser in the table frame (m)."""
     d = dimensions()
     x, y = d.all("dispenser.place")
     return tuple((x, y + (k - 2.5) * d("dispenser.pitch")) for k in range(count))
 
 
 def web_centre() -> float:
-    """Distance along x from large hole 1 to the middle of the gasket's web between the two large holes, m."""
+    """Return the distance along x from the centre of large hole 1 to the middle of the gasket's web, the strip
+    between the two large holes (m)."""
     d = dimensions()
     edge_1 = d("base.large_hole_1.diameter") / 2
     edge_2 = d("base.large_hole_2.x") - d("base.large_hole_2.diameter") / 2

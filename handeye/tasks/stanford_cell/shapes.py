@@ -17,10 +17,12 @@ _MARK_HALF_HEIGHT_M = 1e-4  # of the disc that marks a hole
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bore:
-    """A round hole along z, from z = 0 to `height`, in metal that extends to radius `outer`; all in m.
+    """A round hole along z, from z = 0 to `height`, in metal that extends to radius `outer`. All lengths are in
+    m.
 
-    The collision shape is a ring of convex wedges around the inscribed circle of `radius`, so that the hole is
-    never narrower than specified. The 45 degree chamfers `above` and `below` are part of the wedges' profile.
+    The collision shape is a ring of convex wedges whose inscribed circle has `radius`, so the hole is never
+    narrower than specified. The wedges also form the 45 degree chamfers at the upper (`above`) and lower
+    (`below`) ends of the hole.
     """
 
     radius: float
@@ -31,7 +33,7 @@ class Bore:
     sectors: int = 12
 
     def wedge(self) -> Array:
-        """Corners of the wedge around the x axis, shape (n, 3), m."""
+        """Return the corners of the wedge that lies on the x axis (m, shape (n, 3))."""
         profile = [(self.outer, 0.0), (self.radius + self.below, 0.0), (self.radius, self.below)]
         profile += [(self.radius, self.height - self.above), (self.radius + self.above, self.height)]
         profile += [(self.outer, self.height)]
@@ -41,12 +43,12 @@ class Bore:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shaper:
-    """Adds geoms of the default classes of a specification."""
+    """Adds geoms to a specification, using its default classes."""
 
     spec: mujoco.MjSpec
 
     def style(self, name: str) -> mujoco.MjsDefault:
-        """A default class by name."""
+        """Return the default class called `name`."""
         style = self.spec.find_default(name)
         assert style is not None, name
         return style
@@ -60,25 +62,25 @@ class Shaper:
         material: str | None = None,
         name: str = "",
     ) -> mujoco.MjsGeom:
-        """An upright box between two corners (m)."""
+        """Add an upright box between two opposite corners (m)."""
         lower, upper = np.asarray(low, float), np.asarray(high, float)
         geom = body.add_geom(self.style(style), type=BOX, pos=(lower + upper) / 2, size=(upper - lower) / 2)
         return _named(geom, name, material)
 
     def ball(self, body: mujoco.MjsBody, style: str, radius: float, centre: Vector) -> mujoco.MjsGeom:
-        """A ball (m)."""
+        """Add a ball with a radius (m) and a centre (m)."""
         return body.add_geom(self.style(style), type=SPHERE, size=[radius, 0.0, 0.0], pos=centre)
 
     def cylinder(
         self, body: mujoco.MjsBody, style: str, radius: float, start: Vector, end: Vector,
         material: str | None = None, name: str = "",
     ) -> mujoco.MjsGeom:  # fmt: skip
-        """A cylinder between two points (m)."""
+        """Add a cylinder with a radius (m) between two points on its axis (m)."""
         geom = body.add_geom(self.style(style), type=CYLINDER, fromto=[*start, *end], size=[radius, 0.0, 0.0])
         return _named(geom, name, material)
 
     def convex(self, name: str, points: Array) -> str:
-        """A mesh asset for collisions: the hull of `points`, shape (n, 3)."""
+        """Add a mesh asset for collisions, the convex hull of `points` (m, shape (n, 3)); returns its name."""
         self.spec.add_mesh(name=name, uservert=points.ravel().tolist())
         return name
 
@@ -90,8 +92,8 @@ class Shaper:
         at: Vector,
         style: Callable[[float], str],
     ) -> list[mujoco.MjsGeom]:
-        """Add the wedges of a bore with its axis through `at` (m); `style` gives the class of each wedge by its
-        direction.
+        """Add the wedges of a bore whose axis passes through `at` (m). `style` returns the default class of a
+        wedge from the wedge's direction (rad).
         """
         if self.spec.mesh(mesh) is None:
             self.convex(mesh, bore.wedge())
@@ -105,16 +107,17 @@ class Shaper:
         return wedges
 
     def lands(self, body: mujoco.MjsBody) -> mujoco.MjsBody:
-        """Add a body fixed in a part, for the lands on which the part rests.
+        """Add a body, fixed to a part, for the lands: the small raised faces on which the part rests.
 
-        The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts touch
-        only at their lands; with the lands in separate bodies, the many other shapes of the parts cost no time.
+        The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts
+        touch only at their lands, so with the lands in separate bodies the simulator skips the many other
+        shapes of the parts.
         """
         return body.add_body(name=f"{body.name}_lands")
 
     def hole(self, body: mujoco.MjsBody, name: str, mouth: Vector, radius: float) -> None:
-        """Mark a hole with a site on its axis at the upper face (m); the first size of the site is the radius of
-        the hole.
+        """Mark a hole with a site at its mouth: the centre of the hole in the upper face (m). The first size of
+        the site is the radius of the hole.
         """
         body.add_site(name=name, type=CYLINDER, pos=mouth, size=[radius, _MARK_HALF_HEIGHT_M, 0.0], group=5)
 
@@ -122,8 +125,8 @@ class Shaper:
         self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
         at: Vector = (0.0, 0.0, 0.0), style: str = "look",
     ) -> mujoco.MjsGeom:  # fmt: skip
-        """Add a surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3). Surfaces of style
-        `scenery` appear only in photographs.
+        """Add a visible surface that collides with nothing, from vertices (m, shape (n, 3)) and triangles
+        (shape (m, 3)). A surface of style `scenery` appears only in photographs.
         """
         if self.spec.mesh(name) is None:
             self.spec.add_mesh(
@@ -146,7 +149,8 @@ def _named(geom: mujoco.MjsGeom, name: str, material: str | None) -> mujoco.MjsG
 
 
 def body_inertia(body: mujoco.MjsBody, mass: float, centre: Vector, moments: Vector) -> None:
-    """Set the mass (kg), mass centre (m) and principal moments (kg m2) of a body, instead of those of its geoms."""
+    """Set the mass (kg), centre of mass (m) and principal moments of inertia (kg m2) of a body, instead of
+    computing them from its geoms."""
     body.explicitinertial = True
     body.mass = mass
     body.ipos[:] = centre
@@ -154,13 +158,14 @@ def body_inertia(body: mujoco.MjsBody, mass: float, centre: Vector, moments: Vec
 
 
 def box_moments(mass: float, size: Vector) -> list[float]:
-    """Principal moments of a uniform box of full lengths `size` (m)."""
+    """Return the principal moments of inertia (kg m2) of a uniform box with a mass (kg) and full lengths `size`
+    (m)."""
     x, y, z = size
     return [mass * (y * y + z * z) / 12, mass * (x * x + z * z) / 12, mass * (x * x + y * y) / 12]
 
 
 def towards(view: Array) -> list[float]:
-    """Quaternion of a frame whose -z axis points along `view` and whose x axis is level."""
+    """Return the quaternion of a frame whose -z axis points along `view` and whose x axis is horizontal."""
     z = -view / np.linalg.norm(view)
     x = np.cross((0.0, 0.0, 1.0), z)
     x /= np.linalg.norm(x)
@@ -170,5 +175,5 @@ def towards(view: Array) -> list[float]:
 
 
 def add_camera(spec: mujoco.MjSpec, name: str, eye: Array, at: Array) -> mujoco.MjsCamera:
-    """Add a camera at `eye` that looks at `at`, upright (m)."""
+    """Add an upright camera at `eye` (m) that looks at the point `at` (m)."""
     return spec.worldbody.add_camera(name=name, pos=eye.tolist(), quat=towards(at - eye))

@@ -1,1 +1,1 @@
-"""The assembly of an automobile water pump: scene, worlds, faults, referee."""
+"""The assembly of an automobile water pump: its scene, worlds, faults and referee."""

@@ -1,4 +1,5 @@
-"""Builds the work cell of the water pump from its scene, devices, threads and clamping."""
+"""Builds the work cell of the water pump from its scene, its devices, the threads of its screws, and the
+clamping of its layers."""
 
 import mujoco
 
@@ -24,8 +25,10 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:
-    """Build the cell of a world; without `rest`, no part sleeps and no clamped parts are welded, which gives the
-    same physics more slowly.
+    """Build the cell of a world.
+
+    By default, parts at rest sleep and clamped parts are welded, to save computing time. If `rest` is False,
+    neither is done: the physics is the same, but the simulation is slower.
 
     `camera` is the renderer: `auto`, `gl` or `ray`, or a function that makes one. Raises InvalidInput if this
     renderer does not work here.
@@ -69,7 +72,8 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
 
 
 def carrying(screws: int) -> Carrying:
-    """What may touch in long steps: the arm and anything loose, which it then holds, and the driver and its screw."""
+    """List the pairs of bodies that may touch while the simulator takes long steps: the hand and any loose
+    part, which the hand then holds, and the screwdriver and its screw."""
     hand, driver, fastened = f"{ARM}link6", "driver", [f"screw{k}" for k in range(screws)]
     loose = ("base", "gasket", "top", "pin0", "pin1", driver, *fastened)
     held = [(hand, part) for part in loose]

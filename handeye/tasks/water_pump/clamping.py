@@ -1,15 +1,17 @@
 """Saves computing time: parts at rest sleep, and parts clamped together move as one.
 
-*Sleep.* MuJoCo puts a group of bodies to sleep once all of them are at rest, and wakes the group at the first
-contact with an awake body, so the working phase cannot notice it. By default, MuJoCo never lets bodies with a motor
-sleep. This would keep the driver awake, and also the base, because the driver's motor can turn the thread carriers
-in the base. Here they may sleep: the motor turns a carrier only while the bit is on the carrier's screw head, and
-that contact wakes the base; a driver whose motor is switched on is woken explicitly.
+*Sleep.* MuJoCo puts a group of bodies to sleep once all of them are at rest, and wakes the group when an awake
+body touches it, so sleep has no effect that the working phase could notice. By default, MuJoCo never lets
+bodies with a motor sleep. That would keep the driver awake, and the base too, because the driver's motor can
+turn the thread carriers in the base. Here the driver and the base may sleep: the motor turns a carrier only
+while the bit is on the carrier's screw head, and that contact wakes the base; a driver whose motor is switched
+on is woken explicitly.
 
-*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on welds
-hold the layers, and the contacts between the layers, which take most of the computing time of the stack, are
-switched off. The contacts are switched on again if a hand, a shank or any other body pushes on a layer by more than
-the friction, or pulls by more than the clamp, and with fewer than two screws.
+*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on,
+welds hold the two layers, and the contacts between them are switched off, because they take most of the stack's
+computing time. The contacts are switched on again if a hand, a shank or any other body pushes a layer sideways
+by more than the friction or lifts it by more than the clamping force, or if fewer than two screws clamp the
+layers.
 """
 
 from typing import Final
@@ -34,13 +36,13 @@ _LANDS: Final = (64, 128)  # contact bits of the lands of gasket and top; scenes
 
 
 class ClampingState(Record, frozen=True, kw_only=True):
-    """True if welds hold the layers at present."""
+    """Whether welds hold the layers at present."""
 
     clamped: bool
 
 
 class Clamping(Mechanism[ClampingState]):
-    """Sleep and clamping in one cell."""
+    """Puts resting parts of one cell to sleep, and welds its clamped layers together."""
 
     name = "clamping"
     kind = ClampingState
@@ -49,7 +51,8 @@ class Clamping(Mechanism[ClampingState]):
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, threads: Threads, *, allowed: bool
     ) -> None:
-        """With `allowed` False, everything stays awake and separate: the same physics, more slowly."""
+        """Prepare the cell. If `allowed` is False, everything stays awake and separate: the physics is the
+        same, but the simulation is slower."""
         self._model, self._data, self._threads, self._allowed = model, data, threads, allowed
         self._base = model.body("base").id
         self._layers = [model.body(name).id for name in _LAYERS]
@@ -71,7 +74,7 @@ class Clamping(Mechanism[ClampingState]):
             model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 
     def before(self, seconds: float) -> None:
-        """Weld the layers together or separate them, according to the present clamp of the screws."""
+        """Weld the layers together or separate them, depending on the present clamping force of the screws."""
         clamps = [hole.clamp for hole in self._threads.holes]
         clamped = (
             self._allowed
@@ -91,7 +94,8 @@ class Clamping(Mechanism[ClampingState]):
         self._clamped = state.clamped
 
     def _slips(self, clamp: float) -> bool:
-        """True if a force on a layer exceeds the friction under a clamp (N), or lifts the layer."""
+        """Return True if a force on a layer exceeds the friction under a clamping force `clamp` (N), or lifts
+        the layer."""
         first, second = self._data.contact.geom.T
         if not (
             (self._layered[first] & self._foreign[second]) | (self._layered[second] & self._foreign[first])
@@ -104,7 +108,8 @@ class Clamping(Mechanism[ClampingState]):
         return False
 
     def _pushed(self, layer: NDArray[np.bool_]) -> Array:
-        """Force in W of all bodies outside the stack that touch a layer, N, shape (3,)."""
+        """Return the total force in W (N, shape (3,)) on a layer from all bodies outside the stack that touch
+        it."""
         model, data, total, found = self._model, self._data, np.zeros(3), np.zeros(6)
         first, second = data.contact.geom.T
         for into, sign in ((second, 1.0), (first, -1.0)):  # a contact's force is that on its second geom
@@ -127,11 +132,11 @@ class Clamping(Mechanism[ClampingState]):
         model.geom_conaffinity[self._lands] = 0
 
     def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Restore the contacts of the layers, in this model or in a copy of it."""
+        """Open the welds and restore the contacts of the layers, in this model or in a copy of it."""
         data.eq_active[self._welds] = 0
         model.geom_contype[self._lands], model.geom_conaffinity[self._lands] = self._bits
 
 
 def lands_of(drawn: mujoco.MjModel) -> NDArray[np.intp]:
-    """The lands of gasket and top, in a scene in which nothing is clamped."""
+    """Return the indices of the geoms of the lands of gasket and top, in a scene in which nothing is clamped."""
     return np.flatnonzero(np.isin(drawn.geom_contype, _LANDS))

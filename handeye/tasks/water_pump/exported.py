@@ -1,8 +1,9 @@
-"""The pump's cell for other programs: parts with readable names, screws in place, no mechanisms.
+"""Exports the pump's cell to other programs, with readable names, with the screws in their holes, and without
+mechanisms.
 
 In the simulated cell, a carrier represents a screw in its thread, and the screw itself lies on a tray below the
-floor (`cell/threads.py`). In the export, the screw is in its hole, at the pose of the carrier, welded to the base.
-Carriers, the tray, and the coupling between the driver's motor and a carrier are left out.
+floor (`cell/threads.py`). In the export, the screw is in its hole, at the pose of the carrier, welded to the
+base. Carriers, the tray, and the coupling between the driver's motor and a carrier are left out.
 """
 
 from typing import Final
@@ -41,7 +42,7 @@ _MECHANISMS: Final = {
 
 
 def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
-    """The scene of a world in the true state of its cell; arguments are those of `Task.exported`."""
+    """Return the scene of a world with every object where it really is. Arguments are those of `Task.exported`."""
     model, data = truth.copy()
     spec = specification(world)
     model.eq_data[:] = spec.compile().eq_data  # of bonds that are left out
@@ -67,8 +68,8 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
 
 
 def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
-    """Densities, kg/m3, of the solids that consist of one metal; `cast` is the factor on those of base and top in
-    this world.
+    """Return the densities (kg/m3) of the solids that consist of one metal. `cast` is the factor by which the
+    densities of base and top differ from the design in this world.
     """
     steel = spec.find_default("shank")
     assert steel is not None
@@ -81,7 +82,8 @@ def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
 
 
 def _weld(spec: mujoco.MjSpec, screw: str, X_BS: Pose) -> None:
-    """Weld a screw in its hole, where thread and wedges of the hole overlap."""
+    """Weld a screw to the base and switch off their contacts, because the screw's thread overlaps the wedges of
+    the hole."""
     weld = spec.add_equality(
         name=f"{screw}_in_thread", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,
         name1="base", name2=screw, solref=[0.004, 1.0], solimp=[0.99, 0.999, 0.0001, 0.5, 2.0],

@@ -1,4 +1,4 @@
-"""The water pump as a task: connects scene, worlds, faults, programs and referee."""
+"""Defines the water pump as a task, which connects scene, worlds, faults, programs and referee."""
 
 from __future__ import annotations
 

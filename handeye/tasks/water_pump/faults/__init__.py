@@ -1,1 +1,2 @@
-"""Faults of the pump's cell: before a run, during a run, and between the work and its reversal."""
+"""Faults of the pump's cell that are present before a run, that begin during a run, or that are made between
+the work and its reversal."""

@@ -1,8 +1,8 @@
-"""Faults after a run: changes of a finished pump, made unknown to the arm before the arm undoes its work.
+"""Faults after a run: changes that a person makes to a finished pump before the arm undoes its work. The arm
+does not know of them.
 
-The person's hand that makes a change is not simulated. A removed part lies on the tray below the floor, where
-nothing touches it; a moved part is elsewhere, at rest; glued parts are welded. A hand that tightens a screw is
-simulated as a torque.
+The person's hand is not simulated. A removed part is put on the tray below the floor, where nothing touches it.
+A moved part is put elsewhere, at rest. Glued parts are welded. A screw is tightened by a torque.
 """
 
 from collections.abc import Callable, Mapping
@@ -109,7 +109,8 @@ _OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
 
 
 def disturbances() -> tuple[Disturbance, ...]:
-    """The changes to a whole pump, then those to a pump on which the top has just been put."""
+    """Return the changes that can be made to a whole pump, followed by those to a pump whose top has just been
+    put on."""
     return tuple(
         Disturbance(name=name, meaning=meaning, make=make, after=after)
         for after, those in ((None, _OF_A_PUMP), (TOP_ON_STAGE, _OF_A_STACK))
@@ -121,7 +122,8 @@ def disturbances() -> tuple[Disturbance, ...]:
 
 
 def bystanders(truth: Truth) -> dict[str, Array]:
-    """Positions of the parts on table or belt that no finger touches, m; without the screws."""
+    """Return the positions (m) of the parts, except screws, that lie on the table or belt and that no finger
+    touches."""
     model, data = truth.model, truth.data
     bodies = model.geom_bodyid[data.contact.geom]
     holding = np.isin(bodies, [model.body(name).id for name in _FINGERS])

@@ -1,7 +1,7 @@
 """Faults that are present before a run: parts of the pump and its cell that are missing, of a wrong size, or
 misplaced.
 
-The scene itself has the wrong part from the beginning; all devices work correctly.
+The scene contains the faulty part from the beginning. All devices work correctly.
 """
 
 from __future__ import annotations
@@ -55,14 +55,15 @@ PartFault = PumpFault[Change]
 
 @cache
 def part_faults(screws: int) -> tuple[PartFault, ...]:
-    """All faults of parts of a pump with this number of screws, in the order in which they are listed."""
+    """Return all faults of the parts of a pump with this number of screws, in the order in which they are
+    listed."""
     return (
         *_base(), *_gasket(), *_top(), *_pins(), *_screws(screws), *_holes(screws), *_screwdriver_and_light()
     )  # fmt: skip
 
 
 def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], screws: int) -> None:
-    """Apply the faults of parts to a scene; faults of devices change nothing in a scene."""
+    """Apply the faults of parts to a scene. Faults of devices do not change the scene."""
     for fault, change in broken(part_faults(screws), faults):
         change(spec, fault.value or 0.0)
 
@@ -257,15 +258,15 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
 
 
 def bad_threads(faults: Sequence[Fault], how: Literal["scarred", "crosses"]) -> frozenset[int]:
-    """Indices of the tapped holes in which a screw was cross-threaded before (`scarred`), or in which every screw
-    cross-threads (`crosses`).
+    """Return the indices of the tapped holes whose threads are bad: with `scarred`, those that an earlier screw
+    has cross-threaded; with `crosses`, those in which every screw cross-threads.
     """
     return _numbered(faults, "thread", how)
 
 
 def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
-    """Indices of screws on which the bit slips and which no thread takes: screws without a slot, or all screws if
-    the bit is smooth.
+    """Return the indices of the screws on which the bit slips, so that they enter no thread: screws without a
+    slot, or all screws if the bit is smooth.
     """
     if any(fault.name == _SMOOTH for fault in faults):
         return frozenset(range(count))
@@ -273,7 +274,7 @@ def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
 
 
 def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
-    """Indices, from 0, in the names of faults of the form THING.NUMBER.WHAT."""
+    """Return the numbers, counted from 0, of the faults whose names have the form THING.NUMBER.WHAT."""
     names = (fault.name.split(".") for fault in faults)
     return frozenset(
         int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (thing, what)
@@ -284,7 +285,7 @@ def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
 
 
 def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
-    """Change nothing, because threads are no shapes; see `bad_threads`."""
+    """Change nothing: threads have no shapes in the scene; see `bad_threads`."""
 
 
 def _missing(part: str, spec: mujoco.MjSpec, _: float) -> None:
@@ -305,7 +306,8 @@ def _reverse(spec: mujoco.MjSpec, part: str, middle: Point) -> None:
 
 
 def _turn(spec: mujoco.MjSpec, part: str, middle: Point, yaw: float) -> None:
-    """Turn a part about the vertical through one of its points (m) to the direction `yaw` (rad); its tilt is kept."""
+    """Turn a part about the vertical through one of its points (m) until its yaw is `yaw` (rad). The tilt of
+    the part does not change."""
     body = spec.body(part)
     angle = yaw - _yaw(spec, part)
     w, *vector = body.quat
@@ -338,7 +340,8 @@ def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
 
 
 def _slippery(shape: str, spec: mujoco.MjSpec, _: float) -> None:
-    """Remove the friction of a shape in all its contacts; normally the greater friction of two shapes counts."""
+    """Remove the friction of a shape in all its contacts. By default, MuJoCo would use the greater friction of
+    the two shapes."""
     geom = spec.geom(shape)
     geom.friction[:], geom.priority = 0.0, _FOREMOST
 
@@ -384,7 +387,8 @@ def _thick_point(screw: str, spec: mujoco.MjSpec, more: float) -> None:
 
 
 def _block(hole: int, plug_name: str, spec: mujoco.MjSpec, depth: float) -> None:
-    """Fill a hole with metal up to a depth below its mouth, so that no screw in its thread can go deeper."""
+    """Fill the bottom of a hole with metal up to a depth (m) below its mouth, so that no screw in its thread
+    can go deeper."""
     x, y, mouth = spec.site(f"base_hole{hole}").pos
     floor = base_top() - dimensions()("base.screw_holes.depth")
     plug = spec.body("base").add_geom(

@@ -43,5 +43,5 @@ MATRIX: Final = tuple(f"{broken}.{how}" for broken, hows in _TRIED.items() for h
 
 
 def catalogue(world: WorldSpec) -> Catalogue:
-    """The faults that are possible in a world: of devices, of parts, and mishaps."""
+    """Return the faults that are possible in a world: faults of devices, faults of parts, and mishaps."""
     return Catalogue(*device_faults(), *part_faults(screws(world)), *mishap_faults(), matrix=MATRIX)

@@ -1,4 +1,4 @@
-"""The declaration of a fault of the pump's cell: name, size, time, expected detection, and effect."""
+"""Declares a fault of the pump's cell: its name, size, time, expected detection and effect."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ B = TypeVar("B")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PumpFault(FaultKind, Generic[B]):
-    """A fault of the catalogue with its effect: a change of the scene, defects of device lines, or a mishap."""
+    """A fault of the catalogue with its effect: a change to the scene, a defect of device lines, or a mishap."""
 
     breaks: B
 
@@ -25,13 +25,14 @@ def declared(
     *,
     stage: int | None = None,
 ) -> PumpFault[B]:
-    """Declare a fault that begins during a run: by default with `stage`, or from the start if there is none."""
+    """Declare a fault that begins during a run. By default it begins with `stage`, or at the start of the run
+    if `stage` is None."""
     return PumpFault(
         name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
     )
 
 
 def broken(those: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
-    """The faults of a run that are declared among `those`, each with its effect."""
+    """Return the faults of a run that are declared among `those`, each with its effect."""
     known = {fault.name: fault.breaks for fault in those}
     return [(fault, known[fault.name]) for fault in faults if fault.name in known]

@@ -1,5 +1,5 @@
-"""Faults of devices, from the start of a run or from a stage on: the signal lines concerned, and the defect of
-each.
+"""Faults of devices, which begin at the start of a run or with a stage. Each fault is a defect of one or more
+signal lines.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -80,12 +80,12 @@ DeviceFault = PumpFault[Lines]
 
 @cache
 def device_faults() -> tuple[DeviceFault, ...]:
-    """All faults of devices, in the order in which they are listed."""
+    """Return all faults of devices, in the order in which they are listed."""
     return (*_switches(), *_hand(), *_force(), *_joints(), *_screwdriver(), *_sight())
 
 
 def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
-    """Defects of the cell's lines for the given faults; only faults of devices have defects."""
+    """Return the defects of the cell's signal lines for the given faults. Only faults of devices have defects."""
     return tuple(
         Defect(line=line, effect=effect(fault.value or 0.0), stage=fault.stage)
         for fault, lines in broken(device_faults(), faults)

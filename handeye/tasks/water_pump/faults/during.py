@@ -1,9 +1,9 @@
 """Faults that begin during a run: mishaps, caused by a person's hand or by chance.
 
-Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost lies on the tray below
-the floor from then on, where nothing touches it; the hand that takes it is not simulated. A push is a force. The
-hand that moves the base is a spring to a point that moves at constant speed, and friction carries along the parts
-on the base.
+Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost is put on the tray
+below the floor, where nothing touches it; the hand that takes it is not simulated. A push is a force. The hand
+that moves the base is a spring to a point that moves at constant speed, and friction carries along the parts on
+the base.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -34,13 +34,13 @@ LIFTED_M: Final = 0.02  # a part that has come up by this is held by the hand, a
 
 
 class MishapsState(Record, frozen=True, kw_only=True):
-    """States of all mishaps, in the order of the mishaps."""
+    """The states of all mishaps of a run, in the order of the mishaps."""
 
     mishaps: tuple[MishapState, ...]
 
 
 def _pushed(axis: int, force_N: float) -> Mishap:
-    """The hand of the arm is pushed along an axis of the table."""
+    """Return a mishap in which the arm's hand is pushed along an axis of the table with a force (N)."""
 
     def act(scene: Scene, state: MishapState) -> bool:
         over = (state.seconds or 0.0) >= PUSH_S
@@ -52,7 +52,7 @@ def _pushed(axis: int, force_N: float) -> Mishap:
 
 
 def _moved(axis: int, way_m: float) -> Mishap:
-    """The base is moved along an axis of the table."""
+    """Return a mishap in which the base is moved along an axis of the table by a distance (m)."""
 
     def act(scene: Scene, state: MishapState) -> bool:
         assert state.place is not None
@@ -72,7 +72,7 @@ def _moved(axis: int, way_m: float) -> Mishap:
 
 
 def _take_away(scene: Scene, _: MishapState) -> bool:
-    """The base is taken away, with all parts on it."""
+    """Take the base away with all parts on it."""
     way = scene.to_tray("base")
     for part in scene.stack():
         scene.shift(part, way)
@@ -80,7 +80,7 @@ def _take_away(scene: Scene, _: MishapState) -> bool:
 
 
 def _lose(part: str, scene: Scene, state: MishapState) -> bool:
-    """A part is lost from the hand as soon as it has been lifted."""
+    """Take a part out of the hand as soon as it has been lifted."""
     assert state.place is not None
     if scene.place(part)[2] < state.place[2] + LIFTED_M:
         return False
@@ -89,14 +89,14 @@ def _lose(part: str, scene: Scene, state: MishapState) -> bool:
 
 
 def _put_out(scene: Scene, _: MishapState) -> bool:
-    """The lamp of the cell goes out; only the light of the room remains."""
+    """Switch off the lamp of the cell; the ambient light remains."""
     scene.model.light_diffuse[:] = 0.0
     return True
 
 
 @cache
 def mishap_faults() -> tuple[MishapFault, ...]:
-    """All mishaps, in the order in which they are listed."""
+    """Return all mishaps, in the order in which they are listed."""
     return (*_light_and_pushes(), *_base(), *_losses(), *faults_of_finished_work())
 
 
@@ -156,12 +156,12 @@ def _losses() -> Iterator[MishapFault]:
 
 
 def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:
-    """The mishaps among a run's faults."""
+    """Return the mishaps among a run's faults, each with its fault."""
     return [(fault, make(fault.value or 0.0)) for fault, make in broken(mishap_faults(), faults)]
 
 
 class Mishaps(Mechanism[MishapsState]):
-    """The mishaps of a cell while it works."""
+    """The mechanism that makes the mishaps of a cell happen while the cell works."""
 
     name = "mishaps"
     kind = MishapsState

@@ -1,5 +1,5 @@
-"""Mishaps to finished work: screws that come loose, parts and tools that are taken away, a rotor that jams or meets
-a stop.
+"""Mishaps to finished work: a screw comes loose, a part or tool is taken away, or the rotor jams or meets a
+stop.
 """
 
 from collections.abc import Callable, Iterator
@@ -23,7 +23,8 @@ _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 
 
 def _loose(screw: int, turns: float | None, scene: Scene, _: MishapState) -> bool:
-    """A screw comes loose, or falls out, as soon as it is in its thread and the bit has left it."""
+    """Loosen a screw by some turns, or take it away if `turns` is None, as soon as it is in its thread and the
+    bit has left it."""
     assert scene.threads is not None
     if not scene.threads.loosen(screw, turns):
         return False
@@ -33,7 +34,7 @@ def _loose(screw: int, turns: float | None, scene: Scene, _: MishapState) -> boo
 
 
 def _loosened(screw: int, turns: float, scene: Scene, state: MishapState) -> bool:
-    """A person loosens a screw some time after the stage began."""
+    """Let a person loosen a screw some time after the stage began."""
     return (state.seconds or 0.0) >= LATER_S and _loose(screw, turns, scene, state)
 
 
@@ -43,7 +44,7 @@ def _take(part: str, scene: Scene, _: MishapState) -> bool:
 
 
 def _take_layer(part: str, scene: Scene, _: MishapState) -> bool:
-    """Gasket or top is taken away, if no screw and no top on it holds it."""
+    """Take the gasket or the top away, unless a screw or the top on it holds it."""
     assert scene.threads is not None
     over = scene.place("top") - scene.place("gasket")
     covered = part == "gasket" and np.hypot(*over[:2]) < ON_BASE_M and over[2] > 0
@@ -53,7 +54,7 @@ def _take_layer(part: str, scene: Scene, _: MishapState) -> bool:
 
 
 def _rotor(scene: Scene) -> tuple[int, int]:
-    """The rotor's joint and degree of freedom; its body is woken."""
+    """Return the indices of the rotor's joint and degree of freedom, and wake the rotor's body."""
     joint = int(scene.model.joint("rotor").id)
     dof = int(scene.model.jnt_dofadr[joint])
     wake(scene.data, dof)
@@ -67,7 +68,7 @@ def _jam(scene: Scene, _: MishapState) -> bool:
 
 
 def _stop(angle: float) -> Mishap:
-    """The rotor meets a stop at an angle (rad) from its present position, on one side."""
+    """Return a mishap in which the rotor meets a stop at an angle (rad) from its present position, on one side."""
 
     def act(scene: Scene, _: MishapState) -> bool:
         joint = _rotor(scene)[0]
@@ -81,7 +82,7 @@ def _stop(angle: float) -> Mishap:
 
 
 def _turn(angle: float) -> Mishap:
-    """A person turns the rotor by an angle (rad)."""
+    """Return a mishap in which a person turns the rotor by an angle (rad)."""
 
     def act(scene: Scene, _: MishapState) -> bool:
         joint, dof = _rotor(scene)
@@ -101,7 +102,7 @@ def _loosened_by(screw: int) -> Callable[[float], Mishap]:
 
 
 def faults_of_finished_work() -> Iterator[MishapFault]:
-    """All mishaps to finished work, in the order in which they are listed."""
+    """Yield all mishaps to finished work, in the order in which they are listed."""
     yield from _screws()
     yield from _rotors()
     yield from _taken()

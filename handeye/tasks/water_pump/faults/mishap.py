@@ -1,4 +1,5 @@
-"""A mishap, an event that happens once to the parts of a pump's cell, and the scene in which it happens."""
+"""Defines a mishap, an event that happens once to the parts of a pump's cell, and the scene in which it
+happens."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ _STACK: Final = ("gasket", "top", "pin0", "pin1")
 
 
 class MishapState(Record, frozen=True, kw_only=True):
-    """State of a mishap."""
+    """The state of a mishap: how long it has lasted, and whether it is over."""
 
     seconds: float | None = None  # since it began; None: it has not
     place: tuple[float, float, float] | None = None
@@ -29,30 +30,31 @@ class MishapState(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The scene of a cell, in which parts can be moved by hand."""
+    """The scene of a cell, in which a mishap can move parts."""
 
     model: mujoco.MjModel
     data: mujoco.MjData
     threads: Threads | None = None  # of the cell while it works
 
     def dofs(self, part: str) -> slice:
-        """Indices of a free part's degrees of freedom."""
+        """Return the indices of a free part's degrees of freedom."""
         start = int(self.model.body_dofadr[self.model.body(part).id])
         return slice(start, start + 6)
 
     def place(self, part: str) -> Array:
-        """Position of a free part, m, as a view of the simulator's own array."""
+        """Return the position of a free part (m) as a view of the simulator's own array: writing to the view
+        moves the part."""
         start = int(self.model.jnt_qposadr[self.model.body_jntadr[self.model.body(part).id]])
         return np.asarray(self.data.qpos[start : start + 3])
 
     def shift(self, part: str, way: Array) -> None:
-        """Move a free part by `way` (m), at rest."""
+        """Move a free part by `way` (m) and bring it to rest."""
         self.place(part)[:] += way
         self.data.qvel[self.dofs(part)] = 0.0
         wake(self.data, self.dofs(part).start)
 
     def stack(self) -> list[str]:
-        """The base and the parts on it."""
+        """Return the names of the base and of the parts on it."""
         (x, y, z), parts = self.place("base"), ["base"]
         for part in _STACK:
             aside, high = self.place(part)[:2] - (x, y), self.place(part)[2] - z
@@ -61,18 +63,19 @@ class Scene:
         return parts
 
     def take(self, part: str) -> None:
-        """Take a part away: from then on it lies on the tray."""
+        """Take a part away by putting it on the tray."""
         self.shift(part, self.to_tray(part))
 
     def to_tray(self, part: str) -> Array:
-        """Displacement of a part to its place on the tray, m, shape (3,)."""
+        """Return the displacement of a part from its present position to its place on the tray (m, shape (3,))."""
         (x, y), tray = GONE[part], self.model.geom("tray").id
         return np.array([x, y, self.data.geom_xpos[tray][2] + OVER_TRAY_M]) - self.place(part)
 
 
 @dataclass(frozen=True, slots=True)
 class Mishap:
-    """An event that happens once: `act` acts for one physics tick, and returns True when the event is over."""
+    """An event that happens once. `act` is called in every physics tick, and returns True when the event is
+    over."""
 
     act: Callable[[Scene, MishapState], bool]
     watched: str | None = None  # the part whose place at the beginning it needs, if any
@@ -82,5 +85,5 @@ MishapFault = PumpFault[Callable[[float], Mishap]]
 
 
 def always(mishap: Mishap) -> Callable[[float], Mishap]:
-    """The mishap of a fault without a size."""
+    """Return a function that makes a mishap from the size of its fault, for a fault that has no size."""
     return lambda _: mishap

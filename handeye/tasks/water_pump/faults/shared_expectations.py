@@ -1,9 +1,8 @@
-"""Expected detection: the calls of the operator that name a fault correctly, and expectations that several faults
-share.
+"""Defines which calls of the operator name a fault correctly, and the expectations that several faults share.
 
-The expected detection of a fault is part of its declaration. A correct call names the faulty part or sense, so that
-a person knows where to look. If the arm cannot distinguish several causes, the call names all of them: a screw that
-stops high may be cross-threaded, or its hole may be blocked.
+The expected detection of a fault is part of its declaration. A correct call names the faulty part or sense, so
+that a person knows where to look. If the arm cannot distinguish several causes, the call names all of them: a
+screw that stops high may be cross-threaded, or its hole may be blocked.
 """
 
 from typing import Final
@@ -91,7 +90,7 @@ POOR_LIGHT: Final = ExpectedDetection(
 
 
 def names(expected: ExpectedDetection) -> set[int | str]:
-    """The names of a fault: its calls, and those errors for which there is no call."""
+    """Return the calls and errors that name a fault. An error counts only if no call is made for it."""
     told = {number for number in expected.errors if not {*ONCE.get(number, ())} & {*expected.calls}}
     return {*expected.calls, *told}
 
@@ -141,12 +140,14 @@ def missing_pin(number: int) -> str:
 
 
 def screw_of(hole: int) -> int:
-    """The screw that the program drives into a tapped hole; the program leaves hole 7 of a later make empty."""
+    """Return the number of the screw that the program drives into a tapped hole. The program leaves hole 7 of
+    the later make of the pump empty."""
     return SCREWED.index(hole) + 1 if hole in SCREWED else hole
 
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
-    """The expectation; unknown for screw and hole 7 of a later make, which the program does not use. The referee
-    reports such faults.
+    """Return `expected` if the program uses the screw or hole with this number. The program does not use number
+    7 of the later make of the pump: for that number, the expectation is unknown, and the referee reports the
+    faults.
     """
     return expected if number <= len(SCREWED) else UNKNOWN

@@ -1,1 +1,1 @@
-"""The referee of the pump: its measurements, its limits and its findings."""
+"""The referee of the pump, with its measurements, limits and findings."""

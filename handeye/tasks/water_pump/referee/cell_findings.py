@@ -1,5 +1,5 @@
-"""Findings on the cell around a pump, assembled or taken apart: everything is at rest, and every part exists once,
-unaltered.
+"""Findings on the cell around a pump, whether assembled or taken apart: every object is at rest, and every part
+is present once and unaltered.
 """
 
 import copy
@@ -31,7 +31,7 @@ Mask = NDArray[np.bool_]
 
 
 def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    """Findings on positions and speeds in the cell, from one measurement."""
+    """Judge positions and speeds in the cell, from one measurement."""
     model = measured.model
     parts = [*PARTS, *PINS, "driver", *loose_screws(holes)]
     lowest = min(measured.pose(name)[2, 3] for name in parts)
@@ -59,7 +59,7 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
 
 
 def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    """Findings on whether everything stays where it was left."""
+    """Judge whether every part stays where it was left."""
     away = np.linalg.norm(settled.data.xpos - left.data.xpos, axis=1)
     away[[left.model.body(f"screw{hole.screw}").id for hole in holes if hole.screw is not None]] = 0.0
     subject = "farthest motion of a part until the cell has settled"
@@ -67,7 +67,7 @@ def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]
 
 
 def made(left: SettledState, truth: Truth) -> Findings:
-    """Findings on properties that do not change while a cell settles: the parts themselves, and the forces on them."""
+    """Judge what does not change while a cell settles: the parts themselves, and the forces applied to them."""
     forces = np.abs(left.data.xfrc_applied).max(), np.abs(left.data.qfrc_applied).max()
     differing, driven = _altered(truth), commanded(truth)
     return {
@@ -86,14 +86,14 @@ def made(left: SettledState, truth: Truth) -> Findings:
 
 
 def loose_screws(holes: tuple[Thread, ...]) -> list[str]:
-    """Screws that are in no thread."""
+    """Return the names of the screws that are in no thread."""
     in_threads = {thread.screw for thread in holes}
     return [f"screw{k}" for k in range(len(holes)) if k not in in_threads]
 
 
 def _altered(truth: Truth) -> dict[str, list[str]]:
-    """Parts that differ from the design, with the kinds of differences; friction and drives of the arm are left
-    out, because they change during work.
+    """Return the parts that differ from the design, each with the kinds of its differences. The friction and
+    drives of the arm are left out, because they change during work.
     """
     model = truth.model
     found = altered(model, _as_it_is_to_be(truth), np.ones(model.nbody, bool))
@@ -105,8 +105,8 @@ def _altered(truth: Truth) -> dict[str, list[str]]:
 
 
 def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
-    """The scene of the design, with the permitted changes by devices, and with the properties that other findings
-    judge.
+    """Return the scene of the design with the changes that devices may make, and with the properties that other
+    findings judge.
     """
     model, scene, holes = truth.model, copy.deepcopy(truth.drawn), holes_of(truth)
     (threads,) = (part for part in truth.mechanisms if isinstance(part, Threads))
@@ -134,7 +134,7 @@ def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
 
 
 def _bonds(left: SettledState, truth: Truth) -> int:
-    """Number of equality constraints in the scene that are wrongly open, closed or strained."""
+    """Count the equality constraints of the scene that are wrongly open, wrongly closed, or strained."""
     right, active = truth.drawn.eq_active0 != 0, truth.data.eq_active != 0
     welds = [truth.drawn.equality(name).id for name in WELDS]
     right[welds] = _clamped(truth)
@@ -143,7 +143,7 @@ def _bonds(left: SettledState, truth: Truth) -> int:
 
 
 def _strained(left: SettledState, weld: int) -> bool:
-    """True if a weld holds its layer away from where the layer lies."""
+    """Return True if a weld would pull its layer away from where the layer lies."""
     model, figures, R = left.model, left.model.eq_data[weld], np.zeros(9)
     X_BP = left.relative(model.body(model.eq_obj2id[weld]).name, model.body(model.eq_obj1id[weld]).name)
     mujoco.mju_quat2Mat(R, figures[6:10])
@@ -153,7 +153,8 @@ def _strained(left: SettledState, weld: int) -> bool:
 
 
 def _not_finite(truth: Truth) -> int:
-    """Number of values in the cell's state that are not finite; a mechanism in an impossible state counts as one."""
+    """Count the values in the cell's state that are not finite. A mechanism in an impossible state counts as
+    one value."""
     model, kind = truth.model, mujoco.mjtState.mjSTATE_INTEGRATION
     physics = np.empty(mujoco.mj_stateSize(model, kind))
     mujoco.mj_getState(model, truth.data, physics, kind)
@@ -178,7 +179,7 @@ def _clamped(truth: Truth) -> bool:
 
 
 def _parts(measured: SettledState) -> Mask:
-    """Mask of the bodies that do not belong to the arm, shape (nbody,)."""
+    """Return a mask of the bodies that do not belong to the arm, shape (nbody,)."""
     model = measured.model
     return np.array([not model.body(body).name.startswith(ARM) for body in range(model.nbody)])
 
@@ -188,7 +189,7 @@ def _upright(measured: SettledState, bodies: Sequence[str], limit_deg: float, su
 
 
 def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Finding:
-    """Finding on the greatest speed of some bodies."""
+    """Judge the greatest speed of some bodies."""
     speeds = np.zeros(measured.model.nbody)
     speeds[bodies] = [1e3 * measured.speed(int(body)) for body in bodies]
     return _greatest(measured, speeds, limits.STILL, "mm/s", f"speed of the fastest {kind}")
@@ -197,15 +198,15 @@ def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Findi
 def _greatest(
     measured: SettledState, values: NDArray[np.float64], limit: float, unit: str, subject: str
 ) -> Finding:
-    """Finding on the greatest value among the bodies; a body whose value exceeds the limit is named."""
+    """Judge the greatest value among all bodies. The finding names the body if its value exceeds the limit."""
     body = int(np.argmax(values))
     name = measured.model.body(body).name.removeprefix(ARM)
     return at_most(values[body], limit, unit, subject if values[body] <= limit else f"{subject}: {name}")
 
 
 def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
-    """Finding on the distance of the hand from the nearest of some parts and the shapes fixed to them; at most
-    twice the limit.
+    """Judge the distance of the hand from the nearest of some parts, including shapes fixed to them. Distances
+    are measured up to twice the limit.
     """
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0

@@ -1,4 +1,4 @@
-"""Finds motors of a cell that still have a command, which would later move parts that are right now."""
+"""Finds devices of a cell that still have a command, which would later move parts that lie correctly now."""
 
 from typing import Final
 
@@ -14,7 +14,7 @@ _ROUNDING: Final = 1e-9  # m and m/s: what a servo that has arrived adds up to
 
 
 def commanded(truth: Truth) -> list[str]:
-    """The devices that still have a command: arm, hand or screwdriver."""
+    """Return the devices that still have a command: arm, hand or screwdriver."""
     driven = {"arm": _arm_driven, "hand": _hand_driven, "screwdriver": _driver_driven}
     return [name for name, left in driven.items() if left(truth)]
 
@@ -22,7 +22,8 @@ def commanded(truth: Truth) -> list[str]:
 def _arm_driven(truth: Truth) -> bool:
     """True if the arm is commanded a torque while its brakes are set, or a torque that does not hold it still.
 
-    A drive may be weak by a factor, and friction may carry its part; both are allowed for.
+    The check allows for a drive that is too weak by some factor, and for friction that carries a part of the
+    load.
     """
     model, arm = truth.model, truth.states[ARM.removesuffix("/")]
     assert isinstance(arm, ArmState)

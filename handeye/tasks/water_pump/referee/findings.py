@@ -1,4 +1,4 @@
-"""The referee's findings on a finished pump, and on one that was taken apart."""
+"""The referee's findings on an assembled pump, and on a pump that was taken apart."""
 
 from math import degrees, isfinite
 
@@ -18,8 +18,9 @@ from handeye.tasks.water_pump.referee.cell_findings import PARTS, PINS, around, 
 def judge(truth: Truth) -> Findings:
     """Measure the pump and its cell.
 
-    Positions are measured twice, as the parts were left and after they have settled, and the worse finding counts:
-    a part without support falls, and a part pressed into another springs out. The state of the cell is not changed.
+    Positions are measured twice: as the parts were left, and after they have settled. The worse finding counts,
+    because a part without support falls, and a part pressed into another springs out. The state of the cell is
+    not changed.
     """
     left, settled = _as_left_and_settled(truth)
     holes = holes_of(truth)
@@ -64,7 +65,7 @@ def _base(measured: SettledState) -> Findings:
 
 
 def _layer(measured: SettledState, layer: str, holes: tuple[Thread, ...]) -> Findings:
-    """Findings on the height of gasket or top, and on whether every screw passes through its hole there without
+    """Judge the height of gasket or top, and whether every screw passes through its hole in that layer without
     cutting into it.
     """
     off = measure.corner_height(measured, layer, len(holes))
@@ -120,7 +121,7 @@ def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
 
 
 def _pressing(settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    """Findings on forces and torques of the screws, which are valid after the cell has settled."""
+    """Judge the forces and torques of the screws, which can only be measured after the cell has settled."""
     filled = [k for k, thread in enumerate(holes) if thread.screw is not None]
     forces = [measure.head_force(settled, k) for k in filled]
     turned = [holes[k].clamp for k in filled]
@@ -178,7 +179,8 @@ def _turning(settled: SettledState) -> Finding:
 
 
 def judge_apart(truth: Truth) -> Findings:
-    """Measure the parts as they were left and after they have settled; the worse finding counts."""
+    """Measure the parts of a pump that was taken apart, as they were left and after they have settled. The
+    worse finding counts."""
     holes = holes_of(truth)
     filled = sum(thread.screw is not None for thread in holes)
     left, settled = _as_left_and_settled(truth)

@@ -1,4 +1,4 @@
-"""Measurements for a pump: its screws in their holes, the torque of its rotor, and overlapping parts."""
+"""Measures an assembled pump: the screws in their holes, the torque of the rotor, and overlaps of parts."""
 
 import copy
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ Mask = NDArray[np.bool_]
 
 
 def head_force(measured: SettledState, hole: int) -> float:
-    """Force of the screw head at a hole on the part beneath, N."""
+    """Return the force of the screw head at a hole on the part beneath it (N)."""
     model, data = measured.model, measured.data
     contact, head = data.contact, model.geom(f"head{hole}").id
     tree = model.body_rootid[model.geom_bodyid[contact.geom]]
@@ -40,14 +40,16 @@ def head_force(measured: SettledState, hole: int) -> float:
 
 
 def head_gap(measured: SettledState, hole: int) -> float:
-    """Height of a screw's head above the top's flange, m; negative if the head is pressed in."""
+    """Return the height of a screw's head above the top's flange (m); negative if the head is pressed into the
+    flange."""
     X_WT, size = measured.pose("top"), dimensions()
     middle = measured.data.geom(f"head{hole}").xpos - X_WT[:3, 3]
     return float(X_WT[:3, 2] @ middle) - size("top.flange") - size("screw.head_height") / 2
 
 
 def misfit(measured: SettledState, layer: str, hole: int) -> float:
-    """Distance between the axes of a screw and of its hole in gasket or top, at the worse end of the hole, m."""
+    """Return the distance between the axes of a screw and of its hole in gasket or top (m), at the end of the
+    hole where it is greater."""
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"{layer}_hole{hole}").xpos
     down = -thickness(layer) * measured.pose(layer)[:3, 2]
     ends = np.array([mouth, mouth + down]) - axis.xpos
@@ -55,13 +57,14 @@ def misfit(measured: SettledState, layer: str, hole: int) -> float:
 
 
 def clearance(measured: SettledState, layer: str, hole: int) -> float:
-    """Radial clearance of a screw's shank in its hole in gasket or top, m."""
+    """Return the radial clearance of a screw's shank in its hole in gasket or top (m)."""
     model = measured.model
     return float(model.site(f"{layer}_hole{hole}").size[0] - model.geom(f"shank{hole}").size[0])
 
 
 def corner_height(measured: SettledState, layer: str, holes: int) -> float:
-    """Deviation of a layer's upper face from its nominal height above the base, at the worst screw hole, m."""
+    """Return the deviation of a layer's upper face from its nominal height above the base (m), at the screw
+    hole where it is greatest."""
     X_BW = inverse(measured.pose("base"))
     corners = np.array([measured.data.site(f"{layer}_hole{k}").xpos for k in range(holes)])
     heights = corners @ X_BW[2, :3] + X_BW[2, 3]
@@ -69,36 +72,36 @@ def corner_height(measured: SettledState, layer: str, holes: int) -> float:
 
 
 def thickness(layer: str) -> float:
-    """Thickness of the gasket, or of the top's flange, m."""
+    """Return the thickness of the gasket, or of the top's flange (m)."""
     return dimensions()("top.flange" if layer == "top" else "gasket.thickness")
 
 
 def under(layer: str) -> float:
-    """Nominal height of a layer's underside above the underside of the base, m."""
+    """Return the nominal height of a layer's underside above the underside of the base (m)."""
     return base_top() + (thickness("gasket") if layer == "top" else 0.0)
 
 
 def thread_length(measured: SettledState, hole: int) -> float:
-    """Length of a screw's thread inside its tapped hole, m."""
+    """Return the length of a screw's thread inside its tapped hole (m)."""
     point = inverse(measured.pose("base")) @ measured.pose(f"carrier{hole}")
     return float(base_top() - point[2, 3] - dimensions()("screw.point_length"))
 
 
 def thread_offset(measured: SettledState, hole: int) -> float:
-    """Distance of a screw's axis from the mouth of its tapped hole, m."""
+    """Return the distance of a screw's axis from the mouth of its tapped hole (m)."""
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"base_hole{hole}")
     return float(np.hypot(*((mouth.xpos - axis.xpos) @ axis.xmat.reshape(3, 3))[:2]))
 
 
 def screw_lean(measured: SettledState, hole: int) -> float:
-    """Angle between a screw and the normal of the base, rad."""
+    """Return the angle between a screw and the normal of the base (rad)."""
     axis = measured.data.site(f"thread{hole}").xmat.reshape(3, 3)
     return tilt(inverse(measured.pose("base")) @ pose(axis, np.zeros(3)))
 
 
 def loosening_torque(measured: SettledState, hole: int) -> float:
-    """Torque that turns a screw back, N m: the friction of its thread, minus the torque of the clamp, which loosens
-    the screw.
+    """Return the torque that would turn a screw back (N m): the friction of its thread, minus the torque with
+    which the clamping force turns the screw back.
     """
     model = measured.model
     friction = float(model.dof_frictionloss[model.joint(f"thread_turn{hole}").dofadr[0]])
@@ -106,8 +109,8 @@ def loosening_torque(measured: SettledState, hole: int) -> float:
 
 
 def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
-    """Greatest deviation of a screw from the design in length or radius, both as a loose body and as a carrier in
-    its thread, m.
+    """Return the greatest deviation of a screw from the design in length or radius (m), both as a loose body
+    and as a carrier in its thread.
     """
     model, size = measured.model, dimensions()
     length, tip, head = size("screw.length"), size("screw.point_length"), size("screw.head_height")
@@ -124,8 +127,8 @@ def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
 
 
 def rotor_deviation(measured: SettledState) -> float:
-    """Distance of the rotor from its bearing on the top, or of the end of its crank pin from its nominal position,
-    m.
+    """Return the greater of two distances (m): that of the rotor from its bearing on the top, and that of the
+    end of its crank pin from its nominal position.
     """
     model, size = measured.model, dimensions()
     height = size("top.flange") + size("top.hub_height")
@@ -136,15 +139,16 @@ def rotor_deviation(measured: SettledState) -> float:
 
 
 def rotor_lean(measured: SettledState) -> float:
-    """Angle between the rotor's axis and that of the top, rad."""
+    """Return the angle between the rotor's axis and the top's axis (rad)."""
     return tilt(measured.relative("rotor", "top"))
 
 
 def rotor_torque(measured: SettledState) -> float:
-    """Greatest torque needed to turn the rotor all the way round, in both directions, N m.
+    """Return the greatest torque needed to turn the rotor all the way round in both directions (N m).
 
-    Infinite if the limit does not turn the rotor all the way. Measured on a separate copy, in which everything else
-    is fixed, and in which the crank touches any obstacle in its way.
+    The result is infinite if the greatest permitted torque does not turn the rotor all the way. The torque is
+    measured on a copy of the cell in which everything but the rotor is fixed, and in which any obstacle stops
+    the crank.
     """
     model, data = _alone(measured)
     dof, adr = model.joint("rotor").dofadr[0], model.joint("rotor").qposadr[0]
@@ -167,8 +171,8 @@ def rotor_torque(measured: SettledState) -> float:
 
 
 def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """A copy of the cell in which only the rotor has contacts with solid shapes, and in which only the rotor has
-    friction and constraints.
+    """Return a copy of the cell in which only the rotor has contacts with solid shapes, friction and
+    constraints.
     """
     model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
     crank = model.geom_bodyid == rotor
@@ -192,7 +196,8 @@ class Overlap:
 
 
 def deepest(measured: SettledState) -> tuple[Overlap, Overlap]:
-    """The deepest overlap of a shank or pin with a bore, and the deepest overlap of all other parts."""
+    """Return the deepest overlap of a shank or pin with a bore, and the deepest overlap of any other two
+    shapes."""
     kinds = _Kinds.of(measured)
     pairs, depths = measured.overlaps(kinds.solid)
     either = pairs[:, ::-1]

@@ -25,10 +25,11 @@ _METAL: Final = (
 
 
 def specification(world: PumpWorld) -> mujoco.MjSpec:
-    """The scene before compilation, so that shapes can be added or the scene saved.
+    """Return the scene before compilation, so that shapes can be added or the scene saved.
 
-    Bodies: base (with carrier0..), gasket, top (with rotor), pin0, pin1, screw0.., driver (with bit), the fixtures,
-    and the bodies of the arm under `stanford/`. The world frame is that of the table.
+    Its bodies are the base (with carrier0 and so on), gasket, top (with rotor), pin0, pin1, screw0 and so on,
+    driver (with bit), the fixtures, and the arm's bodies, whose names begin with `stanford/`. The world frame
+    is that of the table.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     add_arm(spec, world)  # first: free bodies before it would shift its joints
@@ -51,14 +52,14 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
 
 
 def build(world: PumpWorld) -> mujoco.MjModel:
-    """Compile the scene. Its arm is at joint positions of zero, outside the limits of joint 3: set a configuration
-    before stepping.
+    """Compile the scene. All joint positions are zero, which is outside the limits of joint 3: set a
+    configuration before the first physics step.
     """
     return specification(world).compile()
 
 
 def dressed(world: PumpWorld) -> mujoco.MjModel:
-    """Compile the scene for photographs, with shapes that a working cell does not need. This scene is never
+    """Compile the scene for photographs, with shapes that the working cell does not have. This scene is never
     simulated.
     """
     spec = specification(world)

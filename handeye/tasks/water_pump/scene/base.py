@@ -20,7 +20,7 @@ _WEDGES = 24  # around the large holes; 15 degrees each
 
 
 def add_base(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the base on the belt, a free body; its threads are bodies inside it."""
+    """Add the base as a free body on the belt. Its threads are bodies inside it."""
     d = dimensions()
     body = shaper.spec.worldbody.add_body(
         name="base",
@@ -46,8 +46,8 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
-    """Add walls of solid metal around the large holes; wedges that contain a tapped hole stop only the hand and the
-    driver.
+    """Add walls of solid metal around the large holes. A wedge that contains a tapped hole collides only with
+    the hand and the driver, so that a screw can enter the hole.
     """
     floor, top = d("base.plate.thickness"), base_top()
     x2 = d("base.large_hole_2.x")
@@ -87,7 +87,8 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
 
 
 def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[np.str_]:
-    """Colours of the surface: the face is machined; holes are dark inside, as cast and oily; the rest is cast."""
+    """Return the colour names of the base's surface: the face is machined, holes are dark inside because they
+    are as cast and oily, and the rest is cast."""
     d = dimensions()
     x2 = d("base.large_hole_2.x")
     rims = [(0.0, 0.0, d("base.large_hole_1.diameter") / 2), (x2, 0.0, d("base.large_hole_2.diameter") / 2)]
@@ -103,9 +104,10 @@ def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[n
 def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number: int, at: Point) -> None:
     """Add the bore and the thread.
 
-    A thread is a carrier with the frame of the screw in it, origin at the screw's point; its slide is bound to its
-    turn by the pitch. Head and shank touch nothing until the cell engages a screw, but they are compiled with the
-    widest contact bits, because these can be narrowed at run time but not widened.
+    The thread is a carrier body, whose frame is that of the screw in it, with the origin at the screw's point.
+    The pitch couples the carrier's slide to its turn. Head and shank touch nothing until the cell engages a
+    screw, but they are compiled with the widest contact bits, because these can be narrowed at run time but not
+    widened.
     """
     top, depth, (x, y) = base_top(), d("base.screw_holes.depth"), at
     tap = Bore(

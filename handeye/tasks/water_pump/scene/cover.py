@@ -1,4 +1,4 @@
-"""The gasket, and the top with its rotor."""
+"""Adds the gasket, and the top with its rotor."""
 
 import math
 from collections.abc import Sequence
@@ -35,7 +35,8 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def add_top(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the top on its stand: a flange with clearance holes, a hub with two flats for the fingers, and the rotor."""
+    """Add the top on its stand: a flange with clearance holes, a hub with two flats that the fingers grip, and
+    the rotor."""
     d = dimensions()
     (x, y), turn, flange = d.all("top_stand.grasp"), d("standard.yaw"), d("top.flange")
     fixture = add_top_stand(shaper, world)
@@ -69,7 +70,8 @@ def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequ
 
 
 def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
-    """Add the rotor on the hub: shaft, crank arm and crank pin; at the start, the crank pin is away from all holes."""
+    """Add the rotor on the hub, with shaft, crank arm and crank pin. At the start, the crank pin is not above
+    any screw hole."""
     body = top.add_body(name="rotor", pos=[0.0, 0.0, d("top.flange") + d("top.hub_height")])
     body_inertia(body, d("rotor.mass"), (0.0, 0.0, 0.01), (5e-5, 5e-5, 5e-5))
     body.add_joint(
@@ -90,7 +92,8 @@ def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
 
 
 def add_merging(spec: mujoco.MjSpec) -> None:
-    """Add welds, initially open, that the cell closes for speed when parts rest on each other."""
+    """Add welds, open at first, which the cell closes to save computing time when screws clamp the parts
+    together."""
     for part in ("top", "gasket"):
         weld = spec.add_equality(
             name=f"merge_{part}", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,

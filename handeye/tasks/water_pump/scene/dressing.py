@@ -1,6 +1,6 @@
-"""Adds furniture for photographs: tape reels, teletype, clock, boom cables and bevels; no working cell has it.
+"""Adds furniture and details that only photographs show: tape reels, teletype, clock, boom cables and bevels.
 
-The furniture touches nothing, has no mass, and lies in a geom group that the television camera does not see.
+They touch nothing, have no mass, and are in a geom group that the television camera does not see.
 """
 
 import math
@@ -49,8 +49,8 @@ look speckled.
 
 
 def add_reels(shaper: Shaper) -> None:
-    """Add two tape drives: a pair of reels in the upper panels of two cabinets, one nearly full, with the heads
-    below.
+    """Add the fronts of two tape drives, each with two reels, one of them nearly full, and with the heads below
+    the reels.
     """
     body = shaper.spec.worldbody
     for drive in (0, 1):
@@ -64,7 +64,7 @@ def add_reels(shaper: Shaper) -> None:
 
 
 def _add_reel(shaper: Shaper, number: int, at: Vector, tape: float) -> None:
-    """Add a reel with its axis along y, on a deck at `at`, with tape up to a radius (m)."""
+    """Add a reel with its axis along y, on a deck at `at` (m), with tape up to the radius `tape` (m)."""
     body, (x, y, z) = shaper.spec.worldbody, at
     shaper.cylinder(body, "scenery", tape, (x, y, z), (x, y + 0.012, z), "tape", f"tape{number}")
     shaper.cylinder(body, "scenery", 0.024, (x, y, z), (x, y + 0.024, z), "black", f"tape_hub{number}")
@@ -176,7 +176,8 @@ _BEVELLED: Final = ("block", "enamel", "red", "iron")  # materials of blocks, fi
 
 
 def add_bevels(shaper: Shaper) -> None:
-    """Show boxes of a scene with bevelled edges in photographs; the television camera still sees the boxes."""
+    """Show the boxes of a scene with bevelled edges in photographs. The television camera still sees the plain
+    boxes."""
     boxes = [geom for geom in shaper.spec.geoms if geom.type == BOX and geom.group == SEEN]
     for box in boxes:
         if box.material in _BEVELLED:
@@ -188,7 +189,7 @@ def add_bevels(shaper: Shaper) -> None:
 
 
 def bevelled(half: Array) -> solids.Surface:
-    """Surface of a box from -`half` to `half` (m), with bevels on all edges."""
+    """Return the surface of a box that extends from -`half` to `half` (m), with bevels on all edges."""
     corners = np.array(list(product((-1.0, 1.0), repeat=3)))
     inner = np.where(np.eye(3, dtype=bool), half, half - BEVEL_M)
     return solids.surface(Manifold.hull_points((corners[:, None] * inner).reshape(-1, 3)))

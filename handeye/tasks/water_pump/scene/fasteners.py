@@ -1,4 +1,4 @@
-"""Aligning pins in their holder and screws in their dispenser."""
+"""Adds the aligning pins in their holder and the screws in their dispenser."""
 
 import math
 from functools import cache
@@ -18,7 +18,7 @@ from handeye.tasks.water_pump.world.stations import Station
 
 
 def add_pins(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the holder, and a free stepped pin in each of its holes; the origin of a pin is in the plane of its
+    """Add the holder, and a loose stepped pin in each of its holes. The origin of a pin is in the plane of its
     shoulder.
     """
     d = dimensions()
@@ -50,8 +50,8 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 def add_screws(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the dispenser, and a free screw in each of its holes, hanging by its head; the origin of a screw is at
-    its point.
+    """Add the dispenser, and a loose screw that hangs by its head in each of its holes. The origin of a screw
+    is at its point.
     """
     d = dimensions()
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")
@@ -87,8 +87,8 @@ def _add_screw(shaper: Shaper, body: mujoco.MjsBody, number: int) -> None:
 
 @cache
 def _screw_inertia(density: float) -> tuple[float, float, tuple[float, float, float]]:
-    """Mass of a screw with its thread (kg), height of its mass centre above the point (m), and principal moments
-    (kg m2).
+    """Return the mass of a screw with its thread (kg), the height of its centre of mass above its point (m),
+    and its principal moments of inertia (kg m2).
     """
     volume, centre, moments = solids.volume_moments(_screw())
     across, _, along = (density * moments).tolist()  # the slot makes the two across differ by half a per cent

@@ -1,4 +1,5 @@
-"""Fixtures on the table, each displaced from its nominal position by the world's error: blocks, stands, rack."""
+"""Adds the fixtures on the table (blocks, stands and rack), each displaced from its nominal position by its
+error in the world."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -18,7 +19,8 @@ EXACT: Final = Placing()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fixture:
-    """A fixed body with a frame in which a part has its *nominal* table coordinates."""
+    """A fixed body with a frame. Parts placed in this frame by their nominal table coordinates share the
+    fixture's placement error."""
 
     body: mujoco.MjsBody
     X_WF: Pose  # nearly the identity: the error of place, about the fixture's middle
@@ -33,7 +35,8 @@ class Fixture:
         turn: float = 0.0,
         error: Placing = EXACT,
     ) -> mujoco.MjsBody:
-        """Add a free body that starts on this fixture, at a nominal position and yaw `turn` (m, rad) plus an error."""
+        """Add a free body that starts on this fixture. Its pose is the nominal position (m) and the yaw `turn`
+        (rad), plus an error."""
         X = self.X_WF @ error.about(x, y, z) @ planar(x, y, z, turn)
         body = _body(shaper, name, X)
         body.add_freejoint(name=name)
@@ -47,7 +50,7 @@ def _body(shaper: Shaper, name: str, X_WB: Pose) -> mujoco.MjsBody:
 
 
 def add_fixture(shaper: Shaper, world: PumpWorld, station: str, middle: Point) -> Fixture:
-    """Add an empty fixture; `middle` (m) is the point about which its error turns it."""
+    """Add a fixture without shapes. `middle` is the point (m) about which its error turns it."""
     X = world.fixtures[station].about(*middle)
     return Fixture(body=_body(shaper, station, X), X_WF=X)
 
@@ -67,7 +70,8 @@ def add_blocks(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def add_gasket_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
-    """Add two rails for the rims of the gasket, with an open middle for the fingers."""
+    """Add a stand of two rails that carry the rims of the gasket. The space between the rails is free for the
+    fingers."""
     d = dimensions()
     (x, y), height = d.all("gasket_stand.grasp"), d("gasket_stand.height")
     fixture = add_fixture(shaper, world, Station.GASKET_STAND, (x, y))
@@ -96,7 +100,7 @@ def add_top_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
 
 
 def add_plain_stations(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the stations that consist of boxes only."""
+    """Add the stations that consist only of boxes."""
     for name, boxes in plain_stations().items():
         corners = np.array(boxes)
         x, y = (corners[:, :2].min(axis=0) + corners[:, 3:5].max(axis=0)) / 2

@@ -1,4 +1,4 @@
-"""The room: table, belt, floor and walls, lights, cameras."""
+"""Adds the surroundings: table, belt, floor, walls, lights and cameras."""
 
 import math
 from itertools import product
@@ -21,7 +21,7 @@ Point3 = tuple[float, float, float]
 
 
 def add_room(shaper: Shaper, world: PumpWorld) -> None:
-    """Add everything that is fixed, except the fixtures."""
+    """Add everything fixed in the scene except the fixtures."""
     _add_table(shaper, world)
     _add_belt(shaper, world)
     _add_building(shaper, world.screws)
@@ -85,7 +85,7 @@ def _add_building(shaper: Shaper, screws: int) -> None:
 
 
 def cabinet(number: int) -> tuple[Point3, Point3]:
-    """Corners of a cabinet of the computer (m): front left bottom, and back right top."""
+    """Return two opposite corners of a computer cabinet (m): front left bottom, and back right top."""
     left, floor = -0.85 + 0.57 * number, -dimensions()("table.height")
     return (left, -1.35, floor + 0.06), (left + 0.55, -1.35, floor + 1.75)
 
@@ -130,8 +130,8 @@ def _add_tripod(shaper: Shaper) -> None:
 
 
 def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
-    """Add one lamp that casts shadows, as far from the work as in the vision study, and the ambient light of the
-    room.
+    """Add one lamp that casts shadows, at the same distance from the work as in the vision study, and the
+    ambient light of the room.
     """
     d, light = dimensions(), world.light
     target, distance = np.array(d.all("camera.light_target")), d("camera.light_distance")
@@ -146,8 +146,8 @@ def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
 
 
 def _add_cameras(spec: mujoco.MjSpec) -> None:
-    """Add the television camera `tv`, which looks at the standard position until the cell turns it, and the cameras
-    for photographs.
+    """Add the television camera `tv`, which looks at the standard position until the cell turns it, and the
+    cameras for photographs.
     """
     d = dimensions()
     focal = d.all("camera.focal_length")[0]

@@ -1,7 +1,7 @@
-"""Exact solids of the pump's parts, for display and for clearances: made with manifold3d from the dimensions.
+"""Makes exact solids of the pump's parts from the dimensions with manifold3d, for display and for clearances.
 
-A solid is a value. Making a solid takes longer than compiling the whole scene, so the surfaces of parts without
-figures that vary between worlds are kept for the next world.
+Making a solid takes longer than compiling the whole scene. Surfaces that are the same in all worlds are
+therefore kept for the next world.
 """
 
 import math
@@ -22,12 +22,13 @@ _ROUND = 96
 
 
 def disc(radius: float, x: float = 0.0, y: float = 0.0, segments: int = _ROUND) -> CrossSection:
-    """A round cross-section, m."""
+    """Return a round cross-section with a radius and a centre (m)."""
     return CrossSection.circle(radius, segments).translate((x, y))
 
 
 def rectangle(x0: float, y0: float, x1: float, y1: float, corner: float = 0.0) -> CrossSection:
-    """A rectangular cross-section with rounded corners, m."""
+    """Return a rectangular cross-section between opposite corners (x0, y0) and (x1, y1), whose corners are
+    rounded to radius `corner` (m)."""
     if corner == 0.0:
         return CrossSection.square((x1 - x0, y1 - y0)).translate((x0, y0))
     centres = [(x, y) for x in (x0 + corner, x1 - corner) for y in (y0 + corner, y1 - corner)]
@@ -35,29 +36,31 @@ def rectangle(x0: float, y0: float, x1: float, y1: float, corner: float = 0.0) -
 
 
 def hull(*sections: CrossSection) -> CrossSection:
-    """The convex hull of cross-sections."""
+    """Return the convex hull of cross-sections."""
     return CrossSection.batch_hull(list(sections))
 
 
 def extruded(section: CrossSection, z0: float, z1: float) -> Manifold:
-    """The solid over a cross-section between two heights, m."""
+    """Return the solid that a cross-section forms between two heights (m)."""
     return Manifold.extrude(section, z1 - z0).translate((0.0, 0.0, z0))
 
 
 def prism(profile: Sequence[Point], y0: float, y1: float) -> Manifold:
-    """The solid between two planes along y over a profile, given by (x, z) corners in order, m."""
+    """Return the solid that a profile in the xz plane forms between `y0` and `y1` (m). The profile is a list of
+    (x, z) corners in order (m)."""
     upright = Manifold.extrude(CrossSection([list(profile)]), y1 - y0).rotate((90.0, 0.0, 0.0))
     return upright.translate((0.0, y1, 0.0))
 
 
 def tube(points: Sequence[tuple[float, float, float]], radius: float) -> Manifold:
-    """A round solid along a path through points, m."""
+    """Return a round tube of a radius (m) along a path through points (m)."""
     balls = [Manifold.sphere(radius, 12).translate(point) for point in points]
     return Manifold.batch_boolean([Manifold.batch_hull(list(two)) for two in pairwise(balls)], OpType.Add)
 
 
 def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: float = 0.0) -> Manifold:
-    """A solid to subtract for a hole from z0 to z1 with 45 degree chamfers, m."""
+    """Return the solid to subtract for a hole from z0 to z1 (m), with 45 degree chamfers `above` and `below`
+    (m)."""
     hole = Manifold.cylinder(z1 - z0 + 2e-4, radius, radius, _ROUND).translate((0.0, 0.0, z0 - 1e-4))
     if above:
         hole += Manifold.cylinder(above, radius, radius + above, _ROUND).translate((0.0, 0.0, z1 - above))
@@ -67,7 +70,7 @@ def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: floa
 
 
 def outline() -> CrossSection:
-    """The irregular outline common to casting, gasket and top, in part coordinates."""
+    """Return the irregular outline that casting, gasket and top share, in part coordinates (m)."""
     d = dimensions()
     chamber, inlet = d("base.casting.chamber_diameter") / 2, d("base.casting.inlet_diameter") / 2
     direction, reach = d("base.casting.ear_direction"), d("base.casting.ear_radius")
@@ -79,7 +82,7 @@ def outline() -> CrossSection:
 
 @cache
 def casting(screws: int) -> Surface:
-    """Surface of the base's casting, above its plate, with `screws` tapped holes."""
+    """Return the surface of the base's casting, which is above its plate and has `screws` tapped holes."""
     d = dimensions()
     top, floor = base_top(), d("base.plate.thickness")
     solid = extruded(outline().offset(-0.0012), floor, top) + extruded(outline(), floor, top - 0.0016)
@@ -95,7 +98,7 @@ def casting(screws: int) -> Surface:
 
 @cache
 def plate() -> Surface:
-    """Surface of the base's plate."""
+    """Return the surface of the base's plate."""
     d = dimensions()
     x, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
     box = rectangle(x - length / 2, -width / 2, x + length / 2, width / 2, 0.004)
@@ -104,8 +107,8 @@ def plate() -> Surface:
 
 @cache
 def gasket(screws: int) -> Surface:
-    """Surface of the gasket: its large holes are a little wider than the base's, with flats for the fingers that
-    carry the gasket.
+    """Return the surface of the gasket. Its large holes are slightly wider than those of the base, and have
+    flats that the fingers grip.
     """
     d = dimensions()
     over, half = d("gasket.hole_oversize") / 2, d("gasket.web") / 2
@@ -120,7 +123,7 @@ def gasket(screws: int) -> Surface:
 
 @cache
 def flange(screws: int) -> Surface:
-    """Surface of the top's flange with a clearance hole for each screw."""
+    """Return the surface of the top's flange, with a clearance hole for each screw."""
     d = dimensions()
     thick = d("top.flange")
     solid = extruded(outline().offset(-0.0008), 0.0, thick) + extruded(outline(), 0.0, thick - 0.001)
@@ -136,7 +139,8 @@ def drilled(
     edges: tuple[float, float, float, float], height: float, places: tuple[Point, ...],
     radius: float, depth: float, chamfer: float,
 ) -> Surface:  # fmt: skip
-    """Surface of an upright block between edges (x0, y0, x1, y1), with a hole from above at each of `places`, m."""
+    """Return the surface of an upright block between the edges (x0, y0, x1, y1), with a blind hole from above
+    at each of `places`. All lengths are in m."""
     block = extruded(rectangle(*edges, 0.004), 0.0, height)
     for x, y in places:
         block -= bore(radius, height - depth, height, above=chamfer).translate((x, y, 0.0))
@@ -144,7 +148,7 @@ def drilled(
 
 
 def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold:
-    """A solid of revolution about z from (radius, z) corners, in order, m."""
+    """Return the solid of revolution about z of a profile, given by (radius, z) corners in order (m)."""
     return Manifold.revolve(CrossSection([profile]), segments)
 
 
@@ -156,7 +160,8 @@ def surface(solid: Manifold) -> Surface:
 
 
 def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
-    """Volume of a solid (m3), its centre (m), and its moments about axes through the centre along x, y and z (m5)."""
+    """Return the volume of a solid (m3), its centre of volume (m), and its second moments of volume about the
+    axes through that centre (m5)."""
     vertices, triangles = closed
     corners = vertices[triangles]
     volumes = np.linalg.det(corners) / 6
@@ -167,8 +172,8 @@ def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
 
 
 def painted(whole: Surface, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
-    """Divide a surface by colour; `colour` gives names, shape (m,), from the centres and unit normals of the
-    triangles, (m, 3).
+    """Divide a surface into parts of one colour each. `colour` returns the name of each triangle's colour,
+    shape (m,), from the triangles' centres and unit normals, shape (m, 3).
     """
     vertices, triangles = whole
     corners = vertices[triangles]

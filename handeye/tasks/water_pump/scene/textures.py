@@ -1,4 +1,4 @@
-"""Computed grain of wood, cast iron, belt and floor, for photographs.
+"""Computes the grain of wood, cast iron, belt and floor for photographs.
 
 The television camera sees only the plain intensities of the materials, so a texture does not affect any
 measurement.
@@ -22,7 +22,7 @@ Grain = Callable[[np.random.Generator], Array]
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
-    """Give the materials their grain. Each grain is computed with a separate random generator, and is always the
+    """Give the materials their grain. Each grain is computed with its own random generator, so it is always the
     same.
     """
     for name, pixels in _pixels().items():
@@ -38,7 +38,7 @@ def add_textures(spec: mujoco.MjSpec) -> None:
 
 @cache
 def _pixels() -> dict[str, NDArray[np.uint8]]:
-    """Pictures of the grains, by name."""
+    """Return the pictures of the grains, by name."""
     return {
         name: np.clip(255 * grain(np.random.default_rng(number)), 0, 255).astype(np.uint8)
         for number, (name, grain) in enumerate(_GRAINS.items())
@@ -46,7 +46,8 @@ def _pixels() -> dict[str, NDArray[np.uint8]]:
 
 
 def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int = _SIZE) -> Array:
-    """Noise blurred with Gaussians of these standard deviations (pixels), wrapped at the edges, with unit variance."""
+    """Return noise blurred with Gaussians of these standard deviations (pixels). The noise wraps around at the
+    edges and has unit variance."""
     noise, frequency = rng.standard_normal((size, size)), np.fft.fftfreq(size)
     window = np.exp(-2 * np.pi**2 * np.add.outer((along_y * frequency) ** 2, (along_x * frequency) ** 2))
     soft = np.asarray(np.fft.ifft2(np.fft.fft2(noise) * window).real, np.float64)
@@ -63,7 +64,7 @@ def _streaks(rng: np.random.Generator, size: int = _SIZE) -> Array:
 
 
 def _bench(rng: np.random.Generator) -> Array:
-    """Old maple: narrow boards along x, each with a different tone and made of two pieces that meet somewhere."""
+    """Return the grain of old maple: narrow boards along x, each of two pieces with different tones."""
     row = np.arange(_BENCH)
     board = row * _BOARDS // _BENCH
     tones, joints = rng.uniform(-0.08, 0.05, (_BOARDS, 2)), rng.integers(0, _BENCH, _BOARDS)

@@ -1,4 +1,4 @@
-"""The powered screwdriver in its rack, with its magnetic bit."""
+"""Adds the powered screwdriver with its magnetic bit, in its rack."""
 
 from math import cos, pi, sin, sqrt
 from typing import Final
@@ -40,7 +40,7 @@ def add_driver(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
-    """Add the bit: a flat driving face, in a ring that keeps the screw head from sliding off."""
+    """Add the bit: a flat driving face inside a ring that keeps the screw head from sliding off."""
     d = dimensions()
     length = d("driver.bit")
     body = driver.add_body(name="bit", pos=[0.0, 0.0, -d("driver.height") / 2 - length])
@@ -63,11 +63,11 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
 
 
 def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
-    """Add the rack: four posts for the corners of the grip block, and a square guide with a lead-in, with the
-    spindle between the posts.
+    """Add the rack: four posts that guide the corners of the grip block, and a square guide with a lead-in. The
+    spindle hangs between the posts.
 
-    The socket comes down between the posts before the block reaches the guide, so its clearance is greater than the
-    lead-in of the guide.
+    The socket enters between the posts before the block reaches the guide, so the socket's clearance is greater
+    than the lead-in of the guide.
     """
     d = dimensions()
     (x, y), height = d.all("rack.place"), d("rack.height")
@@ -86,9 +86,9 @@ def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
 def _add_drives(spec: mujoco.MjSpec) -> None:
     """Add the spindle motor, the thread drive and the magnet.
 
-    `drive` turns a thread's carrier and reacts on the driver; the moments of a joint equality would cancel inside
-    the driver, and the arm would feel nothing. The cell connects `drive` to the carrier of the engaged screw and
-    sets its gains.
+    The motor `drive` turns a thread's carrier, and its reaction torque acts on the driver. With a joint
+    equality instead, the torques would cancel inside the driver, and the arm would feel nothing. The cell
+    connects `drive` to the carrier of the engaged screw and sets its gains.
     """
     d = dimensions()
     spin = spec.add_actuator(name="spindle", trntype=mujoco.mjtTrn.mjTRN_JOINT, target="spindle")

@@ -37,12 +37,12 @@ class BaseAttempt(Attempt, frozen=True, kw_only=True):
 
     @property
     def within(self) -> bool:
-        """True if the base was located as accurately as the paper states."""
+        """True if the base was located with the accuracy that the paper states."""
         return self.error is not None and all(abs(e) <= w for e, w in zip(self.error, WITHIN, strict=False))
 
 
 class BaseTrial(Trial[BaseAttempt]):
-    """Locate the base: first at the pose in the world, then at random poses on the belt."""
+    """Locate the base, first at its pose in the world, then at random poses on the belt."""
 
     attempt = BaseAttempt
 

@@ -1,4 +1,4 @@
-"""Trial of vision: inspect whether the gasket lies properly."""
+"""Trial of vision: inspect whether the gasket lies correctly."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -38,14 +38,14 @@ GASKET_OFF_IN: Final = 0.02  # likewise, the pins
 
 
 class GasketAttempt(Attempt, frozen=True, kw_only=True):
-    """One inspection of the gasket in each case."""
+    """The results of inspecting the gasket once in each case."""
 
     accepted: dict[str, bool]  # verdict of the eye by case; empty if the camera could not be calibrated
     failure: str | None = None
 
 
 class GasketTrial(Trial[GasketAttempt]):
-    """Inspect the gasket in place, shifted, absent, and doubled."""
+    """Inspect the gasket in four cases: correctly placed, shifted, absent, and doubled."""
 
     attempt = GasketAttempt
 
@@ -90,7 +90,8 @@ class GasketTrial(Trial[GasketAttempt]):
 def _inspected(
     still: StillPump, base: Place, part: Part, view: View, rng: np.random.Generator
 ) -> dict[str, bool]:
-    """The verdict of vision on the gasket in each case, compared with one picture from before."""
+    """Return the verdict of vision on the gasket in each case. Each picture is compared with the same picture
+    taken before the gasket was placed."""
     before = still.camera.digitise()
     stand = still.pose("gasket")
     X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)
@@ -115,7 +116,7 @@ def _shifted(X_WP: Pose, rng: np.random.Generator) -> Pose:
 
 
 def _doubled(X_WP: Pose, rng: np.random.Generator) -> Pose:
-    """The pose of the upper of two gaskets; the lower one is hidden beneath it."""
+    """Return the pose of the upper of two gaskets. The lower one is hidden beneath it."""
     return translated(_right(X_WP, rng), (0.0, 0.0, dimensions()("gasket.thickness")))
 
 
@@ -128,7 +129,7 @@ _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
 
 
 def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:
-    """A place changed by at most `amount` inches in x and y, and by up to .3 degrees."""
+    """Return a place changed at random by at most `amount` inches in x and y, and by at most .3 degrees."""
     x, y, z, turn = place
     dx, dy = rng.uniform(-amount, amount, 2) * INCH
     return x + float(dx), y + float(dy), z, turn + float(rng.uniform(-0.3, 0.3)) * DEGREE

@@ -1,5 +1,5 @@
-"""The pump's cell in its initial state, with parts placed at given poses, its camera, and the program's knowledge
-of both.
+"""The pump's cell in its initial state, for trials of vision: parts are placed at given poses and located with
+the camera, as the program knows both.
 """
 
 import math
@@ -53,19 +53,20 @@ class StillPump:
         self.true_camera = true_camera(world.camera, DRAWING)
 
     def put(self, part: str, X_WP: Pose) -> None:
-        """Put a free body at a pose, even if another body is there."""
+        """Put a free body at a pose, without checking whether another body is there."""
         quat: Array = np.zeros(4)
         mujoco.mju_mat2Quat(quat, X_WP[:3, :3].ravel())
         self._data.joint(part).qpos = [*X_WP[:3, 3], *quat]
         mujoco.mj_forward(self._model, self._data)
 
     def pose(self, part: str) -> Pose:
-        """The pose `X_WP` of a body."""
+        """Return `X_WP`, the pose of a body."""
         return body_pose(self._data, part)
 
 
 def pump_base(at: Place | None = None) -> Part:
-    """The pump base as a program describes it, from the dimensions of the scene; on the belt by default."""
+    """Describe the pump base as a program does, using the dimensions of the scene. By default the base is
+    expected on the belt."""
     d = dimensions()
     first = Hole(x=0.0, y=0.0, diameter=d("base.large_hole_1.diameter"))
     second = Hole(x=d("base.large_hole_2.x"), y=0.0, diameter=d("base.large_hole_2.diameter"))
@@ -85,7 +86,8 @@ def pump_base(at: Place | None = None) -> Part:
 
 
 def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
-    """Put the base at a place, with the aligning pins in it or left where they are."""
+    """Put the base at a place. With `pins`, the aligning pins stand in the base; without, they stay where they
+    are."""
     X_WP = planar(*place)
     still.put("base", X_WP)
     d = dimensions()
@@ -96,7 +98,7 @@ def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
 
 
 def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, float, float]) -> View:
-    """Turn the lens, aim and focus as the executor does; returns the view as the program believes it to be."""
+    """Turn the lens, aim and focus as the executor does. Returns the view as the program believes it to be."""
     camera.lens(lens)
     camera.aim(*known.aim(point, lens))
     camera.focus(math.dist(point, known.mount))
@@ -106,7 +108,7 @@ def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, 
 def locate(
     camera: TvCamera, known: CameraModel, part: Part
 ) -> tuple[SpecificLocation | Failure, list[tuple[Picture, View, GeneralLocation | None]]]:
-    """Locate the part in both stages; also returns the pictures used."""
+    """Locate the part in both stages of vision. Also returns the pictures used."""
     x, y, z, _ = part.at
     view = look(camera, known, WIDE, (x, y, z))
     picture = camera.digitise()
@@ -122,7 +124,7 @@ def locate(
 
 
 def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
-    """Poses of the base, x, y (m) and yaw (rad); the pose in the world comes first."""
+    """Yield poses of the base, each as x and y (m) and yaw (rad). The base's pose in the world comes first."""
     yield world.base.x, world.base.y, world.base.yaw
     rng, ranges = world.generator("trial.base"), np.array([BELT_X, BELT_Y, BELT_LINE])
     for _ in range(number - 1):
@@ -133,8 +135,8 @@ def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
 def known_camera(
     still: StillPump, known: Known, renderer: str, about: tuple[float, float, float]
 ) -> CameraModel:
-    """The camera model that the program knows; simulated sightings are about the point `about`, W, m. Raises
-    CalibrationFailed.
+    """Return the camera model that the program knows. Simulated sightings are made about the point `about` in W
+    (m). Raises CalibrationFailed.
     """
     match known:
         case "lamp":
@@ -148,11 +150,11 @@ def known_camera(
 
 
 def by_lamp(still: StillPump, renderer: str) -> Calibration:
-    """Calibrate as in a run: in the cell of the world, the arm measures itself and then carries its lamp through
-    the camera's view.
+    """Calibrate as in a run: the arm measures the errors of its joints, and then carries its lamp through the
+    camera's view.
 
-    The camera of the still cell continues in the state after the calibration, with its lens, aim and noise
-    generator. Raises CalibrationFailed if the lamp was seen too few times.
+    Afterwards, the camera of the still cell has the lens, aim and noise generator that the calibration left.
+    Raises CalibrationFailed if the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
     drive = DriveState.holding(cell.devices.sense(), STANFORD)
@@ -168,10 +170,11 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
 
 
 def by_sightings(still: StillPump, about: tuple[float, float, float]) -> Calibration:
-    """Calibrate with simulated sightings of a lamp at random points about a point, without rendering: fast, but too
-    accurate.
+    """Calibrate with simulated sightings of a lamp at random points near the point `about` (m), without
+    rendering.
 
-    The errors of the joints, of the lamp's position and of the raster are not simulated.
+    This is fast but too accurate, because it does not simulate the errors of the joints, of the lamp's position
+    and of the raster.
     """
     rng = still.world.generator("trial.calibration")
     sightings = []

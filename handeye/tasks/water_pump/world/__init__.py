@@ -1,1 +1,1 @@
-"""The worlds of the pump: nominal figures, the errors that vary, and the values of one world."""
+"""The worlds of the pump: the nominal figures, the errors that vary, and the values of one world."""

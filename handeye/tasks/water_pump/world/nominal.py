@@ -1,4 +1,4 @@
-"""The pump's cell as designed: the position of its camera, and the looks with which the arm shows its lamp to the
+"""The pump's cell as designed: the position of its camera, and the views in which the arm shows its lamp to the
 camera.
 """
 
@@ -29,11 +29,12 @@ _TRIANGLE: Final = (0, 2, 4)  # places of a grid of six: two rows of three
 def _looks(
     chosen: tuple[int, ...], lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]
 ) -> Iterator[CalibrationLook]:
-    """Looks at some places of a grid about (x, y), with the lamp shown left and right, high and low; inches.
+    """Yield views of some places of a grid about (x, y). In each view, the lamp is shown left and right, high
+    and low. All lengths are in inches.
 
-    The camera is aimed again for each look, because each reading of its pan and tilt has a different error; two
-    lamp places in one look determine the roll of the camera. The heights are mixed, because lamp places of one
-    height would not distinguish height from depth.
+    The camera is aimed again for each view, because each reading of its pan and tilt has a different error. Two
+    lamp places in one view determine the roll of the camera. The lamp is shown at different heights, because
+    lamp places of one height could not distinguish height from depth.
     """
     for k in chosen:
         cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)

@@ -1,4 +1,4 @@
-"""The values of a pump world by device and part, from which the simulated cell is built."""
+"""The values of one world of the pump, sorted by device and part. The simulated cell is built from them."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Self
@@ -24,7 +24,7 @@ from handeye.tasks.water_pump.world.variation import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Light:
-    """The key light, and the ambient light of the room."""
+    """The lamp that lights the work, and the ambient light of the room."""
 
     zenith: float  # rad from the vertical
     azimuth: float  # rad from table x: where the light comes from
@@ -34,7 +34,7 @@ class Light:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Placing:
-    """A placement error: displacement, m, and turn, rad, about z and then about the turned y and x axes."""
+    """A placement error: a displacement (m), and turns about z and then about the turned y and x axes (rad)."""
 
     x: float = 0.0
     y: float = 0.0
@@ -44,8 +44,8 @@ class Placing:
     roll: float = 0.0
 
     def about(self, x: float, y: float, z: float = 0.0) -> Pose:
-        """The displacement, as a pose, of everything fixed to a part that has this placement error and is turned by
-        it about (x, y, z), m.
+        """Return the error as a pose: the displacement of everything fixed to a part that is displaced by this
+        error and turned by it about (x, y, z) (m).
         """
         R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
         p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])
@@ -90,18 +90,18 @@ class PumpWorld(ArmWorld):
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
-        """Draw the world of a specification; raises InvalidInput if that is impossible for this task."""
+        """Draw the world of a specification. Raises InvalidInput if the specification does not fit this task."""
         return cls.of(variation().draw(spec))
 
     @classmethod
     def sample(cls, seed: int) -> Self:
-        """The world of a seed, with errors of nominal level."""
+        """Draw the world of a seed, with errors of nominal size."""
         return cls.draw(WorldSpec(seed=seed))
 
     @classmethod
     def nominal(cls, screws: int = 6) -> Self:
-        """The world as plan and controller assume it: no errors, no noise, no converter steps, no friction in the
-        joints.
+        """Return the world that plan and controller assume: no errors, no noise, no quantisation by converters,
+        and no friction in the joints.
         """
         table = variation()
         everything = tuple(sorted({name.split(".")[0] for name in table.quantities}))
@@ -115,13 +115,13 @@ class PumpWorld(ArmWorld):
         return len(self.holes["base"])
 
     def drilled(self, part: str) -> tuple[Point, ...]:
-        """True positions of a part's screw holes, in the part's frame, m."""
+        """Return the true positions of a part's screw holes in the part's frame (m)."""
         drawn = screw_holes(self.screws)
         return tuple((x + dx, y + dy) for (x, y), (dx, dy) in zip(drawn, self.holes[part], strict=True))
 
 
 def _placing(world: World, name: str) -> Placing:
-    """The placement error with a name; zero in components that have no quantity."""
+    """Return the placement error called `name`. Components that do not vary are zero."""
     ways = (field.name for field in fields(Placing))
     return Placing(**{way: world.values.get(f"{name}.{way}", 0.0) for way in ways})
 
@@ -138,7 +138,7 @@ def _parts(world: World) -> dict[str, Placing]:
 
 
 def _in_play(world: World, name: str, play: float) -> Placing:
-    """The placement error with a name, whose x and y are given as fractions of a play (m)."""
+    """Return the placement error called `name`, whose x and y are given as fractions of a play (m)."""
     share = _placing(world, name)
     return replace(share, x=share.x * play, y=share.y * play)
 

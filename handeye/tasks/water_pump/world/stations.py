@@ -1,7 +1,7 @@
 """Stations of the pump's table: fixtures in which parts and tools wait, or against which they are pushed.
 
-A station that consists of boxes is one entry `[stations.NAME]` of `scenes/water_pump/dimensions.toml`: the scene
-shows it, worlds displace it by a separate error, and the planner keeps every motion clear of it.
+A station made of boxes needs only one entry `[stations.NAME]` in `scenes/water_pump/dimensions.toml`. The scene
+then shows it, each world displaces it by its own error, and the planner keeps every motion clear of it.
 """
 
 from enum import StrEnum
@@ -13,7 +13,8 @@ from handeye.tasks.stanford_cell.dimensions import dimensions
 
 
 class Station(StrEnum):
-    """Names of the stations with a special shape; their bodies and their errors have these names."""
+    """Names of the stations that do not consist only of boxes. Their bodies and their errors have the same
+    names."""
 
     BLOCKS = "blocks"
     PIN_HOLDER = "pin_holder"
@@ -24,8 +25,8 @@ class Station(StrEnum):
 
 
 def plain_stations() -> dict[str, tuple[Box, ...]]:
-    """The boxes of the stations that consist of boxes only, by name; table frame, m. Raises InvalidInput if the
-    figures of a station are not those of boxes.
+    """Return the boxes of the stations that consist only of boxes, by name, in the table frame (m). Raises
+    InvalidInput if a station's figures do not describe boxes.
     """
     found = {}
     for figure in dimensions().figures:
@@ -54,6 +55,7 @@ def stations() -> tuple[str, ...]:
 
 
 def planned_fixtures() -> dict[str, Fixture]:
-    """The stations that consist of boxes, as obstacles for the planner, by their names in taught files."""
+    """Return the stations that consist only of boxes, as obstacles for the planner, by their names in taught
+    files."""
     origin = (0.0, 0.0, 0.0, 0.0)
     return {name.upper(): Fixture(at=origin, boxes=boxes) for name, boxes in plain_stations().items()}

@@ -1,6 +1,6 @@
 """The quantities in which worlds of the pump differ from the plan.
 
-Search, vision and touch exist to overcome these errors. Joints, holes and screws are counted from 1.
+The program overcomes these errors with vision, touch and search. Joints, holes and screws are numbered from 1.
 """
 
 from collections.abc import Iterator
@@ -35,13 +35,13 @@ corners of its seat.
 
 
 def screws(world: WorldSpec) -> int:
-    """Number of screws and tapped holes of the pump in a world."""
+    """Return the number of screws and tapped holes of the pump in a world."""
     return round(variation().value(SCREWS, world))
 
 
 @cache
 def variation() -> Variation:
-    """The quantities in which worlds differ."""
+    """Return the quantities that vary between worlds."""
     return Variation(
         *_make(), *_belt(), *arm(), *hand(),
         *group(
@@ -64,7 +64,7 @@ def _make() -> Iterator[Quantity]:
 
 
 def _of(number: int, quantities: Iterator[Quantity]) -> Iterator[Quantity]:
-    """Quantities of the screw or hole with a number; pumps with fewer screws do not have them."""
+    """Yield quantities of the screw or hole with this number. A pump with fewer screws does not have them."""
     where = (SCREWS, float(number)) if number > USUAL else None
     return (replace(quantity, where=where) for quantity in quantities)
 
