@@ -1,4 +1,5 @@
-"""The Stanford hand-eye pump assembly of 1973: a script becomes a plan, a plan and a work cell become a pump.
+"""The Stanford hand-eye pump assembly of 1973. A script is compiled to a plan, and a run executes the plan in a
+work cell.
 
 >>> import handeye
 >>> plan = handeye.plan("OPEN 1\\nOPEN 2\\n")
@@ -116,7 +117,7 @@ _MODULES = ("tasks", "trials", "vision")
 if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
 
     def __getattr__(name: str) -> object:
-        """Load the object of a public name on first use."""
+        """Load a public name from its module when the name is first used."""
         from importlib import import_module
 
         if name in _MODULES:
@@ -132,5 +133,5 @@ if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
 
 
 def __dir__() -> list[str]:
-    """All public names, loaded or not, and the module's special names."""
+    """List all public names, loaded or not, and the module's special names."""
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

@@ -45,22 +45,23 @@ def begin(
     out: FileName | None = None,
     overwrite: bool = False,
 ) -> Run:
-    """Begin a run, or resume one; it pauses before its first step, or before a stage.
+    """Begin a run, or resume one. The run pauses before its first step, or before the stage `at`.
 
     Args:
-        script: a script or plan, as for `handeye.plan`; by default the script of the task. Or a saved state to
-            resume: a checkpoint, or the folder of a run, which stands for the newest checkpoint in it.
+        script: a script or plan, as for `handeye.plan`; by default the script of the task. To resume a run, give a
+            checkpoint, or the folder of a run to continue from its newest checkpoint.
         seed: seed from which the world is generated; 0 by default.
         at: the stage before which the run pauses: its name, a unique part of its name, or its number from 1.
-            Earlier stages are executed first; if `script` is the folder of a run, from the nearest checkpoint.
+            Earlier stages are executed first. If `script` is the folder of a run, they start from the nearest
+            earlier checkpoint.
         world: a world, instead of a seed.
         camera: renderer of the TV camera: `gl` (OpenGL), `ray` (ray casting, the same on every computer) or `auto`;
             or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
             renderer's method `render(data, view)` computes the light on the camera's target, shape (256, 333); 1 is
             a white surface in full light.
         search: a search pattern that replaces the square spiral of `SEARCH`: a function that takes the number of a
-            place, from 0, and returns its x and y, in search steps, table coordinates. It is called once for each
-            number; after a resume it is called again and must return the same values. The search ends with error 6
+            place, from 0, and returns its x and y in table coordinates, in search steps. It is called once for each
+            number. A resumed run calls it again, and it must return the same values. The search ends with error 6
             when the function returns None or raises StopIteration, or when it has tried the number of places that
             the `SEARCH` allows, 49 by default. A search `ALONG` a line does not use the function. Each try is an
             event `SearchAdvanced`, and `run.state.memory.place` is the number of the current place.
@@ -168,8 +169,8 @@ def assemble(
 
 
 def _rule(on_stop: object) -> Operator:
-    """The operator for a value of `on_stop`; raises InvalidInput if the value is unknown or the operator would have
-    to ask a person.
+    """Return the operator that follows the rule `on_stop`. Raises InvalidInput if the rule is unknown, or if it
+    would have to ask a person.
     """
     operator = None
     with suppress(InvalidInput):  # whose sentence speaks of the command line
@@ -192,7 +193,9 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
 
 
 def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
-    """Build the run, ready for its first step; a newly created folder is deleted if the cell cannot be built."""
+    """Build the run, ready for its first step. If the cell cannot be built, delete the folder that was created for
+    the run.
+    """
     folder, state = keeping.folder, start.state
 
     def looking(runner: Runner) -> Sequence[Observer]:

@@ -12,7 +12,7 @@ from handeye.core.source import Source
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
-    """One error or warning in a script; `print` shows the diagnostic with its line of the script.
+    """One error or warning in a script. `print` shows the diagnostic with its line of the script.
 
     >>> try:
     ...     handeye.plan("OPNE 1\\n")
@@ -37,7 +37,7 @@ class Diagnostic:
 
     @classmethod
     def of(cls, found: diagnostics.Diagnostic, source: Source) -> Self:
-        """Make a `Diagnostic` from one that the compiler reports, with its place in the source."""
+        """Make a `Diagnostic` from a diagnostic of the compiler, with its place in the source."""
         span = found.primary.span
         text, offset = source.find(span.start)
         line, column = text.position(offset)
@@ -55,7 +55,7 @@ class Diagnostic:
 
 
 class ScriptError(InvalidInput):
-    """Raised when a script has errors and cannot be planned; `str` shows all of the errors with their lines.
+    """Raised when a script has errors and cannot be planned. `str` shows all the errors with their lines.
 
     >>> try:
     ...     handeye.plan("OPEN 1\\nMOVE NOWHERE\\n")
@@ -72,7 +72,7 @@ class ScriptError(InvalidInput):
         super().__init__("\n\n".join(map(str, self.diagnostics)))
 
     def _render_traceback_(self) -> list[str]:
-        """The traceback that notebooks show: the errors with their places in the script, without handeye's own
+        """Return the traceback for notebooks: the errors with their places in the script, without handeye's own
         stack frames.
         """
         return str(self).splitlines()

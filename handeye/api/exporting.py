@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def exported(given: object, shown: Callable[[], ExportedState], part: object, *, overwrite: bool) -> "Export":
-    """Write an export; the arguments are those of `Run.export`."""
+    """Write an export; `shown` returns the state to export, and the other arguments are those of `Run.export`."""
     from handeye.results.export import export  # with libraries that take a while to load
 
     path = given_file(given, "the destination of an export is a folder, or a file that ends in .glb")

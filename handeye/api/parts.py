@@ -1,5 +1,5 @@
-"""Checks the parts that a caller replaces (search pattern, camera, referee), and wraps them so that their results
-are checked too.
+"""Checks the parts of a run that a caller can replace (search pattern, camera, referee) and wraps them, so that
+their results are checked too.
 """
 
 from collections.abc import Callable, Mapping
@@ -25,8 +25,8 @@ Code = TypeVar("Code", bound=Callable[..., Any])
 
 
 def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
-    """Collect the parts of a run that replace handeye's own; raises InvalidInput if a part cannot be called, or if
-    the name of the camera is unknown.
+    """Collect the caller's search pattern and camera. Raises InvalidInput if one of them cannot be called, or if
+    the camera has an unknown name.
     """
     if isinstance(camera, str):
         if camera not in CAMERAS:
@@ -42,13 +42,15 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
 
 
 def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
-    """Limits given in place of a referee, else None; raises InvalidInput if a limit is not a number."""
+    """Return the limits if the caller gave limits, or None if the caller gave a referee or nothing. Raises
+    InvalidInput if a limit is not a number.
+    """
     return checked_limits(given) if isinstance(given, Mapping) else None
 
 
 def referee_of(given: Referee | Limits | None) -> Referee | None:
-    """The caller's referee, or None for the task's own; raises InvalidInput if the argument is neither a referee
-    nor a table of limits.
+    """Return the caller's referee with its results checked, or None if the referee of the task judges. Raises
+    InvalidInput if the argument is neither a function nor a table of limits.
     """
     if given is None or isinstance(given, Mapping):
         return None
@@ -78,7 +80,9 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
 
 
 def _checked_place(name: str, number: int, given: object) -> tuple[float, float]:
-    """Check the place that a search pattern returned; raises InvalidInput if it is not a pair of numbers."""
+    """Return the place that a search pattern returned, as two numbers. Raises InvalidInput if it is not a pair of
+    finite numbers.
+    """
     try:
         x, y = (float(each) for each in np.asarray(given, dtype=object))
     except (TypeError, ValueError):
@@ -89,6 +93,6 @@ def _checked_place(name: str, number: int, given: object) -> tuple[float, float]
 
 
 def _named(wrapped: Code, code: Any) -> Code:
-    """Give wrapped code the name of the caller's code."""
+    """Give the wrapper of a caller's function the name of that function."""
     wrapped.__module__, _, wrapped.__qualname__ = name_of(code).partition(".")
     return wrapped

@@ -1,4 +1,4 @@
-"""Plans for Python programs: the motions and actions of a script, with a readable display."""
+"""Plans for Python programs: the steps and motions of a script, with a readable display."""
 
 import os
 from collections.abc import Sequence
@@ -29,8 +29,8 @@ from handeye.runs.scripts import plan_script, plan_text, program_named
 
 @dataclass(frozen=True, kw_only=True)
 class FlowDrawing:
-    """A drawing of a plan's flow: its steps, and the edges to the next step, in sequence or after an error.
-    Notebooks show it.
+    """A drawing of a plan: its steps, and arrows to the next step, in sequence or after an error. Notebooks show
+    the drawing.
     """
 
     svg: str  # the drawing, as `handeye inspect --graph svg` writes it
@@ -44,14 +44,14 @@ class FlowDrawing:
 
 
 def flow_drawing(plan: planfile.Plan, stage: int | None = None) -> FlowDrawing:
-    """Draw the flow of a plan, or of one stage, given by its number from 1."""
+    """Draw the flow of a whole plan, or of the stage with the given number (from 1)."""
     graph = flow(plan, stage)
     of = graph.name if stage is None else f"{graph.name}, {graph.stages[stage - 1]}"
     return FlowDrawing(svg=flow_svg(graph), about=f"flow of {of}: {counted(len(graph.nodes), 'step')}")
 
 
 def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDrawing | None) -> str:
-    """An HTML page for notebooks: the stages of a plan with their times, the warnings about its script, and its
+    """Write the HTML for notebooks: the stages of a plan with their times, the warnings about its script, and its
     flow.
     """
     longest = max((stage.seconds for stage in found.stages), default=0.0) or 1.0
@@ -70,15 +70,15 @@ def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDr
 
 
 DRAWN: Final = 30
-"""Greatest number of steps for which a notebook shows the flow of a plan; for a longer plan use `flow(stage)`."""
+"""The flow of a plan with more steps is not shown in notebooks; use `flow(stage)` for a single stage."""
 FileName = str | os.PathLike[str]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """A compiled script with the planned motions for one arm.
+    """A compiled script with the motions planned for one arm.
 
-    Two plans are equal if their steps and motions agree, apart from the rounding of computed numbers.
+    Two plans are equal if their steps and motions agree, apart from rounding errors.
 
     A notebook shows the stages with their times, the warnings about the script and, for a short plan, the flow.
 
@@ -112,14 +112,15 @@ class Plan:
 
     @property
     def seconds(self) -> float:
-        """Duration of all planned motions, s, each step counted once, without finger motions and pictures."""
+        """Duration of all planned motions, s. Each step counts once. Finger motions and pictures are not included."""
         return self._laid_open.seconds
 
     @property
     def digest(self) -> str:
-        """Sixteen hexadecimal digits that identify the plan in runs and traces, the same on every processor.
+        """Sixteen hexadecimal digits that identify the plan in runs and traces. They are the same on every
+        processor.
 
-        The digest depends on script, taught positions, arm, task and planner, but not on the computed motions.
+        The digest depends on the script, taught positions, arm, task and planner, but not on the computed motions.
         """
         return plan_digest(self.record)
 
@@ -137,8 +138,7 @@ class Plan:
         return file
 
     def flow(self, stage: str | int | None = None) -> FlowDrawing:
-        """Draw the steps of the plan, and the edges from each step to the next: in sequence, or (red) after an
-        error.
+        """Draw the steps of the plan, and an arrow from each step to the next. Arrows after an error are red.
 
         Args:
             stage: draw only this stage: its number from 1, its name, or a unique part of its name.
@@ -176,12 +176,12 @@ Planned = Plan | planfile.Plan  # a plan, or its record
 
 
 def plan(script: FileName | Planned, *, taught: FileName | None = None, task: str | None = None) -> Plan:
-    """Compile a script and plan its motions; nothing is simulated.
+    """Compile a script and plan its motions. Nothing is simulated.
 
     Args:
         script: a file (`.al`) with its taught file (`.toml`) next to it; the name of an included program, if no
-            file has that name; the text of a script, which is a `str` that contains a line end; or a saved plan, a
-            file that ends in .json.
+            file has that name; the text of a script, which is a `str` that contains a line end; or a saved plan
+            (`.json`).
         taught: taught positions of the script (in, deg): a TOML file, or the text of one. By default the text of a
             script has none.
         task: name of the task, which determines the arm; by default the task of the plan or the included program,
@@ -219,7 +219,7 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
 
 
 def _for_task(made: Plan, task: str | None) -> Plan:
-    """Return the plan; raises InvalidInput if it is for another task than `task`."""
+    """Return the plan. Raises InvalidInput if the plan was made for another task than `task`."""
     if task not in (None, made.record.task):
         raise BadArgument(f"the plan is for the task {quoted(made.record.task)}, not for {quoted(str(task))}")
     return made

@@ -50,7 +50,7 @@ Place = str | int
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunEnding:
-    """Settings for the end of a run: its folder, its referee, and the meter of computing time."""
+    """How a run ends: the folder to complete, the referee that judges it, and the timer of the computing time."""
 
     folder: RunFolder | None
     judged: bool
@@ -59,13 +59,13 @@ class RunEnding:
 
 
 class Run:
-    """A run of a plan in a world, which pauses where you ask; `handeye.begin` starts a run.
+    """A run of a plan in a world, which pauses where you ask. `handeye.begin` starts a run.
 
-    Methods that advance the run return the `State` in which it pauses; `State.why` is the reason for the pause.
-    Used as a context manager, the run is closed at the end of the block.
+    Methods that advance the run return the `State` in which the run pauses; `State.why` gives the reason for the
+    pause. A `with` block closes the run at its end.
 
-    `CLOSE .5` expects a part at least half an inch thick between the fingers; with an empty hand it calls the
-    operator.
+    In the example, `CLOSE .5` expects a part at least half an inch thick between the fingers. The hand is empty, so
+    the program calls the operator.
 
     >>> with handeye.begin("OPEN 1\\nL1: CLOSE .5\\nOPEN 2\\n", camera="ray") as run:
     ...     state = run.until("L1")
@@ -95,7 +95,8 @@ class Run:
         return self._go(steps=given_count(n, "steps"))
 
     def until(self, place: Place | None = None) -> State:
-        """Run to a place, or without one to the end; a breakpoint or a call of the operator pauses the run earlier.
+        """Run to a place, or to the end if no place is given. A breakpoint or a call of the operator pauses the run
+        earlier.
 
         Args:
             place: a stage, by its name or a unique part of it; a label; an instruction (`"AOJ"`: the next step that
@@ -112,11 +113,11 @@ class Run:
         return self._go(stops)
 
     def back(self, steps: Place = 1) -> State:
-        """Restore the run to its state before the last steps: arm, parts, program and clock; the events of these
+        """Restore the run to its state before the last steps: arm, parts, program and clock. The events of these
         steps are dropped.
 
         Args:
-            steps: how many steps to go back; or a stage, by its name or a part of the name: back to the latest
+            steps: how many steps to go back; or a stage (its name or a part of the name), to go back to the latest
                 beginning of that stage.
 
         Raises:
@@ -138,15 +139,15 @@ class Run:
         return self._stand("went back")
 
     def undo(self, steps: Place = 1) -> State:
-        """Have the arm undo its work with guarded motions, the last step first; the program can then continue from
+        """Have the arm undo its work with guarded motions, the last step first. The program can then continue from
         there.
 
         `back` resets the simulator; `undo` moves the arm, as on a real machine. The undone steps stay in the
-        events. If a motion meets unexpected resistance, or the hand does not hold what it held at that step, the
-        program calls the operator.
+        events. If a motion meets unexpected resistance, or if the hand does not hold the object that it held at
+        that step, the program calls the operator.
 
         Args:
-            steps: how many executed steps to undo; or a stage, by its name or a part of the name: undo to the
+            steps: how many executed steps to undo; or a stage (its name or a part of the name), to undo back to the
                 latest beginning of that stage.
 
         Raises:
@@ -171,7 +172,8 @@ class Run:
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
-        """Have the arm undo all its work. The run then ends, and `result.apart` gives the referee's verdict on it.
+        """Have the arm undo all its work and end the run. `result.apart` then gives the referee's verdict on the
+        undone work.
 
         Raises:
             InvalidInput: there is nothing to undo.
@@ -182,7 +184,7 @@ class Run:
         return self._stand(reason(pause))
 
     def break_at(self, place: Place) -> Break:
-        """Set a breakpoint: the run pauses whenever it reaches a place, given as for `until`.
+        """Set a breakpoint: the run pauses whenever it reaches `place`, which is given as for `until`.
 
         Returns:
             the breakpoint; `run.say("delete 1")` removes the breakpoint with the `number` 1.
@@ -245,7 +247,7 @@ class Run:
         return state
 
     def attend(self, operator: Operator) -> State:
-        """Run to the end; `operator`, a person or a rule, answers the program's calls of the operator."""
+        """Run to the end. The operator, a person or a rule, answers each time the program calls for help."""
         self._check_open()
         try:
             pause = attend(self._runner, operator, [], self._session.kept)
@@ -275,13 +277,13 @@ class Run:
 
     @property
     def events(self) -> tuple[AnyEvent, ...]:
-        """All events except those of steps undone by `back`, as records of `handeye.program.events`."""
+        """All events as records of `handeye.program.events`, without the events of steps that `back` has dropped."""
         return Several(self._runner.events)
 
     @property
     def picture(self) -> NDArray[np.uint8] | None:
-        """The last picture that the program took, shape (256, 333), from 0 (black) to 15 (white); None if it has
-        taken none.
+        """The last picture that the program took, shape (256, 333), from 0 (black) to 15 (white); None if the
+        program has not taken a picture.
         """
         name = last_picture(self._runner)
         return None if name is None else self._runner.system.shots[name].picture.copy()
@@ -293,7 +295,7 @@ class Run:
 
     @property
     def out(self) -> Path | None:
-        """The folder in which the run is kept; None if there is none."""
+        """The folder that holds the run; None if the run has no folder."""
         return None if self._keeping.folder is None else self._keeping.folder.path
 
     @property
@@ -311,7 +313,7 @@ class Run:
 
     @property
     def result(self) -> Result:
-        """The result of the run so far; the referee judges it only if the program has ended."""
+        """The result of the run so far. The referee judges the run only if the program has ended."""
         if self._closed is not None:
             return self._closed
         happened = len(self._runner.events)
@@ -321,7 +323,7 @@ class Run:
 
     @property
     def completed(self) -> bool:
-        """True if the program ended, or if the arm finished the requested undoing."""
+        """True if the program ended, or if the arm finished the undoing that was asked for."""
         return self.result.completed
 
     @property
@@ -434,13 +436,13 @@ class Run:
 
 
 def _too_many(steps: int, done: int, how: str) -> Refused:
-    """The error for asking to undo more steps than the run has done or executed."""
+    """Return the exception for a request to undo more steps than were executed; `how` is the verb of the sentence."""
     left = f"only {done} {'has' if done == 1 else 'have'}" if done else "none has"
     return Refused(f"{counted(steps, 'step')} cannot be undone: {left} been {how}")
 
 
 def reason(pause: Pause) -> str:
-    """The reason for a pause, as the second half of a sentence."""
+    """Return the reason for a pause in words, as in `paused after 2 steps`."""
     if isinstance(pause.met, AfterSteps):
         return f"paused after {counted(pause.met.count, 'step')}"
     said = pause_sentence(pause)

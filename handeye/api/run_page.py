@@ -18,7 +18,7 @@ _INKS: Final = {
 
 
 def run_page(result: Result, state: State, name: str | None, webp: bytes | None) -> str:
-    """The page of a run: state or verdict, stages, times, findings of the referee, and the last picture."""
+    """Write the HTML of a run: its state or verdict, stages, times, findings of the referee, and last picture."""
     pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
     if not result.paused:
         then = period(result)
@@ -48,7 +48,7 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
 
 
 def _standing(result: Result, state: State) -> Markup:
-    """The verdict on a finished run, or the state of an unfinished one."""
+    """Write the verdict on a finished run, or the state of an unfinished run."""
     if result.paused:
         return inked(str(state), "plain")
     good = result.completed and result.assembled is not False
@@ -69,7 +69,7 @@ def _stages(result: Result) -> Markup:
 
 
 def _indented(name: str) -> Markup:
-    """A name as HTML, with its indentation kept."""
+    """Write a name as HTML without losing its indentation."""
     words = name.lstrip()
     return Markup("&emsp;" * ((len(name) - len(words)) // 2) + text(words))
 

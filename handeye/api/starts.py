@@ -1,4 +1,4 @@
-"""The start of a run: a plan from its beginning, or a saved state."""
+"""The start of a run: either the beginning of a plan, or a saved state."""
 
 import os
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ from handeye.runs.systems import listing_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunRequest:
-    """The options of a run that the caller set; None means not set."""
+    """Options for a run, as the caller gave them; None if an option was not given."""
 
     seed: object
     world: object
@@ -42,13 +42,13 @@ class RunRequest:
 
     @property
     def of_task(self) -> str | None:
-        """Name of the requested task, or the task of the requested world; None if neither was given."""
+        """Name of the requested task, or else the task of the requested world; None if neither was given."""
         return self.world.task if self.task is None and isinstance(self.world, World) else self.task
 
     @property
     def spec(self) -> WorldSpec | None:
-        """The requested world, or None; raises InvalidInput if the world is invalid, or if seed and world are both
-        given.
+        """The requested world; None if neither a seed nor a world was given. Raises InvalidInput if the world is
+        invalid, or if both were given.
         """
         if self.world is None:
             return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
@@ -64,7 +64,7 @@ class RunRequest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Start:
-    """A start state, the folder to write to, and the CPU time spent on planning."""
+    """The state in which a run starts, the folder to resume in, and the CPU time spent on planning (s)."""
 
     state: Checkpoint
     folder: RunFolder | None = None
@@ -79,7 +79,9 @@ def start_of(
     taught: FileName | None,
     out: FileName | None,
 ) -> Start:
-    """Find the start of a run from the arguments of `handeye.begin`; raises InvalidInput for the same reasons."""
+    """Find the state in which a run starts, from the arguments of `handeye.begin`. Raises InvalidInput for the
+    reasons given there.
+    """
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
             raise Refused("a resumed run already has its positions; leave out taught=...")
@@ -104,14 +106,14 @@ def start_of(
 
 
 def _is_kept(given: FileName) -> bool:
-    """True if a name is that of a checkpoint or of a run's folder."""
+    """Return True if `given` is the path of a checkpoint or of a folder, not a script."""
     name = os.fspath(given)
     return bool(name) and "\n" not in name and (name.endswith(ENDING) or os.path.isdir(name))
 
 
 def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
-    """Read the state in a checkpoint, or in a folder the newest state or the one nearest before a stage; raises
-    InvalidInput if there is none.
+    """Read a saved state: a checkpoint; the newest state in a folder; or, if a stage is given, the last state in
+    the folder before that stage. Raises InvalidInput if there is none.
     """
     path = given_file(given, "resume a run from a file or a folder")
     start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)
@@ -124,8 +126,8 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
-    """Open the folder of a run with its newest state, to resume in the same folder; raises InvalidInput if that is
-    impossible.
+    """Open the folder of a run to resume the run in the same folder from its newest state. Raises InvalidInput if
+    that is impossible.
     """
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)
@@ -140,7 +142,7 @@ def _again(given: FileName, wanted: RunRequest) -> Start:
 
 
 def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
-    """Raises InvalidInput unless a run was begun with the requested plan, world and camera."""
+    """Raise InvalidInput unless the saved run was begun with the requested plan, world and camera."""
     require(begun.system, "python", str(path))
     if wanted.of_task not in (None, begun.task):
         told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"
@@ -152,7 +154,9 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
-    """The checkpoint with the caller's parts from now on; its setup and first event name them."""
+    """Return the checkpoint with the caller's search pattern, camera and referee from now on. Its setup and first
+    event name them.
+    """
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start
     setup = start.setup
@@ -172,7 +176,7 @@ def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
 
 
 def _with_referee(setup: Setup, wanted: RunRequest) -> Setup:
-    """The setup of a run, to be judged by the caller's referee or limits instead of those it began with."""
+    """Return the setup of a run, to be judged by the caller's referee or limits instead of the original ones."""
     if "referee" in wanted.replaced:
         return msgspec.structs.replace(setup, limits={})
     if wanted.limits is None:

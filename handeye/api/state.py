@@ -1,4 +1,4 @@
-"""The state of a paused run, for Python programs, in SI units and read-only arrays."""
+"""The state of a paused run, for Python programs, in SI units. Arrays are read-only."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -15,8 +15,8 @@ from handeye.runs.runner import Runner
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Memory:
-    """The program's memory: raised error, saved differences, counters, measured parts and place of the search;
-    lengths in m, in table frame W.
+    """The program's memory: raised error, saved differences, counters, measured parts and place of the search.
+    Lengths are in m, in the table frame W.
     """
 
     error: int | None  # number of the raised error, for which the next step may test
@@ -50,7 +50,7 @@ class State:
     text: str | None  # statement of the next step, without its modifiers, such as `STOP`
     why: str  # reason of the pause, in words
     joints: Array
-    """Joint positions, shape (n,): rad, or m for prismatic joints (joint 3 of the Stanford arm)."""
+    """Joint positions, shape (n,), in rad; in m for prismatic joints (joint 3 of the Stanford arm)."""
     gap: float  # sensed opening of the fingers, m
     hand: Pose
     """X_WT, the pose of the hand, shape (4, 4), m: origin midway between the finger tips, z along the approach, y
@@ -73,7 +73,9 @@ class State:
 
 
 def state_of(runner: Runner, stage: str | None, why: str) -> State:
-    """The state of a paused run; raises InvalidInput if its system has no plan of motions."""
+    """Return the state of a paused run. Raises InvalidInput if the system of the run has no arm that moves by a
+    plan.
+    """
     run, step = runner.context, runner.next
     drive = run.drive
     return State(
@@ -109,7 +111,7 @@ def _values(record: State | Memory) -> dict[str, object]:
 
 
 def _same(one: object, other: object) -> bool:
-    """True if two values are equal; arrays are compared element by element."""
+    """Return True if two values are equal; arrays are compared element by element."""
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(_same(one[name], other[name]) for name in one)
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
@@ -118,14 +120,14 @@ def _same(one: object, other: object) -> bool:
 
 
 def _kept(values: Array) -> Array:
-    """A read-only copy."""
+    """Return a read-only copy."""
     copy = np.array(values)
     copy.flags.writeable = False
     return copy
 
 
 class Answer(Reply, frozen=True, kw_only=True):
-    """A reply of the stepper; `print` shows it like the stepper."""
+    """A reply of the stepper. `print` shows it as the stepper does."""
 
     def __str__(self) -> str:
         """The reply as lines of text."""

@@ -1,4 +1,4 @@
-"""Traces for Python programs: read, made into videos, and shown in notebooks.
+"""Traces for Python programs: read from files, made into videos, and shown in notebooks.
 
 >>> trace = handeye.open("out")
 >>> trace.joints[trace.times > 100.0]    # positions by the sensors, later than 100 s; shape (n, 6)
@@ -30,8 +30,8 @@ _WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace(recorded.Trace):
-    """The recording of a run, read from a file and checked. Values computed from the recording are computed once
-    and kept.
+    """The recording of a run, read from a file and checked. Values computed from the recording are kept for later
+    use.
 
     Times are in seconds since the program began, as in events, tables, pages and commands. The preparation before
     that, in which the camera is calibrated, is not recorded; `head.prepared` is its duration, s. In the shapes of
@@ -54,7 +54,7 @@ class Trace(recorded.Trace):
         captions: bool = False,
         overwrite: bool = False,
     ) -> "Video":
-        """Make a video of the run: an animated WebP or a WebM, according to the ending of `path`.
+        """Make a video of the run: an animated WebP or a WebM, depending on the ending of `path`.
 
         The video is drawn from the recording, without simulating the run again. It needs OpenGL. Long waits for the
         camera's mechanism are cut.
@@ -70,8 +70,8 @@ class Trace(recorded.Trace):
             overwrite: replace an existing video.
 
         Raises:
-            InvalidInput: for the reasons given at `frame`; or there is no such stage, nothing was recorded in it,
-                the length or speed is not possible, or the video cannot be written.
+            InvalidInput: for the reasons given at `frame`; or if there is no such stage, nothing was recorded in
+                it, the length or speed is not possible, or the video cannot be written.
         """
         from handeye.core.arguments import given_file
         from handeye.video.making import make_video
@@ -88,7 +88,7 @@ class Trace(recorded.Trace):
             raise CannotWrite(f"{file} already exists; overwrite=True replaces it") from None
 
     def _repr_html_(self) -> str:
-        """The report of the run in an HTML frame, with its size, or the reason why there is none."""
+        """Show the report of the run in an HTML frame, with its size, or the reason why there is no report."""
         try:
             file = _report(self)
         except InvalidInput as fault:
@@ -125,7 +125,7 @@ def _report(trace: Trace) -> bytes:
 def compare(
     a: str | os.PathLike[str] | recorded.Trace, b: str | os.PathLike[str] | recorded.Trace
 ) -> Comparison:
-    """Compare two recorded runs step by step; `print` shows the comparison like the command `handeye compare`.
+    """Compare two recorded runs step by step. `print` shows the comparison as the command `handeye compare` does.
 
     Args:
         a: the folder of a run that has ended, a `trace.mcap`, or an open trace.

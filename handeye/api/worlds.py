@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 class World:
     """A work cell with its particular errors: the positions of all parts and the errors of all devices, generated
-    from a seed. Equal worlds have exactly equal values.
+    from a seed. Two worlds are equal if all their values are exactly equal.
 
     `values` and `quantities` give the quantities of the world, with the names and units that `handeye world` lists.
 
@@ -95,7 +95,7 @@ class World:
 
     @property
     def task(self) -> str:
-        """Name of the task that the cell is for."""
+        """Name of the task for which the cell is built."""
         return self._task
 
     @property
@@ -105,7 +105,7 @@ class World:
 
     @cached_property
     def values(self) -> Mapping[str, float]:
-        """The value of each quantity, by name, in the quantity's unit."""
+        """Value of each quantity by name, in the unit of the quantity."""
         drawn, table = self._table.draw(self.spec), self._table.quantities
         return MappingProxyType(
             Named((name, value / table[name].measure.size) for name, value in drawn.values.items())
@@ -113,8 +113,8 @@ class World:
 
     @cached_property
     def quantities(self) -> tuple[QuantityReport, ...]:
-        """All quantities, each with `name`, `value`, `unit` and `source`; `source` describes the quantity and gives
-        the origin of its size.
+        """All quantities, each with `name`, `value`, `unit` and `source`. The source says what the quantity is and
+        where its size comes from.
         """
         return Several(report(self._table, self._table.draw(self.spec)).quantities)
 
@@ -127,7 +127,7 @@ class World:
         return self.values[self._quantity(name)]
 
     def unit(self, name: str) -> str:
-        """The unit of a quantity; empty if the quantity is a plain number.
+        """Return the unit of a quantity; empty if the quantity is a plain number.
 
         Raises:
             InvalidInput: there is no such quantity; the message suggests the nearest.
@@ -157,7 +157,7 @@ class World:
         return page(heading(repr(self)), table(("quantity", "value", "unit", ""), rows))
 
     def _quantity(self, name: str) -> str:
-        """Check the name of a quantity; raises InvalidInput if it does not exist."""
+        """Return the name of a quantity. Raises InvalidInput if there is no such quantity."""
         if not isinstance(name, str):
             raise BadArgument(f"give a quantity by its name, not by {name!r}")
         found = self._table.select(name, self.spec.overrides.set)

@@ -1,1 +1,1 @@
-"""Foundations used by all packages: units, poses, records, files, errors. Imports no other package of handeye."""
+"""Foundations for all other packages of handeye: units, poses, records, files, errors. It imports none of them."""

@@ -1,6 +1,4 @@
-"""Checks arguments from users where they enter the program, so that a wrong argument gives a message of one
-sentence.
-"""
+"""Checks the arguments of users where they enter the program, so that a wrong argument gives one clear sentence."""
 
 import os
 from collections.abc import Iterable
@@ -13,9 +11,7 @@ from handeye.core.errors import BadArgument
 
 
 def whole(given: object) -> int | None:
-    """The argument as a plain `int`; None if it is not a whole number. True and False do not count as whole
-    numbers.
-    """
+    """Convert a whole number to a plain `int`. Returns None for anything else, including True and False."""
     if isinstance(given, bool) or not isinstance(given, SupportsIndex):
         return None
     try:
@@ -25,7 +21,9 @@ def whole(given: object) -> int | None:
 
 
 def given_file(given: object, what: str) -> Path:
-    """The path of a file or folder that a caller gave; raises BadArgument, whose sentence begins with `what`."""
+    """Return the path that a caller gave. Raises BadArgument if it cannot be a path; `what` is the beginning of the
+    sentence.
+    """
     if not isinstance(given, (str, os.PathLike)):
         raise BadArgument(f"{what}, not {given!r}")
     name = os.fspath(given)
@@ -36,7 +34,7 @@ def given_file(given: object, what: str) -> Path:
 
 
 def _check_name(name: str) -> None:
-    """Raises InvalidInput if no file can have this name, because it is too long or contains a NUL character."""
+    """Raise InvalidInput if no file can have this name, because it is too long or contains a NUL character."""
     try:
         os.lstat(name)
     except (FileNotFoundError, NotADirectoryError):
@@ -47,7 +45,7 @@ def _check_name(name: str) -> None:
 
 
 def given_names(given: object, what: str) -> tuple[str, ...]:
-    """Check names that a caller gave as an iterable; a single name may be given by itself."""
+    """Check names that a caller gave as an iterable, or a single name. Returns them as a tuple."""
     names = (given,) if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
     for name in names:
         if not isinstance(name, str):
@@ -64,7 +62,7 @@ def given_count(given: object, what: str) -> int:
 
 
 def given_place(given: object) -> str:
-    """A place in a program, as text; a line may be given as a number."""
+    """Write a place in a program as text. A line may be given as a number."""
     if isinstance(given, bool) or not isinstance(given, (str, int)):
         raise BadArgument(f"a place must be a text or a line number, not {given!r}")
     return str(given)

@@ -13,7 +13,7 @@ LONGEST: Final = 1200  # characters: fifteen lines of 80
 
 
 class Brief:
-    """Base of dataclasses with a brief `repr`; the dataclasses are made with `repr=False`."""
+    """Base of dataclasses with a brief `repr`. Define the dataclass with `repr=False`."""
 
     __slots__ = ()
 
@@ -26,7 +26,7 @@ K = TypeVar("K")
 
 
 class Several(tuple[T, ...]):
-    """A tuple with a brief `repr`."""
+    """A tuple whose `repr` is brief."""
 
     __slots__ = ()
 
@@ -35,7 +35,7 @@ class Several(tuple[T, ...]):
 
 
 class Named(dict[K, T]):
-    """A dictionary with a brief `repr`."""
+    """A dictionary whose `repr` is brief."""
 
     __slots__ = ()
 
@@ -44,7 +44,9 @@ class Named(dict[K, T]):
 
 
 def brief(value: object) -> str:
-    """A short `repr` of a value: the fields of records, the first items of collections, and the shapes of arrays."""
+    """Write a short `repr` of a value: the fields of a record, the first items of a collection, or the shape of an
+    array.
+    """
     return _cut(_shown(value, _DEPTH), LONGEST)
 
 
@@ -70,7 +72,9 @@ def _shown(value: Any, depth: int) -> str:
 
 
 def _fields(kind: type) -> tuple[str, ...] | None:
-    """Names of the fields of a record type; None if the type is no record, or defines its own `repr`."""
+    """Return the names of the fields of a record type, or None if the type is not a record or defines its own
+    `repr`.
+    """
     own: Any = kind.__repr__
     if issubclass(kind, msgspec.Struct):
         return kind.__struct_fields__ if own in (msgspec.Struct.__repr__, Brief.__repr__) else None

@@ -1,4 +1,4 @@
-"""Compares values, ignoring the last digits of computed numbers, which depend on the kind of processor."""
+"""Compares values without regard to the last digits of computed numbers, which depend on the kind of processor."""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -7,10 +7,10 @@ LAST_PLACES: Final = 1e-9  # of numbers above 1, as a share; SI
 
 
 def alike(a: Any, b: Any, places: float = LAST_PLACES) -> bool:
-    """True if two values made of dictionaries, lists, texts and numbers are equal, apart from the last digits of
-    fractions.
+    """Return True if two values are equal apart from the last digits of fractions. The values consist of
+    dictionaries, lists, texts and numbers.
 
-    `places` is the tolerated difference of two fractions.
+    `places` is the greatest difference allowed between two fractions.
     """
     if isinstance(a, float) and isinstance(b, float):
         return a == b or abs(a - b) <= places * max(1.0, abs(a), abs(b))

@@ -11,7 +11,7 @@ Severity = Literal["error", "warning"]
 
 
 class Code(Record, frozen=True, kw_only=True):
-    """A kind of diagnostic, with an example text that causes it and the files required by that text."""
+    """A kind of diagnostic, with an example text that causes it and the files that this text requires."""
 
     severity: Severity
     meaning: str

@@ -18,7 +18,7 @@ LIMIT: Final = 20  # diagnostics per text
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Label:
-    """A span within one line of a text, with a note to show beside it, which may be empty."""
+    """A span within one line of a text, with a note to show beside it. The note may be empty."""
 
     span: Span
     text: str = ""
@@ -37,7 +37,7 @@ class KnownNames(Record, frozen=True):
 
 
 class MissingMark(Record, frozen=True):
-    """Suggestion: a mark that is missing after a word."""
+    """Suggestion: the punctuation mark that is missing after a word."""
 
     mark: str
 
@@ -47,8 +47,8 @@ Meant = SimilarName | KnownNames | MissingMark  # what was probably meant, for a
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
-    """One mistake in a text. `message` is one lower-case sentence that can be understood without the code frame;
-    `meant` is text to replace the primary span.
+    """One mistake in a text. `message` is one lower-case sentence that can be understood without the code frame.
+    `meant` is the text that should replace the primary span, if known.
     """
 
     code: str
@@ -65,7 +65,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """`error` or `warning`: `own` if set, else as the code defines."""
+        """`error` or `warning`: the value of `own` if it is set, or else the severity of the code."""
         return self.own or CODES[self.code].severity
 
 
@@ -80,7 +80,7 @@ def problem(
     meant: Meant | None = None,
     own: Severity | None = None,
 ) -> Diagnostic:
-    """Make a diagnostic at a span; `text` is shown next to the mark."""
+    """Make a diagnostic for a span. `text` is shown next to the mark."""
     primary = Label(span=span, text=text)
     return Diagnostic(
         code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help, meant=meant,
@@ -93,14 +93,14 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 
 
 def arranged(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Distinct diagnostics in order of position, at most `LIMIT`; errors are kept before warnings."""
+    """Sort diagnostics by position, drop duplicates, and keep at most `LIMIT`; errors are kept before warnings."""
     once = {(d.code, d.primary.span): d for d in diagnostics}
     kept = sorted(once.values(), key=lambda d: (d.severity != "error", d.primary.span))[:LIMIT]
     return sorted(kept, key=lambda d: (d.primary.span, d.code))
 
 
 def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
-    """The diagnostic as plain data; lines and columns from 1, `end` exclusive."""
+    """Convert a diagnostic to plain data. Lines and columns count from 1; `end` is exclusive."""
 
     def place(label: Label) -> dict[str, object]:
         text, offset = source.find(label.span.start)
@@ -130,14 +130,14 @@ LONGEST_COMPARED: Final = 40  # characters; the search takes their square
 
 
 def quoted(name: str) -> str:
-    """A word of the user's text for a sentence: in backquotes, shortened to 40 characters, printable."""
+    """Quote a word of the user's text for a sentence: in backquotes, shortened to 40 characters, printable."""
     short = name if len(name) <= 40 else name[:39] + "…"
     return f"`{_visible(short)[0]}`"
 
 
 def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | None:
-    """The nearest known name, at an edit distance of at most a third of the length of `name`; else all known names,
-    if they are few.
+    """Suggest the nearest known name, at an edit distance of at most a third of the length of `name`. If no name is
+    near enough, return all known names if they are few, or else None.
     """
     choices = sorted(set(known))
     if _too_many(name, choices):
@@ -148,8 +148,8 @@ def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | 
 
 
 def suggestion(name: str, known: Iterable[str]) -> str | None:
-    """A hint for an unknown name: `did you mean ...?`, or `known: ...`; None if there is neither a similar name nor
-    a short list.
+    """Write a hint for an unknown name: `did you mean ...?` or `known: ...`. Returns None if no known name is
+    similar and there are too many to list.
     """
     return names_sentence(alternatives(name, known))
 
@@ -165,7 +165,9 @@ def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """A known name that looks the same, else the one at the least edit distance; None beyond `farthest`."""
+    """Find a known name that looks the same, or else the name at the least edit distance. Returns None if that
+    distance is greater than `farthest`.
+    """
     choices = sorted(set(known))
     if _too_many(name, choices):
         return None
@@ -182,8 +184,8 @@ def _too_many(name: str, choices: Sequence[str]) -> bool:
 
 
 def _distance(a: str, b: str, farthest: int) -> int:
-    """Edit distance in which swapping two neighbours counts 1 (Damerau-Levenshtein); any number beyond `farthest`
-    if greater.
+    """Return the edit distance, in which swapping two neighbours counts 1 (Damerau-Levenshtein). A distance greater
+    than `farthest` may be returned as any number greater than `farthest`.
     """
     if abs(len(a) - len(b)) > farthest:
         return farthest + 1
@@ -205,7 +207,7 @@ WIDTH: Final = 110  # characters of a source line in a frame
 
 
 def render(diagnostic: Diagnostic, source: Source) -> str:
-    """The diagnostic with its code frame, without a final newline. Labels in other files follow those in the
+    """Show a diagnostic with its code frame, without a final newline. Marks in other files follow the marks in the
     primary file.
     """
     texts: dict[str, tuple[Source, list[_Mark]]] = {}
@@ -227,7 +229,7 @@ def render(diagnostic: Diagnostic, source: Source) -> str:
 
 
 class _Mark(NamedTuple):
-    """Characters of a line to mark, counted from 0, with the text to show beside them."""
+    """Characters of a line to mark, counted from 0, and the text to show beside them."""
 
     line: int
     column: int
@@ -248,13 +250,13 @@ def _lines(source: Source, marks: Sequence[_Mark], pad: str) -> Iterator[str]:
 
 
 def visible(text: str) -> str:
-    """Text for a terminal, with control characters shown as symbols."""
+    """Make a text safe for a terminal: control characters are shown as symbols."""
     return "\n".join(_visible(line)[0] for line in text.split("\n"))
 
 
 def _visible(text: str) -> tuple[str, list[int]]:
-    """A line for a terminal, with tabs expanded and control characters as symbols, and the column of each character
-    offset.
+    """Expand the tabs of a line and show its control characters as symbols. Returns the line, and the column of
+    each character offset.
     """
     line, columns = "", []
     for character in text:
@@ -270,7 +272,9 @@ def _visible(text: str) -> tuple[str, list[int]]:
 
 
 def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
-    """A source line cut to the width of the frame, and the rows of marks and texts below it."""
+    """Cut a source line to the width of the frame. Returns the line, and the rows of marks and texts to show below
+    it.
+    """
     shown, columns = _visible(line)
     marks = []
     for label in labels:
@@ -287,8 +291,8 @@ def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
 
 
 def _rows(marks: list[tuple[int, int, str, str]]) -> list[str]:
-    """The rows below a line: the marks with the text of the last one beside them, and the other texts below, on
-    stems.
+    """Build the rows below a line: the marks, with the text of the last mark beside them, then the other texts,
+    joined to their marks by vertical bars.
     """
     under = [" "] * max(end for _, end, _, _ in marks)
     for start, end, mark, _ in sorted(marks, key=lambda m: m[2] == "^"):

@@ -1,4 +1,4 @@
-"""Distributions of the quantities that vary between worlds, in each quantity's own unit."""
+"""Distributions of the quantities that vary between worlds, each in the unit of its quantity."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Distribution(ABC):
 
 @dataclass(frozen=True, slots=True)
 class Normal(Distribution):
-    """Normal about the nominal value, clipped at two sigma; `spread` is sigma."""
+    """Normal distribution about the nominal value, clipped at two sigma; `spread` is sigma."""
 
     name = "normal"
     spread: float
@@ -37,7 +37,7 @@ class Normal(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Uniform(Distribution):
-    """Uniform about the nominal value; `spread` is half the range."""
+    """Uniform distribution about the nominal value; `spread` is half the range."""
 
     name = "uniform"
     spread: float
@@ -48,7 +48,7 @@ class Uniform(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class _Constant(Distribution):
-    """Base of errors with the same value in every world of a level."""
+    """Base of errors that have the same value in every world of a level."""
 
     spread: float
 
@@ -58,7 +58,7 @@ class _Constant(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Noise(_Constant):
-    """Standard deviation of a sensor's noise: the same in every world of a level."""
+    """Standard deviation of a sensor's noise, the same in every world of a level."""
 
     name = "noise"
 
@@ -72,7 +72,7 @@ class Fixed(_Constant):
 
 @dataclass(frozen=True, slots=True)
 class Step(_Constant):
-    """Step of an analogue-to-digital converter: the same in every world, whatever the level."""
+    """Step of an analogue-to-digital converter, the same in every world at every level."""
 
     name = "step"
     is_error = False
@@ -80,7 +80,9 @@ class Step(_Constant):
 
 @dataclass(frozen=True, slots=True)
 class Range(Distribution):
-    """Uniform from `low` to `high`; it is part of the task, not an error, so the level does not change it."""
+    """Uniform distribution from `low` to `high`. The quantity belongs to the task and is not an error, so the level
+    does not change it.
+    """
 
     name = "range"
     is_error = False
@@ -93,7 +95,7 @@ class Range(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Phase(Distribution):
-    """Uniform over a full turn."""
+    """Uniform distribution over a full turn."""
 
     name = "phase"
     is_error = False
@@ -104,7 +106,9 @@ class Phase(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Choice(Distribution):
-    """A choice within the job: the nominal value, unless it is set to another of `values`. No seed changes it."""
+    """A choice within the task. The value is nominal unless the user sets it to another of `values`; no seed
+    changes it.
+    """
 
     name = "choice"
     is_error = False
@@ -115,5 +119,5 @@ class Choice(Distribution):
 
 
 def random_numbers(seed: int, name: str) -> np.random.Generator:
-    """The random number generator for one name in the world of a seed."""
+    """Make the random number generator for the quantity or stream `name` in the world of `seed`."""
     return np.random.default_rng(np.random.SeedSequence([seed, crc32(name.encode())]))

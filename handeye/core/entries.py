@@ -1,7 +1,8 @@
-"""Entries of systems: the description of a system that is available before the system is loaded.
+"""Entries of systems: descriptions that can be read before the systems themselves are loaded.
 
 A system is a folder of `handeye/systems`, or another package that names its entry in the entry-point group
-`handeye.systems`. An entry is data: names, sentences, and the locations of the system's objects, as `module:NAME`.
+`handeye.systems`. An entry is plain data: names, sentences, and the locations of the system's objects, written
+`module:NAME`.
 """
 
 import sys
@@ -44,7 +45,7 @@ VERBS: Final[Mapping[Capability, str]] = {
 
 
 class Entry(Record, frozen=True, kw_only=True):
-    """The description of a system: names, help, capabilities, and locations of its objects."""
+    """The description of a system: its names, help, capabilities, and the locations of its objects."""
 
     name: str  # checkpoints and traces name it
     title: str  # its name in sentences
@@ -65,12 +66,14 @@ _registered: Final[dict[str, Entry]] = {}
 
 
 def register(entry: Entry) -> None:
-    """Make a system known in this process; it replaces a registered system of the same name."""
+    """Make a system known in this process. It replaces a registered system of the same name."""
     _registered[entry.name] = entry
 
 
 def entries() -> Mapping[str, Entry]:
-    """All entries by name: those included with handeye, those of installed packages, and the registered ones."""
+    """Return all entries by name: the entries included with handeye, of installed packages, and of registered
+    systems.
+    """
     return {entry.name: entry for entry in (*_installed(), *_registered.values())}
 
 
@@ -86,8 +89,8 @@ def _installed() -> list[Entry]:
 
 
 def _sound(entry: object) -> Entry:
-    """Check that an entry has fields of the right types and takes no name of another entry; raises BadFile or
-    msgspec.ValidationError.
+    """Check that the fields of an entry have the right types and that its names are not taken by another entry.
+    Raises BadFile or msgspec.ValidationError.
     """
     if not isinstance(entry, Entry):
         raise BadFile(f"its entry point names {entry!r}, which is not an Entry")
@@ -102,7 +105,7 @@ _broken: Final[dict[str, str]] = {}  # reasons, by entry point
 
 
 def entry_named(name: str) -> Entry:
-    """The entry of a system; raises NoSuchName if there is no system of that name."""
+    """Return the entry of a system. Raises NoSuchName if there is no system of that name."""
     known = entries()
     if name in _broken:
         raise BadFile(f"the system {quoted(name)} cannot be loaded: {_broken[name]}")
@@ -112,7 +115,9 @@ def entry_named(name: str) -> Entry:
 
 
 def loaded(place: str, what: str = "") -> Any:
-    """The object at `module:NAME`; raises BadFile if it cannot be imported, with `what` before the location."""
+    """Import the object at `module:NAME`. Raises BadFile if it cannot be imported; `what` precedes the location in
+    the sentence.
+    """
     module, _, name = place.partition(":")
     try:
         return getattr(import_module(module), name)
@@ -124,8 +129,8 @@ def loaded(place: str, what: str = "") -> Any:
 
 
 def entry_of_file(name: str) -> tuple[Entry | None, str]:
-    """The entry whose language a file has, by the ending of its name, and the longest ending that matches; None if
-    none matches.
+    """Find the entry whose language a file has, by the ending of the file's name. Returns the entry, or None if no
+    ending matches, and the longest ending that matches.
     """
     known = {ending: entry for entry in entries().values() for ending in entry.languages}
     ending = max(filter(name.lower().endswith, known), key=len, default="")
@@ -133,8 +138,8 @@ def entry_of_file(name: str) -> tuple[Entry | None, str]:
 
 
 def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
-    """The exception that says that a system lacks a capability; `whose` names the run or file concerned, if there
-    is one.
+    """Make the exception for a system that lacks a capability. `whose` names the run or file concerned, if there is
+    one.
     """
     entry = entry_named(name)
     why = entry.reasons.get(capability, "")
@@ -143,7 +148,7 @@ def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
 
 
 def require(name: str, capability: Capability, whose: str = "") -> None:
-    """Raises Refused, with the system's name and the reason, if a system lacks a capability."""
+    """Raise Refused, with the system's name and the reason, if the system lacks a capability."""
     if capability not in entry_named(name).can:
         raise refusal(name, capability, whose)
 
@@ -152,8 +157,8 @@ FILE = "entry_points.txt"
 
 
 def entry_points(group: str) -> dict[str, str]:
-    """The entry points of a group, as `module:NAME` by name. `importlib.metadata` is loaded only if a package has
-    entry points.
+    """Return the entry points of a group: `module:NAME` by name. `importlib.metadata` is imported only if some
+    package has entry points.
     """
     heading = f"[{group}]"
     if not any(heading in file.read_text("utf-8", "replace") for path in sys.path for file in _files(path)):

@@ -30,44 +30,46 @@ class HandeyeError(Exception):
 
 
 class InvalidInput(HandeyeError):
-    """An argument or file cannot be used, or a request cannot be executed."""
+    """Raised when an argument or file cannot be used, or when a request cannot be executed."""
 
 
 class BadArgument(InvalidInput):
-    """An argument, an option or a typed command cannot be used."""
+    """Raised when an argument, an option or a typed command cannot be used."""
 
 
 class NoSuchName(BadArgument):
-    """There is no object of that name."""
+    """Raised when there is no object with the given name."""
 
 
 class BadFile(InvalidInput):
-    """A file is missing, cannot be read, is damaged, or is of another version, plan or run."""
+    """Raised when a file is missing, cannot be read, is damaged, or is of another version, plan or run."""
 
 
 class CannotWrite(InvalidInput):
-    """A file or folder cannot be written, or its contents must not be replaced."""
+    """Raised when a file or folder cannot be written, or when its contents must not be replaced."""
 
 
 class Taken(CannotWrite):
-    """The folder or file exists already and may not be replaced."""
+    """Raised when the folder or file already exists and may not be replaced."""
 
 
 class Refused(InvalidInput):
-    """A valid request that this machine, system or state cannot execute."""
+    """Raised for a valid request that this machine, system or state cannot execute."""
 
 
 class PhysicsFailed(HandeyeError):
-    """The simulation of a work cell broke down; this is a defect of the simulation, not an error in the work."""
+    """Raised when the simulation of a work cell breaks down. This is a defect of the simulation, not an error in
+    the assembly.
+    """
 
 
 class CalibrationFailed(HandeyeError):
-    """The camera could not be calibrated, because the lamp was not seen often enough."""
+    """Raised when the camera cannot be calibrated because it did not see the lamp often enough."""
 
 
 class FrictionUnknown(HandeyeError):
-    """The friction of the arm's joints could not be measured, because the arm did not move as required, or because
-    its links have unknown weights.
+    """Raised when the friction of the arm's joints cannot be measured, because the arm did not move as required or
+    because the weights of its links are unknown.
     """
 
 
@@ -128,7 +130,7 @@ numbers from 50 on mean a faulty sensor.
 
 
 class MissingExtra(Refused):
-    """A package of an extra is not installed."""
+    """Raised when a package that an extra of handeye installs is missing."""
 
     def __init__(self, command: str, package: str, extra: str) -> None:
         super().__init__(

@@ -17,7 +17,9 @@ from handeye.core.units import UNITS, Unit
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """One injected fault of a run; `stage` is the stage at which it begins, None: from the start."""
+    """One injected fault of a run. `stage` is the number of the stage at which the fault begins; None if it is
+    present from the start.
+    """
 
     name: str
     value: float | None = None  # size, SI; None if the kind has none
@@ -29,7 +31,7 @@ class Fault(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Size:
-    """The possible sizes of a fault, in a unit of `UNITS`."""
+    """The possible sizes of a fault, in a unit that `UNITS` lists."""
 
     unit: str
     usual: float
@@ -38,11 +40,11 @@ class Size:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpectedDetection:
-    """The expected end of a run with a fault of usual size that is present from the start."""
+    """How a run is expected to end if a fault of usual size is present from the start."""
 
     errors: tuple[int, ...] = ()  # errors that identify it
     calls: tuple[str, ...] = ()
-    """Messages to the operator that identify the fault; `{...}` in a message stands for the name or number of any
+    """Messages to the operator that identify the fault. In a message, `{...}` stands for any name or number of a
     part.
     """
     at_setup: bool = False  # measuring the arm or calibrating the camera fails
@@ -50,13 +52,13 @@ class ExpectedDetection:
     harmless: str = ""  # why the work may still come out right; empty: it must be noticed
 
     def called(self, message: str) -> bool:
-        """True if a message to the operator identifies the fault."""
+        """Return True if a message to the operator identifies the fault."""
         return any(is_call(call, message) for call in self.calls)
 
 
 def is_call(call: str, message: str) -> bool:
-    """True if a message to the operator matches the pattern `call`, in which `{...}` stands for the name or number
-    of any part.
+    """Return True if a message to the operator matches the pattern `call`, in which `{...}` stands for any name or
+    number of a part.
     """
     return re.fullmatch(".+".join(map(re.escape, re.split(r"\{[^}]*\}", call))), message) is not None
 
@@ -66,13 +68,15 @@ UNKNOWN: Final = ExpectedDetection()  # no expectation stated
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultKind:
-    """A fault that a catalogue offers: name, meaning, possible sizes and expected detection."""
+    """A fault that a catalogue offers: its name, meaning, possible sizes, and how a program is expected to detect
+    it.
+    """
 
     name: str
     meaning: str  # a sentence: what is broken, and what the program gets instead
     size: Size | None = None  # None: no value
     when: Literal["before", "during"] = "during"
-    """`before`: the fault can only be present in the world from the start; `during`: it can also begin with a
+    """`before` if the fault can only be present in the world from the start; `during` if it can also begin at a
     stage.
     """
     usual_stage: int | None = None  # default onset, stage from 1; None: from the start
@@ -84,7 +88,7 @@ class FaultKind:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Least and greatest value of the fault, in the unit of its size."""
+        """Least and greatest size of the fault, in its unit."""
         assert self.size is not None
         return self.size.limits
 
@@ -98,14 +102,14 @@ class FaultKind:
         return UNITS[self.unit]
 
     def usual(self, stage: int | None = None) -> Fault:
-        """The fault at its usual size, from the given stage on, or from its default stage."""
+        """Make the fault at its usual size. It begins at the given stage, or else at its default stage."""
         value = None if self.size is None else self.size.usual * self.measure.size
         fault = Fault(name=self.name, value=value, stage=stage or self.usual_stage)
         self.check(fault)
         return fault
 
     def check(self, fault: Fault) -> None:
-        """Raises BadArgument unless value and stage of a fault are possible."""
+        """Raise BadArgument unless the size and the stage of a fault are possible."""
         if fault.stage is not None and self.from_start:
             raise BadArgument(
                 f"the fault {quoted(self.name)} cannot begin during a run, only before it; leave out `@{fault.stage}`"
@@ -122,17 +126,17 @@ class FaultKind:
 
 
 class Catalogue:
-    """The faults of a task, in listing order."""
+    """The faults of a task, in the order in which they are listed."""
 
     def __init__(self, *kinds: FaultKind, matrix: Sequence[str] = ()) -> None:
-        """`matrix` names the faults with which a program is tested by default; empty: all."""
+        """`matrix` names the faults with which a program is tested by default; all faults if it is empty."""
         self.kinds = {kind.name: kind for kind in kinds}
         assert len(self.kinds) == len(kinds), "two faults have one name"
         self.matrix = tuple(matrix) or tuple(self.kinds)
         assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that does not exist"
 
     def kind(self, name: str) -> FaultKind:
-        """The kind of fault with a name; raises NoSuchName."""
+        """Return the kind of fault called `name`. Raises NoSuchName if there is none."""
         if name in self.kinds:
             return self.kinds[name]
         inside = [known for known in self.kinds if known.startswith(f"{name}.")]
@@ -145,18 +149,20 @@ class Catalogue:
         raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 
     def select(self, name: str) -> tuple[FaultKind, ...]:
-        """The kind of fault with a name, or all those of a group; raises NoSuchName."""
+        """Return the kind of fault called `name`, or all kinds in the group of that name. Raises NoSuchName if
+        there is none.
+        """
         found = tuple(kind for kind in self.kinds.values() if f"{kind.name}.".startswith(f"{name}."))
         return found or (self.kind(name),)
 
     def check(self, faults: Sequence[Fault]) -> None:
-        """Raises BadArgument unless one run can have all these faults."""
+        """Raise BadArgument unless all these faults can occur in one run."""
         for fault in faults:
             self.kind(fault.name).check(fault)
         once(fault.name for fault in faults)
 
     def written(self, fault: Fault) -> str:
-        """A fault as it is typed on the command line, with its value in the fault's unit."""
+        """Write a fault as it is typed on the command line, with its size in the fault's unit."""
         kind = self.kind(fault.name)
         value = (
             "" if fault.value is None else f"={fault.value / kind.measure.size:g}{kind.unit.replace(' ', '')}"
@@ -165,7 +171,7 @@ class Catalogue:
 
 
 def once(names: Iterable[str]) -> None:
-    """Raises BadArgument if the name of a fault occurs twice."""
+    """Raise BadArgument if the name of a fault occurs twice."""
     seen: set[str] = set()
     for name in names:
         if name in seen:

@@ -21,8 +21,8 @@ _CANNOT: Final = {
 }  # of a file system that cannot do it
 _NOWHERE: Final = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
 _OF_NAME: Final = 40
-"""Number of characters of a file's name that the name of its temporary file repeats; more could make that name too
-long.
+"""Number of characters of a file's name that are repeated in the name of its temporary file. A longer name could
+exceed the limit of the file system.
 """
 
 _FRONT: Final = 1024  # bytes that identify a file
@@ -38,7 +38,7 @@ class Kind:
 
 
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
-    """Content of a file; raises BadFile if the file is missing, not a regular file, larger than `largest` bytes, or
+    """Read a whole file. Raises BadFile if the file is missing, not a regular file, larger than `largest` bytes, or
     unreadable.
     """
     file = Path(path)
@@ -61,14 +61,14 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
 
 
 def beside(path: Path, ending: str) -> Path:
-    """The path of the same name with another ending; raises CannotWrite for a directory."""
+    """Return the path with another ending. Raises CannotWrite if the path is a directory."""
     if not path.name:
         raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
 
 
 def is_there(path: Path) -> bool:
-    """True if a path exists, even as a link to nothing; raises BadFile if this cannot be determined."""
+    """Return True if a path exists, even as a link to a missing file. Raises BadFile if this cannot be determined."""
     try:
         path.lstat()
     except ValueError:  # a name with a NUL in it
@@ -81,12 +81,12 @@ def is_there(path: Path) -> bool:
 
 
 def temporary_beside(place: Path) -> str:
-    """Beginning of the name of the temporary file or folder that will replace `place`."""
+    """Return the beginning of the name of the temporary file or folder that will replace `place`."""
     return f".{place.name[:_OF_NAME]}."
 
 
 def settle(file: int) -> None:
-    """Flush a file descriptor to the disk; file systems that do not support this are ignored."""
+    """Flush a file descriptor to the disk, if the file system supports it."""
     try:
         os.fsync(file)
     except OSError as error:
@@ -95,7 +95,7 @@ def settle(file: int) -> None:
 
 
 def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
-    """Raise CannotWrite unless a file of this kind can be written here without replacing one of another kind.
+    """Check that a file of this kind can be written here without replacing a file of another kind.
 
     Raises:
         CannotWrite: the file cannot be written there.
@@ -133,8 +133,8 @@ def write_over(path: Path, data: bytes, kind: Kind) -> None:
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write a file atomically: follow symbolic links, keep the mode of an existing file, and leave no temporary
-    file after a failure.
+    """Write a file atomically. Symbolic links are followed, an existing file keeps its mode, and no temporary file
+    stays behind after a failure.
     """
     temporary = None
     place = Path(os.path.realpath(path))
@@ -166,7 +166,7 @@ def _check_file(place: Path, named: Path) -> None:
 
 
 def unguarded(path: Path, why: str) -> str:
-    """A warning that a file cannot be locked on its file system, with the reason."""
+    """Write a warning that a file cannot be locked on its file system, with the reason `why`."""
     return f"{path} cannot be locked ({why}): make sure that no other command writes to it"
 
 
@@ -174,12 +174,13 @@ class LineFile:
     """A file to which whole lines are appended, by one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
-        """Open a file to append lines, and cut off a last line that is incomplete; without `again`, start a new
-        file. Raises CannotWrite if another process has the file open; `writer` names that process in the sentence.
+        """Open a file to append lines. An incomplete last line is cut off; with `again=False` a new file is
+        started. Raises CannotWrite if another process has the file open; `writer` names that process in the
+        sentence.
         """
         self.path = path
         self.unlocked = ""
-        """The reason why other processes cannot be kept from writing to the file; empty if they are."""
+        """Why other processes cannot be kept from writing to the file; empty if the file is locked."""
         if path.exists() and not path.is_file():  # opening a pipe without a reader would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:
@@ -191,7 +192,7 @@ class LineFile:
             raise self._unwritable(error) from None
 
     def append(self, line: bytes) -> None:
-        """Append a line, including its line end, completely or not at all; raises CannotWrite."""
+        """Append a line, including its line end, completely or not at all. Raises CannotWrite if that fails."""
         try:
             whole = self._file.seek(0, os.SEEK_END)
             if self._file.write(line) < len(line):
@@ -207,7 +208,9 @@ class LineFile:
         self._file.close()
 
     def _lock(self, writer: str) -> None:
-        """Lock the file if platform and file system support locks; raises CannotWrite if it is locked already."""
+        """Lock the file if the platform and the file system support locks. Raises CannotWrite if it is already
+        locked.
+        """
         with suppress(ImportError):
             import fcntl
 

@@ -23,8 +23,8 @@ class FolderKind:
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
-    """Raise CannotWrite unless a folder of this kind can be written here, or Taken if one exists and must not be
-    replaced.
+    """Check that a folder of this kind can be written here. Raises CannotWrite if it cannot, or Taken if one exists
+    and must not be replaced.
     """
     try:
         _refuse_others(path, kind, overwrite=overwrite)
@@ -54,7 +54,7 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
-    """Replace a folder atomically; if writing fails, the earlier folder stays."""
+    """Replace a folder atomically. If writing fails, the old folder stays."""
     place = Path(os.path.realpath(path))
     temporary = None
     try:
@@ -72,7 +72,7 @@ def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def _put(temporary: Path, place: Path) -> None:
-    """Rename the new folder to its place; if that fails, rename the old folder back."""
+    """Rename the new folder to its place. If that fails, restore the old folder."""
     try:
         (temporary / "new").rename(place)
     except BaseException:

@@ -1,11 +1,11 @@
-"""Wall-clock time and processor time of this computer; the course of a run does not depend on it."""
+"""Wall-clock time and processor time of this computer. They do not affect the course of a run."""
 
 import time
 from dataclasses import dataclass, field
 from typing import Self
 
 _LOADED = time.monotonic(), time.process_time()
-"""Time at which this module was imported; a command imports it first."""
+"""Wall-clock and processor time at which this module was imported, which a command does first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,10 +17,10 @@ class HostTimer:
 
     @classmethod
     def of_command(cls) -> Self:
-        """A timer that starts when handeye was loaded, so that it includes the imports.
+        """Make a timer that starts when handeye was loaded, so that the imports are included.
 
-        It does not start with the process, because the process may have installed packages or waited before it
-        loaded handeye.
+        The timer does not start with the process, because the process may have installed packages or waited before
+        it loaded handeye.
         """
         return cls(*_LOADED)
 

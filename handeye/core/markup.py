@@ -1,4 +1,4 @@
-"""Builds HTML and SVG elements as text. All text put into an element is escaped."""
+"""Builds HTML and SVG elements as text, and escapes all text that is put into an element."""
 
 import re
 from base64 import b64encode
@@ -21,15 +21,15 @@ class Markup(str):
 
 
 def text(content: Content) -> Markup:
-    """Content as markup: escaped unless it is markup already; unprintable characters become visible symbols."""
+    """Convert content to markup. Plain text is escaped, and unprintable characters become visible symbols."""
     if isinstance(content, Markup):
         return content
     return Markup(escape("" if content is None else printable(str(content))))
 
 
 def element(name: str, /, *children: Content, **attributes: str | float | bool | None) -> Markup:
-    """An HTML or SVG element. In attribute names, `aria_label` stands for `aria-label` and `class_` for `class`;
-    attributes with the value None are left out.
+    """Build an HTML or SVG element. In attribute names, `aria_label` stands for `aria-label` and `class_` for
+    `class`. Attributes with the value None are left out.
     """
     inside = "".join(text(child) for child in children if child is not None)
     told = "".join(_attribute(key, value) for key, value in attributes.items())
@@ -43,7 +43,7 @@ def joined(pieces: Iterable[str], between: str = "") -> Markup:
 
 
 def section(name: str, heading: str, *children: Content) -> Markup:
-    """A section of a page, with a heading that is also the section's label."""
+    """Build a section of a page. The heading is also the label of the section."""
     title = element("h2", heading, id=f"{name}-heading")
     return element("section", title, *children, id=name, aria_labelledby=f"{name}-heading")
 
@@ -52,29 +52,29 @@ _HEADING: Final = re.compile(r'<h2 id="([a-z-]+)-heading">(.*?)</h2>')
 
 
 def contents(sections: Iterable[Markup]) -> Markup:
-    """A list of links to sections, by their headings."""
+    """Build a list of links to sections, with the sections' headings as text."""
     found = (match for each in sections if (match := _HEADING.search(each)) is not None)
     links = (element("a", Markup(match[2]), href=f"#{match[1]}") for match in found)
     return element("nav", *links, aria_label="contents", class_="contents")
 
 
 def region(*children: Content, label: str, **attributes: str | None) -> Markup:
-    """A part of a section that scrolls separately, with a label."""
+    """Build a part of a section that scrolls separately. The label is read by screen readers."""
     return element("section", *children, **attributes, aria_label=label, tabindex="0")
 
 
 def note(*children: Content) -> Markup:
-    """A paragraph that explains how to read a figure or table."""
+    """Build a paragraph that explains how to read a figure or table."""
     return element("p", *children, class_="note")
 
 
 def to_moment(seconds: float, *children: Content, **attributes: str | None) -> Markup:
-    """A link that moves the 3D view to a time, s since the run began."""
+    """Build a link that moves the 3D view to a time (s since the run began)."""
     return element("a", *children, href=f"#t={seconds:.2f}", **attributes)
 
 
 def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: str) -> Markup:
-    """A table of cells, which scrolls separately if the window is narrow."""
+    """Build a table, which scrolls separately if the window is narrow."""
     titles = element("tr", *head)
     body = element("tbody", *(element("tr", *row) for row in rows))
     inside = element("table", element("thead", titles), body)
@@ -82,12 +82,12 @@ def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: st
 
 
 def heads(*titles: str, class_: str | None = None) -> list[Markup]:
-    """Heads of columns of words; an empty title gives an empty cell."""
+    """Build the heads of columns of words. An empty title gives an empty cell."""
     return [element("th", title, scope="col", class_=class_) if title else cell() for title in titles]
 
 
 def figure_heads(*titles: str) -> list[Markup]:
-    """Heads of columns of numbers."""
+    """Build the heads of columns of numbers."""
     return heads(*titles, class_="number")
 
 
@@ -96,12 +96,12 @@ def cell(*children: Content) -> Markup:
 
 
 def figure_cell(*children: Content) -> Markup:
-    """A table cell with a number."""
+    """Build a table cell with a number."""
     return element("td", *children, class_="number")
 
 
 def data_address(kind: str, data: bytes) -> str:
-    """A `data:` address that contains a whole file."""
+    """Build a `data:` address that contains a whole file."""
     return f"data:{kind};base64,{b64encode(data).decode()}"
 
 

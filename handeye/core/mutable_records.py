@@ -1,8 +1,9 @@
-"""Mutable records: the state of a running system, with snapshots and restoring.
+"""Mutable records: the state of a running system, which can be copied in a snapshot and restored.
 
-A system keeps all its state in one such record. Values that never change are a `Record` (`handeye/core/record.py`).
-A snapshot copies structures, dictionaries and lists, and shares numbers, texts, tuples, frozen records and arrays.
-Arrays in a record must therefore be replaced, not changed in place; a snapshot makes them read-only.
+A system keeps all its state in one such record. Values that never change belong in a `Record`
+(`handeye/core/record.py`). A snapshot copies structures, dictionaries and lists, and shares numbers, texts, tuples,
+frozen records and arrays. Arrays in a record must therefore be replaced, not changed in place; a snapshot makes
+them read-only.
 """
 
 from dataclasses import is_dataclass
@@ -19,13 +20,15 @@ Kept = TypeVar("Kept", bound="MutableRecord")
 
 
 class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Base of the states of systems and their parts; checkpoints hold copies of such states."""
+    """Base of the states of systems and of their parts. Checkpoints hold copies of these states."""
 
     __repr__ = Brief.__repr__
 
 
 def copied(record: Kept) -> Kept:
-    """A snapshot of a record, independent of later changes; raises TypeError for mutable values of other types."""
+    """Take a snapshot of a record, independent of later changes. Raises TypeError for a mutable value of another
+    type.
+    """
     return type(record)(**{name: _copied(getattr(record, name)) for name in record.__struct_fields__})
 
 
@@ -56,7 +59,7 @@ def _copied(value: Any) -> Any:
 
 @cache
 def _shared(kind: type) -> bool:
-    """True for a type whose values never change: a frozen structure or dataclass, or one of _SHARED."""
+    """Return True if values of this type never change: a frozen structure or dataclass, or one of _SHARED."""
     if issubclass(kind, msgspec.Struct):
         return bool(kind.__struct_config__.frozen)
     frozen = is_dataclass(kind) and bool(getattr(kind, "__dataclass_params__").frozen)  # noqa: B009 - untyped

@@ -1,5 +1,5 @@
-"""HTML elements for notebooks, without style sheets or scripts, so that the rest of the notebook page is
-unaffected.
+"""HTML elements for notebooks. They use no style sheets or scripts, so they do not affect the rest of the notebook
+page.
 """
 
 from collections.abc import Iterable, Sequence
@@ -19,47 +19,48 @@ _INK: Final = {
 
 
 def inked(content: Content, ink: str) -> Markup:
-    """Content in one of the colours `good`, `bad`, `doubtful` and `quiet`."""
+    """Colour content with `good`, `bad`, `doubtful` or `quiet`."""
     return element("span", content, style=f"color:{_INK[ink]}")
 
 
 def heading(content: Content) -> Markup:
-    """A heading."""
+    """Build a heading."""
     return element("div", element("b", content), style="margin:4px 0")
 
 
 def line(content: Content) -> Markup:
-    """Content on a separate line."""
+    """Build a line with the content."""
     return element("div", content, style="margin:2px 0")
 
 
 def frame(lines: str) -> Markup:
-    """Text in a fixed-width font, with its line breaks."""
+    """Show text in a fixed-width font, with its line breaks."""
     return element("pre", Markup(escape(lines)), style="margin:4px 0")
 
 
 def bar(share: float) -> Markup:
-    """A bar whose length shows a share, from 0 to 1."""
+    """Draw a bar whose length shows a share from 0 to 1."""
     width = max(1, round(160 * share)) if share > 0 else 0
     return element("span", style=f"display:inline-block;height:.7em;width:{width}px;background:#3b75af")
 
 
 def picture(webp: bytes, what: str) -> Markup:
-    """A picture with alternative text."""
+    """Show a WebP picture with alternative text."""
     return element("img", alt=what, src=data_address("image/webp", webp), style="max-width:480px")
 
 
 def svg(drawing: str, what: str) -> Markup:
-    """A drawing with alternative text; its styles do not affect the rest of the page."""
+    """Show an SVG drawing with alternative text. Its styles do not affect the rest of the page."""
     address = data_address("image/svg+xml", drawing.encode())
     return element("img", alt=what, src=address, style="max-width:100%")
 
 
 def sandbox(file: bytes, what: str, height: int) -> Markup:
-    """A separate page within the notebook page; its scripts run, but cannot reach the notebook or its kernel.
+    """Show a separate HTML page within the notebook page. Its scripts run, but cannot reach the notebook or its
+    kernel.
 
-    The page is given by a `data:` address instead of `srcdoc`: with `srcdoc`, links to moments would lead to the
-    notebook's address.
+    The page is given by a `data:` address instead of `srcdoc`. With `srcdoc`, links to moments of the run would
+    lead to the address of the notebook.
     """
     address, style = data_address("text/html", file), "border:1px solid #ccc"
     limits = {"sandbox": "allow-scripts", "width": "100%"}
@@ -67,7 +68,7 @@ def sandbox(file: bytes, what: str, height: int) -> Markup:
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[Content]]) -> Markup:
-    """A table; columns of numbers and their heads are aligned to the right."""
+    """Build a table. Columns of numbers and their heads are aligned to the right."""
     lines = [list(row) for row in rows]
     right = [any(isinstance(row[n], (int, float)) for row in lines) for n in range(len(head))]
     drawn = [_row("th", head, right), *(_row("td", row, right) for row in lines)]
@@ -82,5 +83,5 @@ def _row(tag: str, row: Sequence[Content], right: Sequence[bool]) -> Markup:
 
 
 def page(*pieces: Markup) -> str:
-    """Elements one below the other."""
+    """Place elements one below the other."""
     return "<div>\n" + "\n".join(pieces) + "\n</div>\n"

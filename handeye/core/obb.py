@@ -7,26 +7,26 @@ import numpy as np
 from handeye.core.pose import Array, Pose
 
 Box = tuple[float, float, float, float, float, float]
-"""Two opposite corners of a box in its frame, m: least x, y, z, then greatest x, y, z."""
+"""Two opposite corners of a box in the frame of the box, m: least x, y, z, then greatest x, y, z."""
 
 _PARALLEL = 1e-6  # sine below which two edges count as parallel and their cross product gives no axis
 
 
 def middles(boxes: Sequence[Box]) -> Array:
-    """Centres of boxes, shape (n, 3), m."""
+    """Return the centres of boxes, shape (n, 3), m."""
     corners = np.asarray(boxes, dtype=np.float64).reshape(-1, 2, 3)
     return np.asarray((corners[:, 0] + corners[:, 1]) / 2)
 
 
 def halves(boxes: Sequence[Box]) -> Array:
-    """Half lengths of boxes, shape (n, 3), m."""
+    """Return the half lengths of boxes, shape (n, 3), m."""
     corners = np.asarray(boxes, dtype=np.float64).reshape(-1, 2, 3)
     return np.asarray((corners[:, 1] - corners[:, 0]) / 2)
 
 
 def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
-    """Height of the lowest corner of n boxes, m, shape (N, n). The boxes are given in frame A, whose N poses `X_WA`
-    are (N, 4, 4).
+    """Return the height (m) of the lowest corner of each box, shape (N, n). The n boxes are given in frame A, which
+    takes the N poses `X_WA`, shape (N, 4, 4).
     """
     up = X_WA[:, 2:3, :3]
     centre = X_WA[:, 2, 3, None] + (up @ middles(boxes).T)[:, 0]
@@ -34,8 +34,9 @@ def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
 
 
 def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
-    """Depths to which n boxes in frame A overlap m other boxes, in m, shape (N, n, m); 0 if they are apart. Each
-    other box has a frame B, and `X_BA` is (N, m, 4, 4).
+    """Return the depths (m) to which n boxes overlap m other boxes, shape (N, n, m); 0 if two boxes do not touch.
+    The n boxes are given in frame A. Each other box has its own frame B; `X_BA`, shape (N, m, 4, 4), is the pose of
+    A in it.
     """
     a, b = halves(boxes), halves(others)
     R = X_BA[..., :3, :3]
@@ -49,8 +50,8 @@ def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
 
 
 def _oblique(R: Array, gap: Array, a: Array, b: Array) -> Array:
-    """Overlap (m) of K pairs of boxes, the least along the axes of the first box and the cross products of the
-    edges.
+    """Return the overlap (m) of K pairs of boxes: the least overlap along the axes of the first box and the cross
+    products of the edges.
 
     Args:
         R: orientation of the first box in the frame of the second, (K, 3, 3).

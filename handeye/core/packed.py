@@ -1,6 +1,6 @@
-"""Stores states on disk as compressed MessagePack with arrays, after a line with kind, version and digest.
+"""Stores states on disk as compressed MessagePack with arrays. A first line gives the kind, version and digest.
 
-A file that is truncated, has a wrong bit, or would fill the memory is refused before any of its content is used.
+A file is refused before its content is used if it is truncated, has a wrong bit, or would fill the memory.
 """
 
 import hashlib
@@ -15,17 +15,17 @@ _DTYPES: Final = ("<f8", "|u1")
 
 
 def sealed(magic: str, version: int, rest: bytes) -> bytes:
-    """Bytes preceded by a line with kind, version and digest."""
+    """Put a line with kind, version and digest before the bytes `rest`."""
     return f"{magic} {version} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
 
 
 def packed(record: object) -> bytes:
-    """A record as compressed bytes."""
+    """Encode and compress a record."""
     return zlib.compress(encoded(record), 1)
 
 
 def unpacked(data: bytes, kind: type[T], largest: int) -> T:
-    """The record in bytes made by `packed`; raises ValueError, also if it inflates to more than `largest` bytes."""
+    """Decode bytes made by `packed`. Raises ValueError if they are invalid or inflate to more than `largest` bytes."""
     try:
         return decoded(_inflated(data, largest), kind)
     except zlib.error as error:
@@ -38,7 +38,7 @@ def encoded(record: object) -> bytes:
 
 
 def decoded(data: bytes | msgspec.Raw, kind: type[T]) -> T:
-    """Decode a record made by `encoded`; raises ValueError."""
+    """Decode a record made by `encoded`. Raises ValueError if the bytes are invalid."""
     try:
         return msgspec.msgpack.decode(data, type=kind, dec_hook=_array)
     except (msgspec.DecodeError, TypeError, RecursionError) as error:

@@ -1,4 +1,4 @@
-"""Text output: printable characters, nouns with numbers, digits of numbers."""
+"""Writes text for users: printable characters, nouns with numbers, numbers with enough digits."""
 
 import math
 import re
@@ -11,24 +11,24 @@ _SAME_DIGITS: Final = 1e-6  # of the last digit: computing error that does not r
 
 
 def printable(text: str) -> str:
-    """A text in which unusual blanks and control characters are replaced by visible symbols."""
+    """Replace unusual blanks and control characters in a text by visible symbols."""
     return "".join(map(shown, text))
 
 
 def shown(character: str) -> str:
-    """A character that a terminal can show, one column wide."""
+    """Return a symbol, one column wide, that a terminal can show in place of a character."""
     if character.isprintable():
         return character
     return "␣" if character.isspace() and character > "\x9f" else "\N{REPLACEMENT CHARACTER}"
 
 
 def one_line(text: str) -> str:
-    """A statement in one line, with single blanks and printable characters."""
+    """Write a statement in one line, with single blanks and printable characters."""
     return printable(" ".join(text.split()))
 
 
 def counted(number: int, noun: str) -> str:
-    """A number with its noun, singular or plural: `1 step`, `2 steps`, `3 tries`, `4 branches`."""
+    """Write a number with its noun, singular or plural: `1 step`, `2 steps`, `3 tries`, `4 branches`."""
     if number == 1:
         return f"1 {noun}"
     if re.search("[^aeiou]y$", noun):
@@ -37,7 +37,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def size(number: int) -> str:
-    """A number of bytes, as people write it.
+    """Write a number of bytes with its unit.
 
     >>> size(812), size(47_300), size(2_340_000)
     ('812 bytes', '47 kB', '2.3 MB')
@@ -48,7 +48,7 @@ def size(number: int) -> str:
 
 
 def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
-    """Numbers with at least `decimals` digits, and with more where needed to tell different numbers apart."""
+    """Write numbers with `decimals` digits after the point, and with more if different numbers would look the same."""
     for places in range(decimals, decimals + _EXTRA_DECIMALS):
         texts = [f"{number:z.{places}f}" for number in numbers]
         if len({*texts}) == len({*numbers}):
@@ -57,10 +57,10 @@ def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
 
 
 def enough_digits(number: float, decimals: int, *, up: bool = False) -> str:
-    """A positive number with `decimals` digits, or with more if fewer than two of them would be significant: .0041
-    is not written `0.00`.
+    """Write a positive number with `decimals` digits after the point, and with more if fewer than two digits would
+    be significant: .0041 is not written `0.00`.
 
-    With `up`, the number is rounded up, so that it is enough.
+    If `up` is True, the number is rounded up, so that the written number is never too small.
     """
     places = max(decimals, 1 - math.floor(math.log10(number))) if number > 0 else decimals
     if up:
@@ -70,7 +70,7 @@ def enough_digits(number: float, decimals: int, *, up: bool = False) -> str:
 
 
 def folded(text: str, width: int) -> str:
-    """Text wrapped between words to `width` columns, with continuation lines indented."""
+    """Wrap a text between words to `width` columns and indent the continuation lines."""
     return "\n".join(_folded(line, width) for line in text.split("\n"))
 
 

@@ -1,4 +1,6 @@
-"""Simplifies recordings: keeps only the rows needed to interpolate all others linearly within a tolerance."""
+"""Simplifies recordings: keeps only those rows from which all other rows can be interpolated linearly within a
+tolerance.
+"""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -12,17 +14,17 @@ _LEAST: Final = 1e-9  # least norm of an interpolated quaternion: halfway to its
 
 Rows = NDArray[np.int64]
 Off = Callable[[Rows, Rows, Rows], Array]
-"""For segments given by their first rows, a row in each, and their last rows: deviation of each row divided by the
-tolerance, shape (n,).
+"""Function that returns the deviation of rows from linear interpolation, divided by the tolerance, shape (n,). Its
+arguments are the first row of the segment, the row itself, and the last row of the segment.
 """
 
 
 def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
-    """The rows between which all others can be interpolated within tolerance, including the rows `always` (sorted,
-    with both ends).
+    """Find the rows from which all others can be interpolated within the tolerance. The result includes the rows
+    `always`, which must be sorted and contain the first and last row.
 
-    Starting from `always`, each segment with a row too far off is split at its farthest row; all segments are
-    handled at once.
+    The search starts with the segments between the rows `always`. A segment with a row too far from the
+    interpolation is split at the farthest row. All segments are handled at once.
     """
     kept = [np.asarray(always, dtype=np.int64)]
     first, last = kept[0][:-1], kept[0][1:]
@@ -36,7 +38,7 @@ def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
 
 
 def _worst(off: Off, first: Rows, last: Rows) -> tuple[Rows, Array]:
-    """For each segment, the row between its ends that deviates most, and its deviation."""
+    """Find, for each segment, the row between its ends that deviates most. Returns these rows and their deviations."""
     inside = last - first - 1
     begin = np.cumsum(inside) - inside
     segment = np.repeat(np.arange(len(first)), inside)
@@ -47,8 +49,8 @@ def _worst(off: Off, first: Rows, last: Rows) -> tuple[Rows, Array]:
 
 
 def off_values(values: Array, at: Array, allowed: Array) -> Off:
-    """A function for the deviation of values from linear interpolation, divided by the tolerance; values, `at`
-    (time of each row) and `allowed` (tolerance) have shape (n,).
+    """Make a function that returns how far values deviate from linear interpolation, divided by the tolerance. The
+    values, the time `at` of each row and the tolerance `allowed` have shape (n,).
     """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
@@ -60,8 +62,8 @@ def off_values(values: Array, at: Array, allowed: Array) -> Off:
 
 
 def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
-    """A function for the deviation of poses from interpolation, divided by the tolerances `place` (m) and `turn`
-    (rad).
+    """Make a function that returns how far poses deviate from interpolation, divided by the tolerances `place` (m)
+    and `turn` (rad).
 
     `poses` has shape (n, 7): positions (m), then unit quaternions w, x, y, z, continuous in sign. `at` is the time
     of each row, or another parameter.
@@ -82,7 +84,7 @@ def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
 
 
 def smooth(poses: NDArray[np.floating]) -> Array:
-    """The poses, shape (n, 7), with the signs of their quaternions made continuous from row to row."""
+    """Return poses, shape (n, 7), in which the signs of the quaternions are continuous from row to row."""
     turned = np.einsum("ij,ij->i", poses[1:, 3:], poses[:-1, 3:]) < 0
     alike = np.array(poses, dtype=np.float64)
     alike[1:, 3:] *= np.cumprod(np.where(turned, -1.0, 1.0))[:, None]

@@ -20,27 +20,29 @@ Array = NDArray[np.float64]
 Pose = NDArray[np.float64]  # a homogeneous matrix, shape (4, 4), lengths in metres
 
 UPRIGHT = math.radians(2)
-"""If the hand points straight down within this angle (rad), its whole rotation about the vertical is given as O,
-and T is zero.
+"""If the hand points straight down to within this angle (rad), its whole rotation about the vertical is written as
+O, and T is zero.
 """
 
 _R_ZERO = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
 
 
 def rotation_x(angle: float) -> Array:
-    """Rotation about x, shape (3, 3); `angle` in radians."""
+    """Return the matrix, shape (3, 3), of a rotation about x by `angle` (rad)."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def rotation_z(angle: float) -> Array:
-    """Rotation about z, shape (3, 3); `angle` in radians."""
+    """Return the matrix, shape (3, 3), of a rotation about z by `angle` (rad)."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def rotation(vector: Array) -> Array:
-    """Rotation about the axis `vector` by the length of `vector` in radians, shape (3, 3)."""
+    """Return the matrix, shape (3, 3), of a rotation about the axis `vector`. The length of `vector` is the angle
+    (rad).
+    """
     angle = float(np.linalg.norm(vector))
     if angle == 0.0:
         return np.eye(3)
@@ -50,7 +52,7 @@ def rotation(vector: Array) -> Array:
 
 
 def pose(R: Array, p: Array | Sequence[float]) -> Pose:
-    """The pose with rotation `R`, shape (3, 3), and position `p`, shape (3,), in metres."""
+    """Make the pose with rotation `R`, shape (3, 3), and position `p`, shape (3,), m."""
     X = np.eye(4)
     X[:3, :3] = R
     X[:3, 3] = p
@@ -58,28 +60,28 @@ def pose(R: Array, p: Array | Sequence[float]) -> Pose:
 
 
 def inverse(X_AB: Pose) -> Pose:
-    """The inverse `X_BA` of a pose `X_AB`."""
+    """Return the inverse `X_BA` of the pose `X_AB`."""
     R = X_AB[:3, :3].T
     return pose(R, -R @ X_AB[:3, 3])
 
 
 def planar(x: float, y: float, z: float, yaw: float) -> Pose:
-    """The pose of an upright part: position in metres, `yaw` about the vertical in radians."""
+    """Return the pose of an upright part at position (x, y, z), m, turned about the vertical by `yaw` (rad)."""
     return pose(rotation_z(yaw), (x, y, z))
 
 
 def yaw(X: Pose) -> float:
-    """Yaw of an upright part, in radians, in (-pi, pi]."""
+    """Return the yaw of an upright part (rad), in (-pi, pi]."""
     return math.atan2(X[1, 0], X[0, 0])
 
 
 def hand(x: float, y: float, z: float, o: float, a: float, t: float) -> Pose:
-    """The pose of the hand with its tool centre point at (x, y, z), m, and the angles O, A, T, rad."""
+    """Return the pose of the hand with its tool centre point at (x, y, z), m, and the angles O, A, T (rad)."""
     return pose(rotation_z(o) @ rotation_x(a) @ _R_ZERO @ rotation_z(t), (x, y, z))
 
 
 def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
-    """The angles O, A, T (rad) of a hand pose; inverse of `hand`."""
+    """Return the angles O, A, T (rad) of a pose of the hand. The inverse of `hand`."""
     finger, approach = X_WT[:3, 1], X_WT[:3, 2]
     a = math.asin(min(1.0, max(-1.0, -float(approach[2]))))
     if abs(abs(a) - math.pi / 2) < UPRIGHT:
@@ -90,14 +92,16 @@ def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
 
 
 def translated(X: Pose, p: Array | Sequence[float]) -> Pose:
-    """`X` moved by `p` (m), in the outer frame."""
+    """Move the pose `X` by `p` (m), given in the outer frame."""
     Y = X.copy()
     Y[:3, 3] += p
     return Y
 
 
 def displaced(X: Pose, p: Array, turn: Array) -> Pose:
-    """`X` moved by `p` (m) and turned about its new origin by the rotation vector `turn` (rad), in the outer frame."""
+    """Move the pose `X` by `p` (m) and turn it about its new origin by the rotation vector `turn` (rad), both given
+    in the outer frame.
+    """
     Y = translated(X, p)
     Y[:3, :3] = rotation(turn) @ X[:3, :3]
     return Y

@@ -14,14 +14,16 @@ _SETTINGS: Final = ("GLIBC_TUNABLES", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEAT
 
 @cache
 def processor() -> str:
-    """Architecture, model, kernels of the linear algebra, and settings that influence the choice of instructions."""
+    """Describe the processor: architecture, model, linear-algebra kernels, and settings that influence the choice
+    of instructions.
+    """
     told = [f"{platform.machine()} {_model()}".strip(), _kernels()]
     told += [f"{name}={value}" for name in _SETTINGS if (value := os.environ.get(name))]
     return ", ".join(filter(None, told))
 
 
 def _model() -> str:
-    """The model name that the processor reports, or ""."""
+    """Return the model name that the processor reports, or "" if there is none."""
     try:
         found = re.search(
             r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(errors="replace"), re.MULTILINE
@@ -32,7 +34,7 @@ def _model() -> str:
 
 
 def _kernels() -> str:
-    """The kernels that NumPy's OpenBLAS has selected, or ""."""
+    """Return the name of the kernels that NumPy's OpenBLAS has selected, or "" if it is unknown."""
     import numpy
 
     for file in (Path(numpy.__file__).parents[1] / "numpy.libs").glob("*openblas*"):

@@ -1,6 +1,6 @@
 """Immutable records, whose field types are checked when they are read from a file.
 
-State that changes is a `MutableRecord` (`handeye/core/mutable_records.py`).
+For state that changes, use a `MutableRecord` (`handeye/core/mutable_records.py`).
 """
 
 import msgspec

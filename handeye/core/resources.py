@@ -13,7 +13,9 @@ _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)  # in an installed wheel, and in 
 
 
 def folder(name: str) -> Path:
-    """The path of the folder `scenes`, `plans`, `demo` or `docs`; raises BadFile if the installation is incomplete."""
+    """Return the path of the folder `scenes`, `plans`, `demo` or `docs`. Raises BadFile if the installation is
+    incomplete.
+    """
     for root in _ROOTS:
         if (root / name).is_dir():
             return root / name
@@ -21,28 +23,30 @@ def folder(name: str) -> Path:
 
 
 def scenes() -> Path:
-    """The folder of models and dimensions, with one folder per scene."""
+    """Return the folder of models and dimensions, which has one folder for each scene."""
     return folder("scenes")
 
 
 def plans() -> Path:
-    """The folder of arm programs with their taught positions and compiled plans."""
+    """Return the folder of arm programs with their taught positions and compiled plans."""
     return folder("plans")
 
 
 def demo() -> Path:
-    """The folder of a recorded run of the water pump: a thinned trace, the result, and a picture of the end."""
+    """Return the folder of a recorded run of the water pump: a thinned trace, the result, and a picture of the
+    finished pump.
+    """
     return folder("demo")
 
 
 def docs() -> Path:
-    """The folder of the documentation."""
+    """Return the folder of the documentation."""
     return folder("docs")
 
 
 def page(name: str) -> str:
-    """The address of a page of the documentation; `name` is its path in the folder `docs`. The name itself if that
-    folder is missing.
+    """Return the address of a page of the documentation, or `name` itself if the folder `docs` is missing. `name`
+    is the path of the page in that folder.
     """
     for root in _ROOTS:
         if (found := root / "docs" / name).is_file():
@@ -56,7 +60,9 @@ VARIABLE: Final = "HANDEYE_CACHE"  # environment variable for another cache fold
 
 
 def cache_folder() -> Path | None:
-    """The path of the cache folder, which may not exist; None if caching is off or the user has no home folder."""
+    """Return the path of the cache folder, which may not exist yet, or None if caching is off or the user has no
+    home folder.
+    """
     named = os.environ.get(VARIABLE)
     if named is not None:
         return Path(named).absolute() if named else None

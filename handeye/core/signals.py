@@ -11,7 +11,7 @@ from typing import Any, Final, NoReturn
 
 _NAMES: Final = ("SIGINT", "SIGTERM", "SIGHUP", "SIGUSR1", "SIGUSR2", "SIGXCPU", "SIGBREAK")
 ENDING: Final = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
-"""The signals that end the program, on this platform."""
+"""The signals of this platform that end the program."""
 
 _IMPORTING: Final = (
     "importlib._bootstrap",
@@ -22,15 +22,15 @@ Handler = Callable[[int, FrameType | None], None]
 
 
 class ToldToEnd(KeyboardInterrupt):
-    """Raised by a signal to end other than Ctrl-C. At a prompt, Ctrl-C only drops the line; these signals end the
-    program.
+    """Raised by an ending signal other than Ctrl-C. At a prompt, Ctrl-C only drops the typed line; the other
+    signals end the program.
     """
 
 
 @contextmanager
 def heard(handler: Handler) -> Iterator[None]:
-    """In this context, a handler receives the signals to end; a signal that is ignored, as after `nohup`, stays
-    ignored.
+    """Pass ending signals to a handler while the context is open. A signal that the process ignores, as after
+    `nohup`, stays ignored.
     """
     before = {}
 
@@ -50,10 +50,10 @@ def heard(handler: Handler) -> Iterator[None]:
 
 
 def break_in(number: int, frame: FrameType | None) -> None:
-    """A signal handler that raises KeyboardInterrupt; during an import, it waits until the import is over.
+    """Handle a signal by raising KeyboardInterrupt. During an import, wait until the import is over.
 
-    An interrupted import is unsafe: modules written in C turn the exception into an ImportError, and others swallow
-    it.
+    Interrupting an import is unsafe: some modules written in C turn the exception into an ImportError, and others
+    swallow it.
     """
     importer = None
     while frame is not None:
@@ -75,7 +75,7 @@ def _interrupt(number: int) -> NoReturn:
 
 
 def _leave_closed_terminal() -> None:
-    """Replace a closed terminal by the null device, because writing to the terminal would raise OSError."""
+    """Redirect a closed terminal to the null device, because writing to the terminal would raise OSError."""
     for file in range(3):
         with suppress(OSError):
             if stat.S_ISCHR(os.fstat(file).st_mode) and not os.isatty(file):

@@ -18,7 +18,7 @@ LARGEST: Final = 1_000_000  # bytes of a text file: the longest possible program
 
 
 class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
-    """Characters `start` (inclusive) to `end` (exclusive) of a source text."""
+    """The characters of a source text from offset `start` (inclusive) to `end` (exclusive)."""
 
     start: int
     end: int
@@ -37,7 +37,7 @@ class Located(msgspec.Struct, frozen=True, gc=False):
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A named text with the texts that it requires. Lines and columns count from 1, within each text."""
+    """A named text together with the texts that it requires. Lines and columns count from 1, within each text."""
 
     name: str
     text: str
@@ -47,24 +47,24 @@ class Source:
 
     @property
     def texts(self) -> "tuple[Source, ...]":
-        """The text itself, then the texts that it requires."""
+        """The text itself, followed by the texts that it requires."""
         return self, *self.required
 
     def find(self, offset: int) -> "tuple[Source, int]":
-        """The text in which an offset of the combined text lies, and the offset within that text."""
+        """Find the text in which an offset of the combined text lies. Returns the text, and the offset within it."""
         if not self.required:
             return self, offset
         number = bisect_right(self._begins, offset) - 1
         return self.texts[number], offset - self._begins[number]
 
     def marked(self, span: Span) -> str:
-        """The characters in a span of the combined text; the span must lie within one text."""
+        """Return the characters in a span of the combined text. The span must lie within one text."""
         text, start = self.find(span.start)
         return text.text[start : start + span.end - span.start]
 
     @cached_property
     def begins(self) -> dict[str, int]:
-        """Offset in the combined text at which each text begins, by the text's key."""
+        """Offset in the combined text at which each text begins, by key of the text."""
         return {text.key: begin for text, begin in zip(self.texts, self._begins, strict=True)}
 
     @cached_property
@@ -76,39 +76,41 @@ class Source:
         return [0, *(found.end() for found in re.finditer("\n", self.text))]
 
     def position(self, offset: int) -> tuple[int, int]:
-        """Line and column, from 1, of an offset in this text."""
+        """Return the line and the column, from 1, of an offset in this text."""
         line = bisect_right(self._starts, offset)
         return line, offset - self._starts[line - 1] + 1
 
     def line(self, number: int) -> str:
-        """A line, by its number from 1, without its line end."""
+        """Return the line with the number `number` (from 1), without its line end."""
         start = self._starts[number - 1]
         end = self._starts[number] - 1 if number < len(self._starts) else len(self.text)
         return self.text[start:end].rstrip("\r")
 
     def column(self, offset: int) -> int:
-        """Column of an offset in this text, from 0."""
+        """Return the column, from 0, of an offset in this text."""
         return offset - self.text.rfind("\n", 0, offset) - 1
 
     def span(self, key: str, line: int, columns: tuple[int, int]) -> Span:
-        """The span, in the combined text, of columns in a line of the text with key `key`."""
+        """Return the span in the combined text that covers columns of a line in the text with key `key`."""
         text = next(text for text in self.texts if text.key == key)
         start = self.begins[key] + text._starts[line - 1]
         return Span(start=start + columns[0], end=start + columns[1])
 
 
 def line_name(line: int, file: str = "") -> str:
-    """The name of a line: `12`, or `pins.al:12` in a required file."""
+    """Name a line: `12`, or `pins.al:12` in a required file."""
     return f"{printable(file)}:{line}" if file else f"{line}"
 
 
 def with_line_ends(text: str) -> str:
-    """A text with Unix line ends, if its lines end with a carriage return alone, as on early Macintosh computers."""
+    """Convert a text to Unix line ends if its lines end with a carriage return alone, as on early Macintosh
+    computers.
+    """
     return text if "\n" in text else text.replace("\r", "\n")
 
 
 def read_source(path: str | Path) -> Source:
-    """Read a text from a file; raises BadFile if the file is unreadable, too large, or not UTF-8."""
+    """Read a text from a file. Raises BadFile if the file is unreadable, too large, or not UTF-8."""
     data = read_whole(path, LARGEST)
     try:
         return Source(name=str(path), text=with_line_ends(data.decode("utf-8-sig")))

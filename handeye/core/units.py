@@ -59,11 +59,11 @@ class Measures(Record, frozen=True, kw_only=True):
     force: Unit
 
     def place(self, p: Sequence[float]) -> str:
-        """A position (m) as text, such as `(1.00, -2.50, 0.00) in`."""
+        """Write a position (m) as text, such as `(1.00, -2.50, 0.00) in`."""
         return f"({', '.join(map(self._number, p))}) {self.length.name}"
 
     def distance(self, metres: float) -> str:
-        """A length (m) as text."""
+        """Write a length (m) as text in the chosen unit."""
         return f"{self._number(metres)} {self.length.name}"
 
     def _number(self, metres: float) -> str:
@@ -77,12 +77,12 @@ _WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\
 
 
 def split_value(text: str) -> tuple[float, str] | None:
-    """Number and unit of a text such as `.3 in`; None if the text does not begin with a number."""
+    """Split a text such as `.3 in` into number and unit. Returns None if the text does not begin with a number."""
     found = _WRITTEN.fullmatch(text.strip())
     return None if found is None else (float(found[1]), found[2])
 
 
 def unit_named(word: str) -> Unit | None:
-    """The unit with a name, ignoring blanks and case; None if there is none."""
+    """Find the unit called `word`, ignoring blanks and case. Returns None if there is no such unit."""
     spelt = {name.replace(" ", "").casefold(): unit for name, unit in UNITS.items()}
     return spelt.get(word.replace(" ", "").casefold())

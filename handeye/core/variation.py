@@ -31,12 +31,12 @@ LARGEST_SEED: Final = (
     1 << 53
 ) - 1  # the largest that every reader of JSON keeps, also one whose numbers are doubles
 Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
-"""A number from which a world is drawn; the number itself has no meaning."""
+"""Number from which a world is drawn. Neighbouring numbers give unrelated worlds."""
 
 _LONG: Final = 10**40  # what has more digits is not repeated to a person
 
 UNSOURCED: Final = "unsourced"
-"""In a scale, the name for all quantities whose size has no source."""
+"""In a scale, this name stands for all quantities whose size has no source."""
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
@@ -55,13 +55,12 @@ class Quantity:
     nominal: float = 0.0  # its value when switched off
     limits: tuple[float, float] = (-np.inf, np.inf)  # range it can be set to
     where: tuple[str, float] | None = None
-    """The choice on which the quantity depends: name and value (SI). Only worlds with that value have the quantity;
-    None: all worlds have it.
+    """The choice on which the quantity depends: name and value (SI). Only worlds in which the choice has this value
+    have the quantity; None if all worlds have it.
     """
     source: str  # meaning, and source of its figures
     unsourced: str = ""
-    """Why the size of the quantity has no source, and what bounds it; empty if there is a source, or if none is
-    needed.
+    """Why the size of the quantity has no source, and what limits it; empty if there is a source or none is needed.
     """
 
     @property
@@ -69,7 +68,7 @@ class Quantity:
         return UNITS[self.unit]
 
     def check(self, value: float) -> None:
-        """Raise BadArgument unless the quantity can be set to a value (SI)."""
+        """Raise BadArgument unless the quantity can be set to `value` (SI)."""
         if isinstance(self.distribution, Choice):
             if type(value) not in (int, float) or value not in self.distribution.values:
                 known = " or ".join(f"{each:g}" for each in self.distribution.values)
@@ -82,13 +81,15 @@ class Quantity:
 
 
 class Overrides(Record, frozen=True, kw_only=True):
-    """Changes to a drawn world: quantities at nominal values, set quantities, and scales."""
+    """Changes to a drawn world: quantities left at their nominal values, quantities set to values, and scaled
+    errors.
+    """
 
     without: tuple[str, ...] = ()  # quantities and groups at nominal values, sorted
     set: dict[str, float] = msgspec.field(default_factory=dict)  # values, SI; take precedence over `without`
     scale: dict[str, float] = msgspec.field(default_factory=dict)
-    """Factors on errors, in addition to that of the level, by quantity, group or `UNSOURCED`; the most specific
-    name applies.
+    """Factors on errors, in addition to the factor of the level, by name of a quantity or group, or `UNSOURCED`.
+    The most specific name applies.
     """
 
 
@@ -102,7 +103,7 @@ class WorldSpec(Record, frozen=True, kw_only=True):
     drawing: int = DRAWING  # version of the drawing
 
     def __post_init__(self) -> None:
-        """Raises BadArgument if the seed is out of range."""
+        """Raise BadArgument if the seed is out of range."""
         checked_seed(self.seed)
 
     def __str__(self) -> str:
@@ -125,19 +126,19 @@ class World:
         return self.values[name]
 
     def numbered(self, group: str) -> tuple[float, ...]:
-        """Values of `group.1`, `group.2` and so on, in SI units."""
+        """Return the values (SI) of `group.1`, `group.2` and so on."""
         found: list[float] = []
         while (name := f"{group}.{len(found) + 1}") in self.values:
             found.append(self.values[name])
         return tuple(found)
 
     def generator(self, stream: str) -> np.random.Generator:
-        """A random number generator for noise; streams of different names are independent."""
+        """Make a random number generator for noise. Generators of different streams are independent."""
         return random_numbers(self.spec.seed, stream)
 
 
 class Variation:
-    """The quantities that vary between a task's worlds, in listing order."""
+    """The quantities that vary between the worlds of a task, in the order in which they are listed."""
 
     def __init__(self, *quantities: Quantity) -> None:
         self.quantities = {quantity.name: quantity for quantity in quantities}
@@ -155,7 +156,7 @@ class Variation:
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
     def present(self, values: Mapping[str, float]) -> dict[str, Quantity]:
-        """The quantities of a world in which the given choices are set, by name; values in SI units."""
+        """Return the quantities, by name, of a world in which choices have the given values (SI)."""
         return {name: q for name, q in self.quantities.items() if self._is_there(q, values)}
 
     def _is_there(self, quantity: Quantity, values: Mapping[str, float]) -> bool:
@@ -165,11 +166,12 @@ class Variation:
         return values.get(choice, self.quantities[choice].nominal) == wanted
 
     def select(self, name: str, values: Mapping[str, float] | None = None) -> tuple[Quantity, ...]:
-        """The quantity with a name, or all those of a group; raises NoSuchName.
+        """Return the quantity called `name`, or all quantities in the group of that name. Raises NoSuchName if
+        there is none.
 
         Args:
-            values: values set in the world (SI); only quantities of such a world count. None: quantities of any
-                world count.
+            values: values set in the world (SI). Quantities that such a world does not have are left out. If None,
+                the quantities of all worlds count.
         """
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         there = [q for q in found if values is None or self._is_there(q, values)]
@@ -187,13 +189,13 @@ class Variation:
         return tuple(there)
 
     def draw(self, spec: WorldSpec) -> World:
-        """Draw the world of a specification; raises BadArgument if the specification does not fit this table."""
+        """Draw the world of a specification. Raises BadArgument if the specification does not fit this table."""
         self.check(spec)
         there = self.present(spec.overrides.set)
         return World(spec=spec, values={name: self.value(name, spec) for name in there})
 
     def value(self, name: str, spec: WorldSpec) -> float:
-        """The value of one quantity in a world, SI."""
+        """Draw the value of one quantity in a world, SI."""
         quantity = self.quantities[name]
         if name in spec.overrides.set:
             return spec.overrides.set[name]
@@ -202,14 +204,14 @@ class Variation:
         return drawn(quantity, self.factor(quantity, spec), random_numbers(spec.seed, name))
 
     def factor(self, quantity: Quantity, spec: WorldSpec) -> float:
-        """The factor by which a quantity's error differs from its nominal size, from level and scales."""
+        """Return the factor by which the level and the scales multiply the error of a quantity."""
         scale = spec.overrides.scale
         mine = [name for name in scale if name != UNSOURCED and within(quantity.name, name)]
         mine = mine or ([UNSOURCED] if quantity.unsourced and UNSOURCED in scale else [])
         return SPREADS[spec.level] * (scale[max(mine, key=len)] if mine else 1.0)
 
     def scalable(self, name: str) -> tuple[Quantity, ...]:
-        """The quantities to which a scale with this name applies; raises BadArgument if there are none."""
+        """Return the quantities to which a scale with this name applies. Raises BadArgument if there are none."""
         those = self.quantities.values() if name == UNSOURCED else self.select(name)
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
@@ -246,12 +248,12 @@ class Variation:
 
 
 def within(name: str, group: str) -> bool:
-    """True if `name` is the group itself, or a name in it."""
+    """Return True if `name` is the group itself or belongs to the group."""
     return f"{name}.".startswith(f"{group}.")
 
 
 def drawn(quantity: Quantity, factor: float, stream: np.random.Generator) -> float:
-    """Draw a quantity's value (SI) from a stream, with its error multiplied by `factor`."""
+    """Draw the value (SI) of a quantity from a stream, with its error multiplied by `factor`."""
     distribution, nominal = quantity.distribution, quantity.nominal
     value = distribution.draw(stream, nominal)
     if factor != 1 and distribution.is_error:
@@ -260,7 +262,7 @@ def drawn(quantity: Quantity, factor: float, stream: np.random.Generator) -> flo
 
 
 def checked_seed(seed: object) -> int:
-    """Check a seed and return it as a plain `int`; raises BadArgument."""
+    """Check a seed and return it as a plain `int`. Raises BadArgument if it is no seed."""
     number = whole(seed)
     if number is None or not 0 <= number <= LARGEST_SEED:
         told = repr(seed) if number is None or abs(number) < _LONG else "a longer one"

@@ -1,4 +1,4 @@
-"""The versions on which a result depends, besides plan and seed."""
+"""The versions on which a result depends, in addition to the plan and the seed."""
 
 from functools import cache
 from pathlib import Path
@@ -11,7 +11,7 @@ PACKAGES: Final = ("mujoco", "numpy", "scipy", "opencv-python-headless")
 
 
 def versions() -> dict[str, str]:
-    """Versions of handeye, Python and the packages on which results depend."""
+    """Return the versions of handeye, Python and the packages on which results depend."""
     import platform
 
     found = {name: _installed(name) for name in PACKAGES}
@@ -19,7 +19,7 @@ def versions() -> dict[str, str]:
 
 
 def installed(package: str) -> str | None:
-    """Version of a package; None if it is not installed."""
+    """Return the version of a package, or None if the package is not installed."""
     try:
         return _installed(package)
     except ImportError:
@@ -35,7 +35,9 @@ def _installed(package: str) -> str:
 
 @cache
 def code_digest() -> str:
-    """A digest (16 hexadecimal digits) of handeye's files and scenes as they are on disk; raises BadFile."""
+    """Compute a digest (16 hexadecimal digits) of handeye's files and scenes on disk. Raises BadFile if one cannot
+    be read.
+    """
     import hashlib
 
     package = Path(__file__).resolve().parents[1]

@@ -13,7 +13,7 @@ from handeye.core.variation import Overrides, Variation, within
 
 
 class WritableQuantity(Protocol):
-    """A quantity with a name, whose value can be written with a unit."""
+    """A quantity whose value can be written with a unit."""
 
     @property
     def name(self) -> str:
@@ -35,10 +35,10 @@ class WritableQuantity(Protocol):
 def overrides(
     variation: Variation, without: Iterable[str], settings: Iterable[str], scales: Iterable[str] = ()
 ) -> Overrides:
-    """Make overrides from the names to leave at nominal values, from texts `NAME=VALUE`, and from scales
-    `NAME=FACTOR`. If a name occurs twice, the later text applies.
+    """Make overrides from names to leave at nominal values, settings `NAME=VALUE`, and scales `NAME=FACTOR`. If a
+    name occurs twice, the later setting or scale applies.
 
-    Raises BadArgument.
+    Raises BadArgument if a text cannot be used.
     """
     off, values = sorted(set(without)), dict[str, float]()
     names = [*off]
@@ -59,7 +59,7 @@ def overrides(
 
 
 def _scale(variation: Variation, text: str) -> tuple[str, float]:
-    """Parse a scale: the name of a quantity or group, or `unsourced`, and the factor on its errors."""
+    """Parse a scale. Returns the name of a quantity or group, or `unsourced`, and the factor on its errors."""
     name, equals, factor = (part.strip() for part in text.partition("="))
     written = split_value(factor)
     if not equals or written is None or written[1]:
@@ -69,8 +69,8 @@ def _scale(variation: Variation, text: str) -> tuple[str, float]:
 
 
 def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
-    """Parse a setting: the name of a quantity or group, and the values, by quantity, of all its quantities that any
-    world has.
+    """Parse a setting. Returns the name of a quantity or group, and the value of each of its quantities, in any
+    world.
     """
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
@@ -82,8 +82,8 @@ def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
 
 
 def value_of(quantity: WritableQuantity, text: str) -> float:
-    """Parse the value of a quantity; a number without a unit is in the quantity's unit. Returns SI; raises
-    BadArgument.
+    """Parse the value of a quantity and return it in SI units. A number without a unit is in the unit of the
+    quantity. Raises BadArgument if the text is not a possible value.
     """
     written = split_value(text)
     if written is None:
@@ -97,7 +97,7 @@ def value_of(quantity: WritableQuantity, text: str) -> float:
 
 
 def _unit(quantity: WritableQuantity, word: str) -> Unit:
-    """The unit written after a number; raises BadArgument if it does not fit the quantity."""
+    """Return the unit written after a number. Raises BadArgument if the unit does not fit the quantity."""
     unit, wanted = unit_named(word), quantity.measure.dimension
     if unit is None or unit.dimension != wanted:
         known = [name for name, other in UNITS.items() if name and other.dimension == wanted]
@@ -117,8 +117,8 @@ StageNumber = Callable[[str], int]  # returns the number, from 1, of a stage as 
 
 
 def faults(catalogue: Catalogue, texts: Iterable[str], stage: StageNumber) -> tuple[Fault, ...]:
-    """Parse faults from options, sorted by name; raises BadArgument for an unknown name, value or stage, or a
-    duplicate.
+    """Parse faults from options and sort them by name. Raises BadArgument for a duplicate or for an unknown name,
+    value or stage.
     """
     found = tuple(sorted((_fault(catalogue, text, stage) for text in texts), key=lambda fault: fault.name))
     catalogue.check(found)
@@ -144,14 +144,14 @@ def _value(kind: FaultKind, text: str) -> float | None:
 
 
 def by_number(text: str) -> int:
-    """Parse the number of a stage, from 1, where the names of stages are not known."""
+    """Parse the number of a stage, from 1, where the names of the stages are not known."""
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
         raise BadArgument(f"{quoted(text)} is not the number of a stage, which starts at 1")
     return int(text)
 
 
 def from_start_only(text: str) -> int:
-    """Refuse a stage, for a task whose faults are always present from the start."""
+    """Refuse a stage, because the faults of the task are always present from the start."""
     raise BadArgument(
         f"this command has no stages, so a fault is present from the start; leave out {quoted(f'@{text}')}"
     )
