@@ -131,7 +131,7 @@ class Gantries(Plant[GantryMemory]):
         for finger in FINGERS:
             data.qpos[model.joint(finger).qposadr[0]] = OPEN / 2
         mujoco.mj_forward(model, data)
-        self._known = bytes(_ALL)
+        self._known, self._strained = bytes(_ALL), False
         self.memory.levels = self._known[:_LEVELS]
         self._plan()
         self.bench.before_step.append(self._draw)
@@ -181,6 +181,7 @@ class Gantries(Plant[GantryMemory]):
 
     def resumed(self) -> None:
         self._step = self._first = round(self.bench.now / float(self.bench.tick))
+        self._strained = any(hold < 1 for hold in self.memory.holds)
         self._trains, self._known = [()] * _N, self.memory.levels + bytes(_ALL - _LEVELS)
         self._plan()
 
@@ -245,13 +246,13 @@ class Gantries(Plant[GantryMemory]):
         self._ctrl[:, _N:] = [0.0 if closed else OPEN for closed in self.memory.grips]
         self._ranges = np.empty((rows, _N, 2))
         self._ranges[:, :, 0], self._ranges[:, :, 1] = -pull, pull
-        leaves = pull / self._stiff + STEP  # m: what the servo gives at most, and a step more
+        strains = np.maximum(STEP, pull / self._stiff)  # m of lag from which on a pole holds less
         over, under, high, low = np.frombuffer(self.memory.levels, bool).reshape(_LEVELS // _N, _N)
         forces = [np.where(acts, self._release, self._over) for acts in (over, under)]
         ends = self._high - DIFFERENTIAL * high, DIFFERENTIAL * ~low - self._low
         self._limits = np.empty((rows, _ALL))
         self._limits[:, :_LEVELS] = np.concatenate((*forces, *ends))
-        self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + leaves, leaves - places
+        self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + strains, strains - places
 
     def _draw(self) -> None:
         """Let the fields draw the rotors for one physics step."""
@@ -260,6 +261,8 @@ class Gantries(Plant[GantryMemory]):
         self._row = min(self._step - self._first, self._last)
         self.bench.data.ctrl[:] = self._ctrl[self._row]
         self.bench.model.actuator_forcerange[:_N] = self._ranges[self._row]
+        if self._strained:
+            self.bench.model.actuator_forcerange[:_N] *= np.array(self.memory.holds)[:, np.newaxis]
 
     def _look(self) -> None:
         """Detect the changes made by a physics step."""
@@ -267,7 +270,7 @@ class Gantries(Plant[GantryMemory]):
         self._step += 1
         np.maximum(self._peaks, np.abs(sensed[:_N]), out=self._peaks)
         levels = (sensed > self._limits[self._row]).tobytes()
-        if levels != self._known:
+        if levels != self._known or self._strained:
             self._change(levels, sensed)
 
     def _change(self, levels: bytes, sensed: Array) -> None:
@@ -278,8 +281,8 @@ class Gantries(Plant[GantryMemory]):
                 pin: Pin = _ENDS.get(kind, "force")
                 number = _WRISTED[axis] if pin == "force" else NUMBERS[AXES[axis]]
                 self._seen[number, pin] = Level(number, pin, bool(levels[index]))
-        if any(levels[_LEVELS:]):
-            self._slip(levels[_LEVELS:], sensed[_PLACES])
+        if self._strained or any(levels[_LEVELS:]):
+            self._strain(sensed[_PLACES])
         if levels[:_LEVELS] != self.memory.levels:
             self.memory.levels = levels[:_LEVELS]
             self._known = self.memory.levels + bytes(_ALL - _LEVELS)
@@ -287,15 +290,26 @@ class Gantries(Plant[GantryMemory]):
         if self._seen:
             self.bench.end_early()
 
-    def _slip(self, leaves: bytes, places: Array) -> None:
-        """Move rotors that have left their poles to the nearest poles."""
+    def _strain(self, places: Array) -> None:
+        """Let poles hold less the further their rotors are away; beyond the half of a pole the next ones catch them."""
         most, least = np.split(self._limits[self._row, _LEVELS:], 2)
-        poles = np.rint((places - (most - least) / 2) / STEP / POLE)
-        for axis in range(_N):
-            if leaves[axis] or leaves[_N + axis]:
-                one = 1 if leaves[axis] else -1
-                self.memory.slipped[axis] += int(poles[axis]) or one
-        self._plan()
+        lags, begins = (places - (most - least) / 2) / STEP, (most + least) / 2 / STEP
+        ends = np.maximum(POLE / 2, begins + 1)
+        slips = np.abs(lags) >= ends
+        self.memory.holds = _hold(lags, begins, ends).tolist()
+        self._strained = any(hold < 1 for hold in self.memory.holds)
+        if slips.any():
+            poles = np.sign(lags) * np.maximum(1, np.rint(np.abs(lags) / POLE)) * slips
+            self.memory.slipped = [
+                was + int(more) for was, more in zip(self.memory.slipped, poles, strict=True)
+            ]
+            self.memory.holds = _hold(lags - POLE * poles, begins, ends).tolist()
+            self._plan()
+
+
+def _hold(lags: Array, begins: Array, ends: Array) -> Array:
+    """The share of its pull-out force that each pole holds its rotor with, by the lag in steps."""
+    return np.cos(np.clip((np.abs(lags) - begins) / (ends - begins), 0.0, 1.0) * math.pi / 2)
 
 
 def _field(motor: Motor, first: int) -> Field:

@@ -1,7 +1,7 @@
 """The rotor of a stepping motor: the pulses draw it along by a spring as strong as its pull-out force, or it slips.
 
 There are two models. The sine model, force = pull-out x sin(2 pi lag / 4 steps), integrated in steps of .1 ms, is
-the reference. The balance model, in steps of 1 ms, is for benches: it checks whether the force that the pulses
+the reference. The balance model, in steps of 1 ms, is a quick check: it tests whether the force that the pulses
 require is available, and lets a rotor that has lost its pulses coast until a pole catches it. In both models the
 rotor slips by whole poles of 4 steps. Units are SI, except steps.
 """
