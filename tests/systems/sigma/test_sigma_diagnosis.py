@@ -144,6 +144,14 @@ def test_a_player_tests_asks_swaps_and_accuses() -> None:
     assert told[-1].startswith("Right: the low switch of X1 is stuck off. You used 5 tests")
 
 
+def test_a_wrong_accusation_loses_the_game() -> None:
+    game, told = played(5, "accuse supply")
+    assert (game.won, game.over) == (False, True)
+    assert told == [
+        "Wrong: the low switch of X1 is stuck off. You used 0 tests; the order of the paper needs 11 tests."
+    ]
+
+
 def test_a_player_runs_a_program(tmp_path: Path) -> None:
     file = tmp_path / "mine.mal"
     file.write_text("10 ORIGIN X1\n20 PRINT POS(X1)\n")

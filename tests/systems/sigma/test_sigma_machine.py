@@ -63,6 +63,7 @@ def test_a_flag_that_is_set_twice_is_set_once() -> None:
 def test_wait_leaves_flags_set_and_wants_all_of_them() -> None:
     ran = carried_out("10 SET A\n20 SET B\n30 WAIT A AND B\n40 WAIT A\n50 RESET B\n60 WAIT A AND B")
     assert (ran.statements, ran.vm.memory.flags) == ([10, 20, 30, 40, 50, 60], ("A",))
+    assert "line 60, waits for flags A and B" in ran.fault
 
 
 @pytest.mark.sigma_row(35)
