@@ -1,1 +1,1 @@
-"""Compares two runs step by step: first differences, searches, guarded motions and corrections."""
+"""Compares two runs step by step: their first difference, searches, guarded motions and corrections."""

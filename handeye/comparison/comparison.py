@@ -1,4 +1,4 @@
-"""The comparison of two runs as data, from which text, JSON and page are made."""
+"""The comparison of two runs as data. Text, JSON and page are made from these data."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ _DRAWN: Final = "as drawn"
 
 
 class Condition(Record, frozen=True, kw_only=True):
-    """A condition, such as the seed, in which two runs differ."""
+    """A condition in which two runs differ, for example the seed."""
 
     what: str
     """Name of the condition: `task`, `plan`, `arm`, `camera`, `seed` or another setting of the world, the name of a
@@ -42,7 +42,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
 
 def conditions(a: RunStarted, b: RunStarted) -> tuple[Condition, ...]:
-    """The conditions in which two runs differ."""
+    """Return the conditions in which two runs differ."""
     both = [dict(_conditions(begun)) for begun in (a, b)]
     drawn = {name: _DRAWN for begun in (a, b) for name in begun.world.overrides.set}
     names = dict.fromkeys(name for side in both for name in side)
@@ -75,7 +75,7 @@ def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
 
 
 def _fault(task: Task | None, world: WorldSpec, fault: Fault) -> str:
-    """A fault as it is typed on the command line, if its task is known."""
+    """Return a fault in the form in which users type it, if its task is known."""
     catalogue = None if task is None else task.faults(world)
     return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)
 
@@ -93,7 +93,7 @@ class ComparedRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stages:
-    """A stage in both runs; None for a run that did not reach it."""
+    """A stage in both runs. The figures of a run that did not reach the stage are None."""
 
     name: str
     a: StageFigures | None
@@ -101,7 +101,7 @@ class Stages:
 
     @property
     def seconds(self) -> tuple[float | None, float | None]:
-        """Duration of the stage in each run, s."""
+        """Duration of the stage in each run (s)."""
         a, b = (None if each is None else each.seconds for each in (self.a, self.b))
         return a, b
 
@@ -127,7 +127,7 @@ class Comparison(Brief):
 
     @property
     def same(self) -> bool:
-        """True if no recorded value differs."""
+        """True if all recorded values are equal."""
         return self.first is None
 
     def __str__(self) -> str:
@@ -137,7 +137,8 @@ class Comparison(Brief):
 
 
 def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
-    """Compare two runs; raises InvalidInput if a run follows no plan, or if its trace is not valid."""
+    """Compare two runs. Raises InvalidInput if the system of a run cannot compare runs, or if a trace is not
+    valid."""
     for run in (a, b):
         name = run.trace.name
         require(run.trace.head.system, "compare", name)
@@ -175,7 +176,7 @@ def _compared(run: RecordedRun) -> ComparedRun:
 
 
 def as_json(found: Comparison) -> dict[str, Any]:
-    """A comparison as data for JSON."""
+    """Return a comparison as data for JSON."""
     first, parted = found.first, found.parted
     told = {
         "same": found.same,

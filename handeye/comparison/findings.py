@@ -1,4 +1,4 @@
-"""Corrections, guarded motions and searches of two runs, side by side."""
+"""Puts the corrections, guarded motions and searches of two runs side by side."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Literal
@@ -15,7 +15,7 @@ from handeye.trace.account import ASTRAY
 
 
 class Correction(Record, frozen=True, kw_only=True):
-    """A correction of a run: a saved difference, or a part that was seen."""
+    """A correction of positions during a run: a saved difference, or a part that vision located."""
 
     place: Place
     kind: Literal["saved", "seen"]
@@ -25,26 +25,26 @@ class Correction(Record, frozen=True, kw_only=True):
 
 
 class Corrections(Record, frozen=True, kw_only=True):
-    """The same correction in two runs; None for a run that did not make it."""
+    """The same correction in two runs. None stands for a run that did not make it."""
 
     a: Correction | None
     b: Correction | None
 
     @property
     def apart(self) -> float | None:
-        """Distance between the two corrections, m; None if one of them is missing."""
+        """Distance between the two corrections (m), or None if one of them is missing."""
         if self.a is None or self.b is None or len(self.a.at) != len(self.b.at):
             return None
         return float(np.linalg.norm(np.subtract(self.b.at, self.a.at)))
 
     @property
     def alike(self) -> bool:
-        """True if the two corrections are too close to report, or if only one was made."""
+        """True if the two corrections are too close together to be reported, or if only one was made."""
         return self.apart is None or self.apart <= ASTRAY
 
 
 def corrections(runs: TwoRuns) -> tuple[Corrections, ...]:
-    """The corrections of two runs, in the order of the script."""
+    """Return the corrections of two runs, in the order of the script."""
     both = ({each.turn: found for each in steps for found in _found(each)} for steps in runs.carried_out)
     return tuple(Corrections(a=a, b=b) for a, b in side_by_side(*both))
 
@@ -59,7 +59,7 @@ def _found(each: CarriedOut) -> Iterator[Correction]:
 
 
 class Stop(Record, frozen=True, kw_only=True):
-    """The end of a guarded motion: the guard that tripped, and its value."""
+    """How a guarded motion ended: the guard that tripped, and the value that it sensed."""
 
     place: Place
     guard: GuardKind | None  # The guard that ended it; None: none did
@@ -67,19 +67,20 @@ class Stop(Record, frozen=True, kw_only=True):
 
 
 class Stops(Record, frozen=True, kw_only=True):
-    """The same guarded motion in two runs; None for a run that did not reach it."""
+    """The same guarded motion in two runs. None stands for a run that did not reach it."""
 
     a: Stop | None
     b: Stop | None
 
     @property
     def alike(self) -> bool:
-        """True if both motions were ended by the same guard, or by none; or if only one run reached the motion."""
+        """True if the same guard ended both motions, if no guard ended either, or if only one run reached the
+        motion."""
         return len({side.guard for side in (self.a, self.b) if side is not None}) == 1
 
 
 def stops(runs: TwoRuns) -> tuple[Stops, ...]:
-    """The guarded motions of two runs, in the order of the script."""
+    """Return the guarded motions of two runs, in the order of the script."""
     both = ({each.turn: _stop(each) for each in steps if each.step.guarded} for steps in runs.carried_out)
     return tuple(Stops(a=a, b=b) for a, b in side_by_side(*both))
 
@@ -101,26 +102,26 @@ class Search(Record, frozen=True, kw_only=True):
 
 
 class Searches(Record, frozen=True, kw_only=True):
-    """The same search in two runs; None for a run that did not reach it."""
+    """The same search in two runs. None stands for a run that did not reach it."""
 
     a: Search | None
     b: Search | None
 
     @property
     def alike(self) -> bool:
-        """True if both searches tried the same number of places; or if only one run reached the search."""
+        """True if both searches tried the same number of places, or if only one run reached the search."""
         sides = self.a, self.b
         return len({(side.places, side.exhausted) for side in sides if side is not None}) == 1
 
 
 def searches(runs: TwoRuns) -> tuple[Searches, ...]:
-    """The searches of two runs, in the order of the script."""
+    """Return the searches of two runs, in the order of the script."""
     both = (_searches(steps) for steps in runs.carried_out)
     return tuple(Searches(a=a, b=b) for a, b in side_by_side(*both))
 
 
 def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
-    """The searches of a run, by the turn of the step that started each."""
+    """Return the searches of a run, each by the turn of the step that started it."""
     found: dict[Turn, Search] = {}
     turn: Turn | None = None
     for each in steps:
@@ -134,7 +135,7 @@ def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
 
 
 def _gone_on(search: Search, event: AnyEvent) -> Search:
-    """A search as updated by an event."""
+    """Return the search, updated by an event."""
     match event:
         case SearchAdvanced():
             return replace(search, places=event.count + 1, last=event.offset)

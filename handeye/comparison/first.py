@@ -1,4 +1,4 @@
-"""The first difference between two runs: step, quantity, and both values."""
+"""Finds the first difference between two runs: the step, the quantity, and both values."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -37,7 +37,7 @@ _SAID_TWICE: Final = (LOG, SCENE)
 
 @dataclass(frozen=True, slots=True)
 class StepMessage:
-    """A message of a trace within a step, with its event if it contains one."""
+    """A message that was recorded during a step. If the message contains an event, `event` is that event."""
 
     message: RawMessage
     event: AnyEvent | None
@@ -53,16 +53,16 @@ class Stretch:
     told: list[StepMessage] = field(default_factory=list)
 
     def add(self, messages: Iterable[tuple[RawMessage, AnyEvent | None]]) -> None:
-        """Add messages, each with its event."""
+        """Add messages, each with its event or None."""
         self.told += (StepMessage(message, event, message.time - self.begin) for message, event in messages)
 
 
 def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[Stretch]:
-    """Split a trace into stretches, one per step. If a step begins a stage, the stage event and the poses recorded
-    at that moment belong to the step.
+    """Split a trace into stretches, one per step. If a step begins a stage, the event of the stage and the
+    poses recorded at that moment belong to the step's stretch.
 
     Args:
-        unseen: number of events, from the first on, whose accompanying messages are left out.
+        unseen: number of the event before which accompanying messages are left out.
         periods: include the messages of each servo period.
     """
     stretch = Stretch(None, trace.messages[0].time)
@@ -97,7 +97,7 @@ EVENT: Final = ("event",)  # The quantity that differs if the next events differ
 def _differing(
     one: StepMessage | None, other: StepMessage | None, arm: ArmModel | None
 ) -> QuantityDifference | None:
-    """The difference between two messages; None if they agree."""
+    """Return the difference between two messages, or None if they agree."""
     if one is None or other is None or one.message.topic != other.message.topic:
         a, b = (each.message if each and each.message.topic == FRAMES else None for each in (one, other))
         return differing(a, b, arm) or QuantityDifference(quantity=EVENT, a=_kind(one), b=_kind(other))
@@ -115,8 +115,8 @@ def _times_differ(one: StepMessage, other: StepMessage) -> QuantityDifference | 
 
 
 def _events_differ(one: AnyEvent, other: AnyEvent) -> QuantityDifference | None:
-    """The difference between two events; step numbers are not compared, because another program numbers its steps
-    differently.
+    """Return the difference between two events, or None if they agree. Step numbers are not compared, because
+    another program numbers its steps differently.
     """
     if type(one) is not type(other):
         return QuantityDifference(quantity=EVENT, a=type(one).__name__, b=type(other).__name__)
@@ -132,7 +132,7 @@ def _kind(told: StepMessage | None) -> str | None:
 
 
 def _next(told: Sequence[StepMessage], number: int) -> AnyEvent | None:
-    """The next event; None if a message of a servo period comes first."""
+    """Return the next event, or None if a message of a servo period comes first."""
     for each in told[number:]:
         if each.event is not None or each.message.topic in OF_A_PERIOD:
             return each.event
@@ -154,15 +154,16 @@ class First:
 
     @property
     def place(self) -> Place | None:
-        """The present step of the first run; if the first run has ended, that of the second."""
+        """The step at which the first run differs, or that of the second run if the first run has ended."""
         return self.a or self.b
 
 
 def first_difference(runs: TwoRuns) -> First | None:
-    """Find the first difference between two runs, step by step; None if everything recorded agrees.
+    """Find the first difference between two runs by comparing them step by step. Returns None if all recorded
+    values agree.
 
-    Times are compared from the beginning of each step, so that a delay in one step does not make all later steps
-    differ. Raises BadFile if a message of a trace does not match its channel.
+    Times are compared from the beginning of each step, so that a delay in one step does not make all later
+    steps differ. Raises BadFile if a message of a trace does not match its channel.
     """
     both = runs.a.trace, runs.b.trace
     unseen = max(trace.unseen for trace in both)
@@ -178,7 +179,7 @@ def first_difference(runs: TwoRuns) -> First | None:
 
 
 def _other_step(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:
-    """The difference between the next steps of the two runs; None if they are the same step."""
+    """Return the difference between the next steps of the two runs, or None if they are the same step."""
     here, there = (None if stretch is None else stretch.started for stretch in (a, b))
     if here is None and there is None:  # before the first step
         return None
@@ -201,7 +202,7 @@ def _place(run: RecordedRun, started: StepStarted | None) -> Place | None:
 
 
 def _recorded_otherwise(runs: TwoRuns, a: Stretch | None, b: Stretch | None) -> First | None:
-    """The first difference between two recordings of the same step; None if they agree."""
+    """Return the first difference between two recordings of the same step, or None if they agree."""
     assert a is not None
     assert b is not None
     task = known(runs.a.trace.head.task)

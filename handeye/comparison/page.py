@@ -1,4 +1,5 @@
-"""The page for two runs: both 3D views under one slider, the differences, and both runs step by step."""
+"""Builds the page for two runs. It shows both 3D views under one time slider, the differences, and both runs
+step by step."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -47,8 +48,8 @@ Animations = tuple[Animation, Animation]
 
 
 def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated: Animations | str) -> bytes:
-    """Make the page for two runs; `animated` has the animations, or the reason why there are none. Equal traces
-    give equal bytes.
+    """Make the page for two runs. `animated` has both animations, or the reason why there are none. Equal
+    traces give equal bytes.
     """
     way = course(TwoRuns(a, b))
     views, lacking = ((), animated) if isinstance(animated, str) else (animated, "")
@@ -88,7 +89,7 @@ def _header(found: Comparison, way: Course) -> Markup:
 
 
 def _turn(found: Comparison, way: Course) -> Iterator[Markup]:
-    """The divergence: a link to its step, and the next action of each run."""
+    """Yield the divergence of the runs: a link to its step, and what each run did next."""
     if found.parted is None:
         return
     turnings = found.parted.a, found.parted.b
@@ -99,7 +100,8 @@ def _turn(found: Comparison, way: Course) -> Iterator[Markup]:
 
 
 def _opening(found: Comparison, way: Course) -> float:
-    """The time at which the page opens, s on the common timeline: just after the divergence; 0 if there is none."""
+    """Return the time on the common timeline (s) at which the page opens: just after the divergence, or 0 if
+    there is none."""
     if found.parted is None:
         return 0.0
     turnings = found.parted.a, found.parted.b
@@ -120,7 +122,7 @@ _USUAL: Final = 4
 
 
 def view(way: Course, lacking: str, opening: float = 0.0) -> Iterator[Markup]:
-    """Both views with their controls; or, if the animations are `lacking`, the reason."""
+    """Yield both views with their controls. If there are no animations, yield the reason, `lacking`."""
     if lacking:
         yield element("p", f"There is no 3D view: {lacking}", class_="missing")
     yield element("div", *(_side(letter, name) for letter, name in SIDES), class_="sides")
@@ -153,7 +155,7 @@ def _side(letter: str, name: str) -> Markup:
 
 
 def moments(way: Course) -> Markup:
-    """Data for the page's script: the position of both runs at each leg of the timeline."""
+    """Return data for the page's script: where both runs are at the beginning of each leg of the timeline."""
     legs = [[leg.begin, leg.a, leg.b, *map(_line, leg.places)] for leg in way.legs]
     return element(
         "script", json_markup([*legs, [way.end, way.a, way.b, "", ""]]), id="moments", type="application/json"
@@ -171,7 +173,7 @@ Found = TypeVar("Found", Search, Stop, Correction)
 
 
 def sections(found: Comparison, way: Course) -> Iterator[Markup]:
-    """All sections of the page; each finding links to its step."""
+    """Yield all sections of the page. Each finding links to its step."""
     yield section("differences", "First difference", *_differences(found, way))
     searches = [_row(way, each.a, each.b, search_words, alike=each.alike) for each in found.searches]
     stops = [_row(way, each.a, each.b, stop_words, alike=each.alike) for each in found.stops]
@@ -193,7 +195,7 @@ def sections(found: Comparison, way: Course) -> Iterator[Markup]:
 
 
 def _differences(found: Comparison, way: Course) -> Iterator[Markup]:
-    """Conditions that differ, and the first difference."""
+    """Yield the conditions that differ, and the first difference."""
     if found.first is None:
         yield element("p", "There is none.")
     else:
@@ -209,7 +211,8 @@ def _differences(found: Comparison, way: Course) -> Iterator[Markup]:
 def _row(
     way: Course, a: Found | None, b: Found | None, words: Callable[[Found], str], *, alike: bool
 ) -> list[Markup]:
-    """A row for a step with the findings of both runs; a row with a difference is highlighted."""
+    """Return a table row for a step, with the findings of both runs. The row is highlighted if the findings
+    differ."""
     here, there = (None if side is None else side.place for side in (a, b))
     link = _link(way, here, there, place_words(here or there))
     place = link if alike else element("b", link)
@@ -220,7 +223,7 @@ def _row(
 
 
 def _link(way: Course, a: Place | None, b: Place | None, words: str) -> Markup:
-    """A link to a step of the first run, or of the second if the first has none."""
+    """Return a link to a step of the first run or, if the first run has no such step, of the second."""
     if a is not None:
         return to_moment(way.at(a, 0), words)
     return element("span", words) if b is None else to_moment(way.at(b, 1), words)

@@ -19,7 +19,7 @@ from handeye.trace.stages import DoneStep, done_steps
 
 
 class Place(Record, frozen=True, kw_only=True):
-    """A step as it was executed."""
+    """A step at the time when it was executed."""
 
     stage: str
     step: int
@@ -30,19 +30,20 @@ class Place(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """The line of the step as messages write it: `12`, or `pins.al:12`."""
+        """The line of the step in the form in which messages give it: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)
 
 
 @lru_cache(maxsize=4)
 def listing_of(run: RecordedRun) -> Listing:
-    """Stages and steps of the program of a run."""
+    """Return the stages and steps of a run's program."""
     system, trace = system_named(run.trace.head.system), run.trace
     return system.listing(system.decode(trace.plan, f"the plan in {trace.name}"))
 
 
 def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair]:
-    """Pairs of steps with equal texts, in the order of both programs."""
+    """Pair steps with equal texts, in the order of both programs. A step without a counterpart is paired with
+    None."""
     pairs: list[Pair] = []
     for what, a, b, c, d in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
         if what == "equal":
@@ -53,7 +54,7 @@ def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair
 
 
 def place_of(run: RecordedRun, started: StepStarted) -> Place:
-    """The place in the script of a step that was begun."""
+    """Return the place in the script of a step that was begun."""
     program = listing_of(run)
     return Place(
         stage=program.stages[program.steps[started.step].stage],
@@ -79,12 +80,12 @@ class CarriedOut:
 
     @property
     def step(self) -> StepFacts:
-        """The step in the program."""
+        """The step in the listing of the program."""
         return listing_of(self.run).steps[self.done.started.step]
 
     @property
     def place(self) -> Place:
-        """The place in the script."""
+        """The place of the step in the script."""
         return place_of(self.run, self.done.started)
 
 
@@ -97,12 +98,12 @@ class TwoRuns:
 
     @property
     def thinned(self) -> bool:
-        """True if a trace has only some of its servo periods, so that servo periods cannot be compared."""
+        """True if a trace is thinned. It lacks some servo periods, so servo periods cannot be compared."""
         return self.a.trace.thinned or self.b.trace.thinned
 
     @cached_property
     def pairs(self) -> Sequence[Pair]:
-        """Pairs of step numbers of the two programs, in the order of the text; None for a step without a
+        """Pairs of step numbers of the two programs, in the order of the text. None stands for a missing
         counterpart.
         """
         before, after = (listing_of(run).steps for run in (self.a, self.b))
@@ -119,7 +120,7 @@ class TwoRuns:
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:
-        """For each program, the number of the pair by the number of the step."""
+        """For each program, a map from the number of a step to the number of its pair."""
         a, b = (
             {step: number for number, pair in enumerate(self.pairs) if (step := pair[side]) is not None}
             for side in (0, 1)
@@ -127,7 +128,7 @@ class TwoRuns:
         return a, b
 
     def are_beside(self, a: int, b: int) -> bool:
-        """True if step `a` of the first program and step `b` of the second are a pair."""
+        """Return True if step `a` of the first program and step `b` of the second are a pair."""
         return self.numbers[0][a] == self.numbers[1][b]
 
     @cached_property
@@ -147,8 +148,8 @@ def _turns(run: RecordedRun, numbers: Mapping[int, int]) -> Iterator[CarriedOut]
 
 
 def side_by_side(a: Mapping[Turn, Fact], b: Mapping[Turn, Fact]) -> Iterator[tuple[Fact | None, Fact | None]]:
-    """Facts about the same executed step in both runs, in the order of the script; None for a run without that
-    fact.
+    """Yield what is known about the same executed step in both runs, in the order of the script. None stands
+    for a run about whose step nothing is known.
     """
     for turn in sorted({*a, *b}):
         yield a.get(turn), b.get(turn)
@@ -159,7 +160,8 @@ _BEFORE: Final = -1  # pair number for the time before the first step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Leg:
-    """A segment of the timeline in which both runs did the same step, or one run did a step and the other waited."""
+    """A segment of the timeline. In it, both runs did the same step, or one run did a step while the other
+    waited."""
 
     begin: float  # s of the course
     a: float
@@ -181,13 +183,14 @@ class Course:
     b: float
 
     def at(self, place: Place, side: int) -> float:
-        """Time on the common timeline, s, at which a step of a run begins (`side` 0: first run, 1: second)."""
+        """Return the time on the common timeline (s) at which a step of a run begins. `side` is 0 for the first
+        run and 1 for the second."""
         return next(leg.begin for leg in self.legs if leg.places[side] == place)
 
 
 @dataclass(frozen=True, slots=True)
 class _TimedStep:
-    """A step of a run with its begin and end times, s."""
+    """A step of a run with the times at which it begins and ends (s)."""
 
     place: Place | None
     begin: float
@@ -195,7 +198,7 @@ class _TimedStep:
 
 
 def course(runs: TwoRuns) -> Course:
-    """Align two runs step by step: a step that both did takes as long as the longer of the two."""
+    """Align two runs step by step. A step that both runs did takes as long as the longer of the two."""
     a, b = (_done(run, steps) for run, steps in zip((runs.a, runs.b), runs.carried_out, strict=True))
     legs: list[Leg] = []
     time, at = 0.0, (a[0].begin, b[0].begin)
@@ -208,8 +211,8 @@ def course(runs: TwoRuns) -> Course:
 
 
 def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
-    """Steps of a run with their times, preceded by the time before the first step; each step lasts until the next
-    begins.
+    """Return the steps of a run with their times, preceded by the time before the first step. Each step lasts
+    until the next one begins.
     """
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
@@ -220,7 +223,8 @@ def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
 def _side_by_side(
     runs: TwoRuns, a: Sequence[_TimedStep], b: Sequence[_TimedStep]
 ) -> Iterator[tuple[_TimedStep | None, _TimedStep | None]]:
-    """Pairs of steps in order; between them, the steps that only one run did, those of the first run first."""
+    """Yield the pairs of steps in order. Steps that only one run did come between the pairs, those of the first
+    run first."""
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():
         if tag == "equal":

@@ -1,4 +1,4 @@
-"""The divergence of two runs: the first event after which their courses differ."""
+"""Finds the divergence of two runs: the first event after which they take different courses."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from handeye.report.recorded import RecordedRun
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DecidingEvent:
-    """An event that decides the further course of a run."""
+    """An event that decides how a run continues."""
 
     place: Place | None  # present step, or the last one; None before the first step
     event: AnyEvent
@@ -21,23 +21,23 @@ class DecidingEvent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Divergence:
-    """The first event at which the courses of two runs differ, in each run; None for a run that ended."""
+    """The first event, in each run, at which the courses of the runs differ. None stands for a run that ended."""
 
     a: DecidingEvent | None  # next event of the first run; None: the run has ended
     b: DecidingEvent | None  # next event of the second run, likewise
 
     @property
     def place(self) -> Place | None:
-        """The step under way in the first run; if the first run has ended, the step of the second run."""
+        """The step in progress in the first run or, if the first run has ended, in the second run."""
         turning = self.a or self.b
         return None if turning is None else turning.place
 
 
 def parting(runs: TwoRuns) -> Divergence | None:
-    """Find the divergence of two runs; None if they do not diverge.
+    """Find the divergence of two runs. Returns None if they do not diverge.
 
-    The course consists of the steps and of the events that decide them: tripped guards, raised errors, answers to
-    tests, and user commands.
+    The course of a run consists of its steps and of the events that decide which steps follow: tripped guards,
+    raised errors, answers to tests, and user commands.
     """
     for a, b in zip_longest(_turnings(runs.a), _turnings(runs.b)):
         if a is None or b is None or not _alike(runs, a.event, b.event):
@@ -55,14 +55,14 @@ def _turnings(run: RecordedRun) -> Iterator[DecidingEvent]:
 
 
 def _alike(runs: TwoRuns, a: AnyEvent, b: AnyEvent) -> bool:
-    """True if two events lead to the same further course."""
+    """Return True if both runs continue in the same way after these two events."""
     if isinstance(a, StepStarted) and isinstance(b, StepStarted):
         return runs.are_beside(a.step, b.step)
     return type(a) is type(b) and _decides(a) == _decides(b)
 
 
 def _decides(event: AnyEvent) -> Any:
-    """The part of an event that decides the further course of a run; None if the event has no such part."""
+    """Return the part of an event that decides how the run continues, or None if the event has no such part."""
     match event:
         case happened.StepStarted():
             return event.step

@@ -1,4 +1,4 @@
-"""The comparison of two runs as text, in the units of the arm language."""
+"""Describes the comparison of two runs in text, in the units of the arm language."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Final
@@ -37,7 +37,7 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
 
 
 def same_words(found: Comparison) -> str:
-    """A sentence that says that two runs are equal, and how exactly this was compared."""
+    """Say in a sentence that two runs are equal, and how exactly they were compared."""
     return (
         "Both runs recorded the same events."
         if found.thinned
@@ -46,7 +46,7 @@ def same_words(found: Comparison) -> str:
 
 
 def heading_words(found: Comparison) -> str:
-    """The result of a comparison in one sentence."""
+    """Say the result of a comparison in one sentence."""
     if found.same:
         return same_words(found)
     if found.parted is None:
@@ -58,18 +58,18 @@ def heading_words(found: Comparison) -> str:
 
 
 def run_words(run: ComparedRun) -> str:
-    """A run and its outcome, in words."""
+    """Describe a run and its outcome in words."""
     return f"{run.name}: {run.program}, {run.world}, {run.seconds:.1f} s: {_CAME_TO[run.came_to]}"
 
 
 def moment_words(first: First) -> str:
-    """The step and servo period of a difference, in words."""
+    """Name the step and the servo period of a difference in words."""
     period = "" if first.period is None else f", servo period {first.period}"
     return f"{place_words(first.place)}{period}"
 
 
 def first_words(first: First, measures: Measures) -> tuple[str, ...]:
-    """The differing quantity with both values, or the next event of each run."""
+    """Name the quantity that differs, with both values, or the next event of each run."""
     if first.differing.quantity == EVENT:
         return f"A: {_next(first.next[0])}", f"B: {_next(first.next[1])}"
     one, other = values_text(first.differing, measures)
@@ -81,7 +81,7 @@ def _next(event: AnyEvent | None) -> str:
 
 
 def turning_words(turning: DecidingEvent | None) -> str:
-    """The deciding event of a run, in words."""
+    """Describe in words the event that decides how a run continues."""
     if turning is None:
         return "has finished"
     if isinstance(turning.event, StepStarted):
@@ -97,12 +97,12 @@ def place_words(place: Place | None) -> str:
 
 
 def search_words(search: Search) -> str:
-    """The number of places that a search tried, in words."""
+    """Say in words how many places a search tried."""
     return counted(search.places, "place") + (", all of them" if search.exhausted else "")
 
 
 def stop_words(stop: Stop) -> str:
-    """The end of a guarded motion, in words."""
+    """Say in words how a guarded motion ended."""
     if stop.guard is None or stop.value is None:
         return "not stopped"
     unit = _UNITS.get(stop.guard)
@@ -120,7 +120,7 @@ _BOTH: Final = ("A", "B")
 
 
 def comparison_text(found: Comparison) -> list[str]:
-    """A comparison as lines of text."""
+    """Return a comparison as lines of text."""
     runs = [f"{letter}  {run_words(run)}" for letter, run in zip(_BOTH, (found.a, found.b), strict=True)]
     lines = [*runs, *_conditions(found.conditions), *([THINNED] if found.thinned else [])]
     if found.first is None:
@@ -137,8 +137,8 @@ def comparison_text(found: Comparison) -> list[str]:
 
 
 def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
-    """The conditions that differ, as lines of text; if the plans differ, a note that only common steps are
-    compared.
+    """Yield the conditions that differ as lines of text. If the plans differ, a note says that only common
+    steps are compared.
     """
     for each in differing:
         if each.what == "plan":
@@ -188,7 +188,8 @@ def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
 
 
 def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Corrections]) -> Iterator[str]:
-    """A line with the number of findings in both runs, and how many are alike; nothing if there are none."""
+    """Yield a line with the number of findings in both runs and how many of them are alike, or nothing if there
+    are none."""
     both = [each for each in found if each.a is not None and each.b is not None]
     if found:
         counts = sum(each.b is None for each in found), sum(each.a is None for each in found)
@@ -200,7 +201,8 @@ def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Correctio
 
 
 def _took(found: Comparison) -> Iterator[str]:
-    """A row for each stage and for the total: simulated seconds of both runs, and the excess of run B."""
+    """Yield a row for each stage and one for the total. A row has the simulated seconds of both runs, and the
+    seconds by which run B took longer."""
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))
     yield f"{'Seconds':{wide}}{'A':>9}{'B':>9}{'B - A':>9}"
     for stage in found.stages:

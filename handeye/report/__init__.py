@@ -1,1 +1,1 @@
-"""Reports on runs: reads traces and results, and executes nothing."""
+"""Makes reports on runs from traces and results. Nothing is executed."""

@@ -1,4 +1,4 @@
-"""The 3D animation of a recorded run, as data for the player."""
+"""Prepares the 3D animation of a recorded run as data for the player."""
 
 from dataclasses import dataclass
 
@@ -8,14 +8,14 @@ from handeye.report.recorded import RecordedRun
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Animation:
-    """Scene and tracks for the player, compressed."""
+    """The scene of a run and the tracks of its bodies for the player, compressed."""
 
     scene: bytes
     tracks: bytes
 
 
 def animation(run: RecordedRun) -> Animation | None:
-    """The animation of a run; None if nothing was recorded between its events."""
+    """Return the animation of a run, or None if the trace contains no motion."""
     if not len(run.trace.times):
         return None
     return Animation(scene=scene_bytes(run.trace), tracks=tracks_bytes(run.trace))

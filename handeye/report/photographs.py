@@ -1,4 +1,4 @@
-"""Photographs of a recorded run for its report: one main photograph, and one for each stage."""
+"""Takes the photographs of a recorded run for its report: one main photograph, and one for each stage."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -38,7 +38,7 @@ class Photograph:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PrintSize:
-    """Size and quality of photographs."""
+    """Size and image quality of photographs."""
 
     width: int
     height: int
@@ -52,7 +52,7 @@ SMALL: Final = _PrintSize(width=480, height=360, finer=1, shadow=2048)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PhotographRequest:
-    """A request for a photograph."""
+    """What a photograph should show: the time, the view, and the caption."""
 
     time: float  # s since the run began
     view: str | Near
@@ -68,18 +68,18 @@ class Album:
 
 
 def album(run: RecordedRun) -> Album:
-    """The photographs of a run: of its end or the moment of failure, and of its stages."""
+    """Take the photographs of a run: one of its end or of the moment of failure, and one of each stage."""
     return Album(leading=_leading(run, outcome(run)), stages=_of_stages(run))
 
 
 def no_album(run: RecordedRun, why: str) -> Album:
-    """An album without photographs, which gives the reason once."""
+    """Return an album without photographs, which gives the reason once."""
     leading = _none(_PhotographRequest(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
     return Album(leading=leading, stages=())
 
 
 def _leading(run: RecordedRun, outcome: Outcome) -> Photograph:
-    """The main photograph: the finished work, or the moment at which the run failed."""
+    """Take the main photograph, which shows the finished work, or the moment at which the run failed."""
     shows = "The end of the run" if outcome.ended else "The hand at the last moment"
     wanted = _PhotographRequest(time=outcome.time, view=_leading_view(run, outcome), shows=shows)
     (taken,) = _taken(run, [wanted], LARGE)
@@ -88,8 +88,8 @@ def _leading(run: RecordedRun, outcome: Outcome) -> Photograph:
 
 
 def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
-    """The view of the main photograph: the work, if the referee judged it; the hand, if the run did not end; else
-    the whole cell.
+    """Return the view of the main photograph: the hand if the program did not end; the work if the referee
+    judged it; the whole cell in all other cases.
     """
     if not outcome.ended:
         return _at_hand(run, outcome.time)
@@ -99,7 +99,7 @@ def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
 
 
 def _left(picture: bytes, missing: Photograph) -> Photograph:
-    """The picture of the end that the run has saved, in place of a photograph that could not be taken."""
+    """Return the picture of the end that the run saved, to replace a photograph that could not be taken."""
     points = cv2.imdecode(np.frombuffer(picture, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
     if points is None:
         return missing
@@ -107,14 +107,14 @@ def _left(picture: bytes, missing: Photograph) -> Photograph:
 
 
 def _of_stages(run: RecordedRun) -> tuple[Photograph, ...]:
-    """A photograph of each stage; if there are many stages, of some of them."""
+    """Take a photograph of each stage or, if there are many stages, of some of them."""
     stages = [(number, stage) for number, stage in enumerate(run.trace.stages, 1) if stage.end > run.begins]
     every = -(-len(stages) // MOST) or 1
     return _taken(run, [_of_stage(run, number, stage) for number, stage in stages[::every]], SMALL)
 
 
 def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest:
-    """The moment of a stage to photograph: the last trip of a guard, or the end of the stage."""
+    """Choose the moment of a stage to photograph: the last time that a guard tripped, or the end of the stage."""
     trips = [
         event.time
         for event in run.trace.events
@@ -127,13 +127,13 @@ def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest
 
 
 def _room(run: RecordedRun) -> str:
-    """The camera of the scene that shows the whole cell."""
+    """Return the name of the camera that shows the whole cell."""
     task = known(run.trace.head.task)
     return AnyTask.camera if task is None else task.camera
 
 
 def _at_hand(run: RecordedRun, time: float) -> str | Near:
-    """A close view of the hand, at its position after the last step before a time."""
+    """Return a close view of the hand, at its position after the last step that ended before a time (s)."""
     ended = [
         event.hand
         for event in run.trace.events
@@ -145,7 +145,7 @@ def _at_hand(run: RecordedRun, time: float) -> str | Near:
 def _taken(
     run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSize
 ) -> tuple[Photograph, ...]:
-    """The photographs, or the reasons why there are none."""
+    """Take the photographs. Where that is impossible, the reason replaces the photograph."""
     try:
         return tuple(_take(run, wanted, size))
     except InvalidInput as fault:
@@ -171,7 +171,7 @@ def _take(run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSi
 
 
 def _webp(fine: Points, size: _PrintSize) -> bytes:
-    """A photograph at its final size, as a WebP file."""
+    """Encode a photograph at its final size as a WebP file."""
     small = cv2.resize(fine, (size.width, size.height), interpolation=cv2.INTER_AREA)
     done, data = cv2.imencode(".webp", small[:, :, ::-1], [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
     assert done
@@ -179,7 +179,7 @@ def _webp(fine: Points, size: _PrintSize) -> bytes:
 
 
 def shown(photograph: Photograph, **attributes: str | None) -> Markup:
-    """A photograph with its caption, or in its place the reason why there is none."""
+    """Return a photograph with its caption or, if there is no photograph, the reason."""
     if photograph.webp is None:
         return element("p", photograph.missing, class_="missing")
     image = element(

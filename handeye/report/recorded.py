@@ -36,24 +36,25 @@ class RecordedRun:
 
     @property
     def period(self) -> HistoricalTiming | None:
-        """The times of 1973, if the program is one that was timed then; else None."""
+        """The times of 1973 if this program was timed then, or else None."""
         task = known(self.trace.head.task)
         then = None if task is None else task.period
         return then if then is not None and then.program == self.trace.head.program else None
 
     @property
     def begins(self) -> float:
-        """Time at which the recording of motions begins, s: 0, except for a run resumed from a checkpoint."""
+        """Time at which the recording of motions begins (s). It is 0, unless the run was resumed from a
+        checkpoint."""
         return self.trace.begins
 
     @property
     def ends(self) -> float:
-        """Time of the last event, s."""
+        """Time of the last event (s)."""
         return self.trace.events[-1].time
 
 
 def check_scene(run: RecordedRun) -> None:
-    """Raise InvalidInput if a body that moved in the run is missing from the task's scene here."""
+    """Raise InvalidInput if a body that moved in the run is missing from this installation's scene of the task."""
     scene = run.trace.scene
     there = {scene.body(number).name for number in range(scene.nbody)}
     for begin in run.trace.times[:1]:
@@ -63,7 +64,8 @@ def check_scene(run: RecordedRun) -> None:
 
 
 def told_faults(run: RecordedRun) -> Iterator[tuple[str, str]]:
-    """Each injected fault as it is typed, and a sentence on its effect, which is empty if the task is unknown."""
+    """Yield each injected fault in the form in which users type it, and a sentence on its effect. The sentence
+    is empty if the task is unknown."""
     world = run.trace.head.world
     task = known(run.trace.head.task)
     for fault in world.faults:

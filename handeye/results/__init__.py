@@ -1,1 +1,1 @@
-"""Results of runs, as text and as JSON."""
+"""Presents results of runs as text and as JSON."""

@@ -1,4 +1,4 @@
-"""Warnings about a resumed run: why its result may differ from that of an uninterrupted run."""
+"""Warns why the result of a resumed run may differ from that of an uninterrupted run."""
 
 from collections.abc import Iterator
 
@@ -11,8 +11,8 @@ from handeye.trace.sentences import renderer_name
 
 
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
-    """Sentences on the differences between a resumed run and its start, and on the parts of its state that could
-    not be saved.
+    """Yield sentences on how the conditions of a resumed run differ from those at its start, and on which parts
+    of its state could not be saved.
     """
     if runner.system.unkept is not None:
         yield f"the camera calibration was not kept for other runs: {runner.system.unkept}"
@@ -34,7 +34,8 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
 
 
 def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
-    """Sentences on the files that the folder of a resumed run has lost, and on those that it cannot protect."""
+    """Yield sentences on the files that the folder of a resumed run has lost, and on files that cannot be
+    protected from other commands."""
     if folder.unlocked:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:

@@ -1,4 +1,4 @@
-"""Exports for other programs: files in a given place, with a record that describes them."""
+"""Writes exports for other programs: one or more files, and a record that describes them."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -32,8 +32,8 @@ EXPORT: Final = FolderKind(
 
 
 def scene_files(exhibit: ExportedState) -> dict[str, bytes]:
-    """The files of an MJCF export, by name; the same state gives the same bytes. Raises InvalidInput if the cell
-    has no scene.
+    """Return the files of an MJCF export, by name. The same state gives the same bytes. Raises InvalidInput if
+    the cell has no scene.
     """
     scene = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     files = mjcf_files(scene.spec, _MARK, told(exhibit))
@@ -41,7 +41,7 @@ def scene_files(exhibit: ExportedState) -> dict[str, bytes]:
 
 
 def told(exhibit: ExportedState) -> dict[str, str]:
-    """Metadata for the files of an export, by name."""
+    """Return the metadata for the files of an export, by name."""
     return {
         "moment": exhibit.moment,
         "shows": shows(exhibit),
@@ -51,7 +51,7 @@ def told(exhibit: ExportedState) -> dict[str, str]:
 
 
 def shows(exhibit: ExportedState) -> str:
-    """The subject of an export, as part of a sentence."""
+    """Say what an export shows, as part of a sentence."""
     world = f"the world of {exhibit.world}"
     if exhibit.moment == "drawn":
         return f"{world} at its start"
@@ -91,7 +91,7 @@ TOLERANCE: Final = 0.01
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExportedSolids:
-    """The solids of a cell, or of a part of it."""
+    """The solids of a cell, or of a part of the cell."""
 
     file: bytes  # GLB
     solids: int
@@ -101,7 +101,8 @@ class ExportedSolids:
 
 
 def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
-    """The solids of an export; the same state gives the same bytes. Raises InvalidInput if there is no such part."""
+    """Return the solids of an export. The same state gives the same bytes. Raises InvalidInput if there is no
+    part called `part`."""
     exported = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     parts = {**exported.parts, WHOLE: None}
     if part not in parts:
@@ -117,7 +118,7 @@ def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
 
 
 def checks(exported: ExportedSolids) -> Iterator[str]:
-    """Remarks on the exported solids, one line each."""
+    """Yield remarks on the exported solids, one line each."""
     count = counted(exported.solids, "solid")
     yield f"{count}, not closed: {', '.join(exported.open)}" if exported.open else f"{count}, all closed"
     right = [body for body in exported.weighed if agrees(body)]
@@ -131,7 +132,8 @@ def checks(exported: ExportedSolids) -> Iterator[str]:
 
 
 def agrees(body: WeighedBody) -> bool:
-    """True if the mass of a body by volume and density agrees with its mass in the model, within `TOLERANCE`."""
+    """Return True if the mass of a body, computed from its volume and density, agrees within `TOLERANCE` with
+    its mass in the model."""
     return abs(body.mass - body.mass_there) <= TOLERANCE * body.mass_there
 
 
@@ -144,7 +146,7 @@ Shown = Callable[[], ExportedState]
 
 
 class Weight(Record, frozen=True, kw_only=True):
-    """The mass of a body of known metal, kg, by its volume and in the simulator's model."""
+    """The mass of a body of known metal (kg): computed from the volume, and in the simulator's model."""
 
     body: str
     by_volume: float
@@ -171,8 +173,8 @@ class Export(Record, frozen=True, kw_only=True):
 
 
 def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
-    """Write a scene for MuJoCo to a folder; raises InvalidInput if the cell has no scene, or the folder cannot be
-    written.
+    """Write a scene for MuJoCo to a folder. Raises InvalidInput if the cell has no scene, or if the folder
+    cannot be written.
     """
     check_folder(path, EXPORT, overwrite=overwrite)
     exhibit = shown()
@@ -183,8 +185,8 @@ def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:
 
 
 def export_glb(path: Path, shown: Shown, *, part: str = WHOLE, overwrite: bool = False) -> Export:
-    """Write the solids of a cell, or of a part of it, as a GLB file; raises InvalidInput if the file cannot be
-    written.
+    """Write the solids of a cell, or of a part of the cell, to a GLB file. Raises InvalidInput if the file
+    cannot be written.
     """
     check_place(path, GLB, overwrite=overwrite)
     exhibit = shown()
@@ -206,8 +208,8 @@ def export_glb(path: Path, shown: Shown, *, part: str = WHOLE, overwrite: bool =
 
 
 def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Export:
-    """Write solids if the path ends in .glb, else a scene for MuJoCo to a folder; raises InvalidInput if that is
-    impossible.
+    """Write solids if the path ends in .glb; if not, write a scene for MuJoCo to a folder. Raises InvalidInput
+    if that is impossible.
     """
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part, overwrite=overwrite)

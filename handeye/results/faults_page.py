@@ -1,4 +1,5 @@
-"""The faults of a task and the expected outcome of each, as a page for the terminal or as one JSON object."""
+"""Shows the faults of a task and the expected outcome of each, as a page for the terminal or as one JSON
+object."""
 
 from collections.abc import Sequence
 from itertools import groupby
@@ -33,17 +34,17 @@ class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def report(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> FaultsReport:
-    """Make the report on some faults of a catalogue."""
+    """Make the report on these faults of a catalogue."""
     return FaultsReport(faults=tuple(_reported(kind, catalogue) for kind in kinds))
 
 
 def faults_json(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> bytes:
-    """Some faults of a catalogue as one JSON object."""
+    """Return these faults of a catalogue as one JSON object."""
     return msgspec.json.format(msgspec.json.encode(report(catalogue, kinds)), indent=1) + b"\n"
 
 
 def faults_page(catalogue: Catalogue, kinds: Sequence[FaultKind], columns: int) -> RenderableType:
-    """Some faults of a catalogue, as a page for a terminal `columns` wide."""
+    """Return these faults of a catalogue as a page for a terminal that is `columns` wide."""
     found = report(catalogue, kinds).faults
     parts: list[RenderableType] = []
     for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):
@@ -75,7 +76,7 @@ def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
 
 
 def _must(expected: ExpectedDetection) -> str:
-    """A sentence that says how a fault must be detected."""
+    """Say in a sentence how a fault must be detected."""
     errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
     ways = [
         *(["before the first stage"] if expected.at_setup else []),
@@ -91,7 +92,7 @@ def _must(expected: ExpectedDetection) -> str:
 
 
 def _head(fault: FaultReport) -> Text:
-    """The name of a fault, and its possible values."""
+    """Return the name of a fault with its possible sizes."""
     row = Text(f"  {fault.name}")
     if fault.size is not None:
         low, high = fault.size.limits

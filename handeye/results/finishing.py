@@ -1,4 +1,4 @@
-"""Ends or pauses a run: writes account, verdict, pictures and result to its folder."""
+"""Ends or pauses a run: writes its account, verdict, pictures and result to its folder."""
 
 import msgspec
 from msgspec import UNSET
@@ -18,8 +18,8 @@ from handeye.runs.runner import Runner
 def outcome(
     runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
 ) -> Result:
-    """Make the result of a paused run. If `judged` and the run has ended, a referee judges it; by default the
-    task's referee.
+    """Make the result of a paused run. With `judged`, a run that has ended is judged by `referee`, or by the
+    task's referee if None.
     """
     asked = judged and pause.kind != "break" and runner.system.cell is not None
     found = findings(runner, pause, referee) if asked else None
@@ -45,11 +45,10 @@ def finished(
     referee: Referee | None = None,
     folder: RunFolder | None = None,
 ) -> Result:
-    """Finish a run, unless it only pauses, and return its result; result and pictures are written to the run's
-    folder.
+    """Finish a run, unless it only pauses, and write its pictures and result to its folder. Returns the result.
 
-    The result is written last: if it exists, all other files exist too. Raises InvalidInput if a file cannot be
-    written.
+    The result is written last, so if it exists, all other files exist too. Raises InvalidInput if a file cannot
+    be written.
     """
     if pause.kind != "break":
         runner.finish()
@@ -62,8 +61,8 @@ def finished(
 def keep_outcome(
     folder: RunFolder, runner: Runner, pause: Pause, result: Result, *, photographs: bool = True
 ) -> None:
-    """Write pictures and result to the folder of a run, and close the folder; raises InvalidInput if that is
-    impossible.
+    """Write the pictures and the result to the folder of a run, and close the folder. Raises InvalidInput if
+    that is impossible.
     """
     folder.close()
     keep_pictures(folder.path / PICTURES, runner, photographs=photographs)

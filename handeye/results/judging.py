@@ -1,4 +1,4 @@
-"""Calls the referee to judge a run."""
+"""Lets the referee judge a run."""
 
 from collections.abc import Callable, Mapping
 from math import isfinite
@@ -15,11 +15,11 @@ Limits = Mapping[str, float]  # Limits of findings by their names, each in the u
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
-    """Findings of a referee, by default the task's referee with the limits of the run; empty before the end of the
-    program.
+    """Return the findings of a referee; empty before the end of the program. If `referee` is None, the task's
+    referee judges the run with the limits of the run.
 
-    If the arm has undone all its work, the findings say whether all parts are back in place and the taught
-    positions are unchanged.
+    If the arm has undone all its work, the findings say whether all parts are back in their places, and whether
+    the taught positions are unchanged.
     """
     if pause.kind != "end":
         return {}
@@ -32,12 +32,13 @@ def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Fi
 
 
 def findings_so_far(runner: Runner) -> Findings:
-    """Findings of the task's referee on the present state of the work, finished or not."""
+    """Return the findings of the task's referee on the present state of the work, finished or not."""
     return runner.task.judge(runner.cell.truth)
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """Check what a caller's own referee returned; raises InvalidInput if it is not findings by name."""
+    """Check what a caller's own referee returned. Raises InvalidInput if it is not a dictionary of findings by
+    name."""
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
@@ -48,7 +49,8 @@ def checked_findings(referee: str, findings: object) -> Findings:
 
 
 def checked_limits(limits: Limits) -> dict[str, float]:
-    """The given limits as floats; raises InvalidInput if a name is unknown or a limit is not a number."""
+    """Return the limits as floats. Raises InvalidInput if a limit is not a number, or is not given by the name
+    of a finding."""
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):
@@ -60,13 +62,13 @@ def checked_limits(limits: Limits) -> dict[str, float]:
 
 
 def check_limits(runner: Runner) -> None:
-    """Check, before a run begins, that each limit belongs to a finding; raises InvalidInput if one does not."""
+    """Check, before a run begins, that each limit belongs to a finding. Raises InvalidInput if one does not."""
     if runner.setup.limits:
         limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
 
 
 def limited(findings: Findings, limits: Limits) -> Findings:
-    """Findings judged by other limits; raises InvalidInput if a limit belongs to no finding."""
+    """Return the findings, judged by other limits. Raises InvalidInput if a limit belongs to no finding."""
     found = dict(findings)
     for name, limit in limits.items():
         if name not in found:

@@ -1,4 +1,4 @@
-"""The result of a run, or its progress so far, read from its folder without changing the folder."""
+"""Reads the result of a run, or its progress so far, from the run's folder. The folder is not changed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -41,7 +41,8 @@ class KeptRun:
 
 
 def kept_run(path: Path) -> KeptRun:
-    """Read a run from its folder; raises InvalidInput if the folder cannot be read, or the run has not begun."""
+    """Read a run from its folder. Raises InvalidInput if the folder cannot be read, or if the run has not
+    begun."""
     check_holds_run(path)
     faults = []
     if (path / RESULT).exists():
@@ -60,7 +61,7 @@ def kept_run(path: Path) -> KeptRun:
 
 
 def _readable_events(path: Path) -> list[AnyEvent]:
-    """The events in the folder of a run; empty if they cannot be read."""
+    """Return the events in the folder of a run; empty if they cannot be read."""
     try:
         return effective(read_events(path / EVENTS, growing=True))
     except InvalidInput:
@@ -68,7 +69,7 @@ def _readable_events(path: Path) -> list[AnyEvent]:
 
 
 def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
-    """True if a result can belong to the run with these events: program, task and world agree."""
+    """Return True if a result can belong to the run with these events, because program, task and world agree."""
     begun = next((event for event in events if isinstance(event, RunStarted)), None)
     return begun is None or (
         (result.program, result.task, result.world, result.seed)
@@ -77,8 +78,8 @@ def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
 
 
 def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
-    """True if the run in a folder has ended and its result is there; if `judged`, the result must contain the
-    referee's verdict.
+    """Return True if the run in a folder has ended and its result exists. With `judged`, the result must also
+    contain the referee's verdict.
 
     Args:
         newest: the newest checkpoint in the folder.
@@ -95,7 +96,7 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
 
 
 def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> KeptRun:
-    """Make the record of a run that has no result, from its events; `faults` are the flaws already found in the
+    """Make the record of a run that has no result from its events. `faults` are the flaws already found in the
     folder.
     """
     begun, last = events[0], events[-1]
@@ -141,7 +142,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
 
 
 def _host(path: Path) -> tuple[HostSeconds, list[str]]:
-    """The host time of a run as far as it was recorded, and the flaws of that record."""
+    """Return the recorded host time of a run, and the flaws of that record."""
     try:
         return read_host_seconds(path / HOST) or HostSeconds(), []
     except InvalidInput as fault:
@@ -149,13 +150,13 @@ def _host(path: Path) -> tuple[HostSeconds, list[str]]:
 
 
 def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
-    """The call of the operator at which a run has stopped; None if it has not stopped at one."""
+    """Return the call of the operator at which a run has stopped, or None if it has not stopped at a call."""
     standing = [event for event in events if not isinstance(event, StageFinished | RunFinished)]
     return standing[-1] if standing and isinstance(standing[-1], OperatorCalled) else None
 
 
 def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
-    """The state of a run without a result, as a sentence without a full stop."""
+    """Describe the state of a run without a result, in a sentence without a full stop."""
     last = events[-1]
     when = f"at {last.time:.1f} s"
     if call is not None:

@@ -1,4 +1,4 @@
-"""The result of a run as a page for the terminal."""
+"""Shows the result of a run as a page for the terminal."""
 
 from collections.abc import Iterator, Mapping
 
@@ -29,8 +29,8 @@ _MARK = {
 
 
 def page(result: Result) -> RenderableType:
-    """The result as a page: stages, times of an ended run, calibration of the camera, findings of the referee, and
-    verdict.
+    """Return the result as a page: stages, times of an ended run, calibration of the camera, findings of the
+    referee, and verdict.
     """
     result = printable(result)
     parts: list[RenderableType] = [stages(result)]
@@ -44,7 +44,7 @@ def page(result: Result) -> RenderableType:
 
 
 def short_page(result: Result) -> RenderableType:
-    """The result in short: the verdict, and one line each on stages, time, referee and computer."""
+    """Return the result in short: the verdict, and one line each on stages, time, referee and computer."""
     result = printable(result)
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column("", style="dim")
@@ -73,7 +73,7 @@ def _short_rows(result: Result) -> Iterator[tuple[str, str]]:
 
 
 def _remarks(result: Result, *, short: bool = False) -> Iterator[RenderableType]:
-    """Sentences on faults, settings, warnings, and actions of the operator."""
+    """Yield sentences on faults, settings, warnings, and actions of the operator."""
     for told in told_faults(result):
         yield Text(f"broken: {told}", "yellow")
     for name, limit in (result.limits or {}).items():
@@ -88,14 +88,15 @@ def _remarks(result: Result, *, short: bool = False) -> Iterator[RenderableType]
 
 
 def told_faults(result: Result) -> Iterator[str]:
-    """The faults injected in a run, each in the form in which it is typed."""
+    """Yield the faults injected in a run, in the form in which users type them."""
     task = known(result.task)
     for fault in result.world.faults:
         yield str(fault) if task is None else task.faults(result.world).written(fault)
 
 
 def printable(result: Result) -> Result:
-    """The result without control characters in its texts, whatever their origin, so that none reaches the terminal."""
+    """Return the result with the control characters in all its texts made visible, so that none of them reaches
+    the terminal."""
 
     def made(value: object) -> object:
         match value:
@@ -111,7 +112,7 @@ def printable(result: Result) -> Result:
 
 
 def stages(result: Result) -> Table:
-    """A table of the stages, with status and arm time."""
+    """Return a table of the stages with their status and arm time."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("stage")
@@ -125,7 +126,7 @@ def stages(result: Result) -> Table:
 
 
 def timing(result: Result) -> Table:
-    """The timing table, with a column for 1973 if the program was timed then."""
+    """Return the table of times. It has a column for 1973 if the program was timed then."""
     t, then = result.timing, period(result)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", "here", "" if then is None else str(then.year)):
@@ -140,7 +141,8 @@ def timing(result: Result) -> Table:
 
 
 def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Rows of the timing table: rows of simulated time, between two of computing time."""
+    """Yield the rows of the table of times. The first and the last row may be computing times; all other rows
+    are simulated times."""
     t = result.timing
     if t.planning_cpu_s:  # the plan may have been there already
         yield "planning phase (CPU)", t.planning_cpu_s, then.get("planning")
@@ -150,7 +152,7 @@ def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
 
 
 def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Rows of simulated time: name, seconds, and seconds in 1973, if known; the last row is the sum of both parts."""
+    """Yield the rows of simulated time: name, seconds and, if known, seconds in 1973."""
     t, sees = result.timing, result.camera.used
     if t.friction_s:
         yield "joint friction", t.friction_s, None
@@ -166,7 +168,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
 
 
 def period(result: Result) -> HistoricalTiming | None:
-    """The times of 1973, if they belong to this program and nothing was undone in the run; else None."""
+    """Return the times of 1973 if they belong to this program and the run undid no work, or else None."""
     if result.apart is not UNSET:
         return None
     task = known(result.task)
@@ -175,7 +177,7 @@ def period(result: Result) -> HistoricalTiming | None:
 
 
 def camera(result: Result) -> Text:
-    """A line on the camera: renderer, and accuracy of the calibration."""
+    """Return a line on the camera: its renderer, and the accuracy of its calibration."""
     seen = result.camera
     if seen.residual_in is None:
         return Text(f"camera: {seen.renderer}; not used", "dim")
@@ -186,7 +188,7 @@ def camera(result: Result) -> Text:
 
 
 def clock(seconds: float) -> str:
-    """A duration as minutes and seconds, or as seconds with a sensible number of digits."""
+    """Return a duration in minutes and seconds, or in seconds with a sensible number of digits."""
     if seconds >= 60:
         whole = round(seconds)
         return f"{whole // 60}:{whole % 60:02d} min"
@@ -194,7 +196,8 @@ def clock(seconds: float) -> str:
 
 
 def referee(result: Result) -> Table:
-    """A table of the referee's measurements on the finished work, and on the parts after the work was undone."""
+    """Return a table of the referee's measurements on the finished work, and on the parts after the work was
+    undone."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("referee")
@@ -216,7 +219,7 @@ def _mark(check: Check) -> Text:
 
 
 def verdict(result: Result) -> Text:
-    """The verdict on the run, the last line of the page."""
+    """Return the verdict on the run, which is the last line of the page."""
     if result.paused:
         return Text(f"{result.message[:1].upper()}{result.message[1:]}.", "bold")
     if not result.completed:
@@ -239,7 +242,7 @@ def verdict(result: Result) -> Text:
 
 
 def _apart(result: Result) -> Text:
-    """The verdict on a run in which the arm has undone its work."""
+    """Return the verdict on a run in which the arm has undone its work."""
     if result.apart is None:
         return Text("Undone as far as requested.", "bold")
     task = known_any(result.task)
@@ -253,5 +256,5 @@ def _apart(result: Result) -> Text:
 
 
 def wrong_points(result: Result) -> list[str]:
-    """The referee's failed findings, a sentence each."""
+    """Return the referee's failed findings, one sentence each."""
     return [check.sentence for check in result.checks if check.refuses]

@@ -1,4 +1,4 @@
-"""Sentences about a run that pauses."""
+"""Describes in sentences why a run pauses."""
 
 from handeye.core.errors import ERRORS
 from handeye.core.plain_text import counted
@@ -9,7 +9,7 @@ from handeye.runs.advance import AnyStop, Pause
 
 
 def pause_sentence(pause: Pause) -> str:
-    """The reason why a run pauses, as a sentence without a full stop."""
+    """Say why a run pauses, in a sentence without a full stop."""
     if pause.met is not None:
         return _met(pause.met)
     if pause.kind == "panic":
@@ -24,7 +24,8 @@ def pause_sentence(pause: Pause) -> str:
 
 
 def stop_name(stop: AnyStop) -> str:
-    """The name of a stop condition, as users write it: `line 58`, `label L1`, `AOJ`, `stage 4, ...`, `error 23`."""
+    """Return the name of a stop condition in the form in which users type it, such as `line 58`, `label L1`,
+    `AOJ`, `stage 4, ...` or `error 23`."""
     match stop:
         case stops.AtLine():
             return f"line {line_name(stop.line, stop.file)}"

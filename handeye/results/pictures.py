@@ -1,5 +1,5 @@
-"""The pictures in a run's folder: those that the program took, with the detected features, and photographs of the
-end.
+"""Writes the pictures in a run's folder: those that the program took, with the detected features, and
+photographs of the finished work.
 """
 
 from contextlib import suppress
@@ -24,8 +24,8 @@ _QUALITY: Final = 70
 
 
 def annotated_png(system: RunningSystem, name: str) -> bytes:
-    """A picture with the detected features drawn in, as a PNG file; raises InvalidInput if they lie too far outside
-    the picture.
+    """Return a picture with the detected features drawn over it, as a PNG file. Raises InvalidInput if the
+    features lie too far outside the picture.
     """
     done, data = cv2.imencode(".png", _annotated(system, name))
     assert done
@@ -33,7 +33,7 @@ def annotated_png(system: RunningSystem, name: str) -> bytes:
 
 
 def annotated_webp(system: RunningSystem, name: str) -> bytes:
-    """A picture with the detected features drawn in, as a small WebP file for pages."""
+    """Return a picture with the detected features drawn over it, as a small WebP file for pages."""
     image = _annotated(system, name)
     high = round(_WIDE * image.shape[0] / image.shape[1])
     small = cv2.resize(image, (_WIDE, high), interpolation=cv2.INTER_AREA)
@@ -50,7 +50,7 @@ def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
 
 
 def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> None:
-    """Write the program's pictures and, where OpenGL is available, photographs of the cell; raises InvalidInput if
+    """Write the program's pictures and, if OpenGL is available, photographs of the cell. Raises InvalidInput if
     they cannot be written.
     """
     try:

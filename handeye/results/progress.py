@@ -1,4 +1,4 @@
-"""A progress bar with the current step, on standard error."""
+"""Shows a progress bar with the current step on standard error."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -30,8 +30,8 @@ _CALIBRATING: Final = "calibrating: view {} of {}"
 
 
 class Progress(Observer):
-    """Shows calibration, stage, statement and time of a run in a progress bar; without a terminal, it prints one
-    line per stage.
+    """Shows calibration, stage, statement and time of a run in a progress bar. If standard error is not a
+    terminal, it prints one line per stage instead.
     """
 
     def __init__(self, stages: tuple[str, ...], console: Console) -> None:
@@ -60,7 +60,7 @@ class Progress(Observer):
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Hide the progress bar while the operator is asked."""
+        """Within this context, hide the progress bar while the operator is asked."""
         shown = self._bar.live.is_started
         self._bar.stop()
         try:
@@ -70,14 +70,14 @@ class Progress(Observer):
                 self._bar.start()
 
     def viewed(self, number: int, views: int) -> None:
-        """Show that the camera takes calibration view `number` of `views`."""
+        """Show that the camera is taking calibration view `number` of `views`."""
         said = _CALIBRATING.format(number, views)
         self._bar.update(self._task, description=said, completed=number - 1, total=views)
         if number == 1:
             self._line("", "calibrating the camera")
 
     def goes_on(self, stage: str) -> None:
-        """Continue the bar in the middle of a stage, for a resumed run."""
+        """Continue the bar in the middle of a stage, because the run was resumed."""
         number = self._stages.index(stage)
         self._bar.update(
             self._task, description=escape(stage), text="", completed=number, total=len(self._stages)
@@ -107,8 +107,8 @@ class Progress(Observer):
 
 
 def _columns(width: int, longest: int) -> Iterator[ProgressColumn]:
-    """Columns that fit on a line of `width` characters: always time and stage, then, if there is room, a bar and
-    the statement.
+    """Yield the columns that fit on a line of `width` characters. Time and stage always appear; a bar and the
+    statement appear if there is space.
     """
 
     def text(form: str, columns: int, style: str = "none") -> TextColumn:

@@ -1,4 +1,4 @@
-"""A recorded run: its trace, and the other files of its folder."""
+"""Collects a recorded run: its trace, and the other files of its folder."""
 
 from pathlib import Path
 
@@ -24,7 +24,7 @@ def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
 
 
 def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:
-    """The result in the folder of a run, or None, and the flaws of that file."""
+    """Return the result in the folder of a run, or None, and the flaws of the result's file."""
     if not (run / RESULT).is_file():
         return None, ()
     try:

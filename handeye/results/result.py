@@ -1,4 +1,4 @@
-"""The result of a run: one record, printed as a page or as one JSON object."""
+"""Defines the result of a run, a record that is printed as a page or as one JSON object."""
 
 from math import nan
 from pathlib import Path
@@ -19,8 +19,8 @@ Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undo
 
 
 class Stage(Record, frozen=True, kw_only=True):
-    """A stage of the program; `arm_s` is its simulated time, s, without the time in which the arm waited for the
-    camera.
+    """A stage of the program. `arm_s` is its simulated time (s), without the time in which the arm waited for
+    the camera.
     """
 
     name: str
@@ -29,10 +29,11 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Simulated time and computing time of a run; no field mixes the two.
+    """Simulated and computing times of a run. No field mixes the two.
 
     Equal runs have equal simulated times. Fields that end in `_cpu_s` (CPU seconds) or `_wall_s` (wall-clock
-    seconds) are computing times, which differ each time. For a resumed run they are summed over all sessions.
+    seconds) are computing times, which differ each time that a run is executed. For a resumed run, computing
+    times are summed over all sessions.
     """
 
     friction_s: float
@@ -64,7 +65,7 @@ class Timing(Record, frozen=True, kw_only=True):
 
 
 class Check(Record, frozen=True, kw_only=True):
-    """A finding of the referee as a result stores it: a `Finding` with its sentence."""
+    """A finding of the referee in the form in which a result stores it: a `Finding` with a sentence."""
 
     ok: bool
     subject: str
@@ -99,11 +100,12 @@ class Check(Record, frozen=True, kw_only=True):
 
     @property
     def told(self) -> str:
-        """The finding as a sentence, with the value."""
+        """The finding as a sentence with the measured value."""
         return f"{self.sentence}: {self.value:.3g}"
 
     def limited(self, limit: float) -> "Check":
-        """The same measurement with another limit, in the same unit; a value beyond it makes the work wrong."""
+        """Return the same measurement with another limit in the same unit. If the value exceeds the limit, the
+        work is wrong."""
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
 
@@ -126,7 +128,7 @@ class CameraReport(Record, frozen=True, kw_only=True):
 
 
 class Result(Record, frozen=True, kw_only=True):
-    """Result of a run.
+    """The result of a run.
 
     Equal runs have equal events, but their results differ in `timing`, which includes computing time.
     """
@@ -171,26 +173,26 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def judged(self) -> bool | None:
-        """The referee's verdict on the assembly, on the undoing, or on both; None if the referee has not judged the
-        run.
+        """The referee's verdict: True if all work that it judged (assembly, undoing or both) is right. None if
+        it has not judged the run.
         """
         words = [word for word in (self.assembled, self.apart) if isinstance(word, bool)]
         return all(words) if words else None
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """All findings of the referee, with the findings on the assembly before those on the undoing."""
+        """All findings of the referee. Findings on the assembly come before those on the undoing."""
         return (*(self.built or {}).values(), *self.referee.values())
 
     @property
     def cautions(self) -> tuple[str, ...]:
-        """Findings that are only warnings and do not make the work wrong, one sentence each."""
+        """Findings that are only warnings, and do not make the work wrong, one sentence each."""
         return tuple(check.told for check in self.checks if not check.ok and check.caution)
 
     @property
     def exit_code(self) -> int:
-        """Exit code of the command: 0 success, 1 the program called the operator, 3 the program reported success
-        but the referee disagrees.
+        """Exit code of the command: 0 for success, 1 if the program called the operator, and 3 if the program
+        reported success but the referee disagrees.
         """
         if self.paused:
             return 0
@@ -200,13 +202,13 @@ class Result(Record, frozen=True, kw_only=True):
 
 
 def to_json(result: Result, *, line: bool = False) -> bytes:
-    """The result as one JSON object, indented or, with `line`, on one line, with a final newline."""
+    """Encode the result as one JSON object with a final newline. It is indented or, with `line`, on one line."""
     encoded = msgspec.json.encode(result)
     return (encoded if line else msgspec.json.format(encoded, indent=1)) + b"\n"
 
 
 def read_result(path: Path) -> Result:
-    """Read a result from a file; raises InvalidInput if the file cannot be read, or is not a result."""
+    """Read a result from a file. Raises InvalidInput if the file cannot be read, or is not a result."""
     try:
         written = msgspec.json.decode(read_whole(path, _LARGEST))
         for name in ("referee", "built") if isinstance(written, dict) else ():
@@ -217,7 +219,7 @@ def read_result(path: Path) -> Result:
 
 
 def restore_figures(findings: Any) -> None:
-    """Replace null in the figures of findings by NaN; null in JSON stands for a value that is not finite."""
+    """Replace null by NaN in the figures of findings. In JSON, null stands for a value that is not finite."""
     for check in findings.values() if isinstance(findings, dict) else ():
         for name in ("value", "limit"):
             if isinstance(check, dict) and name in check and check[name] is None:

@@ -1,4 +1,4 @@
-"""Makes the result of a run from its events."""
+"""Makes the result of a run from the run's events."""
 
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -37,7 +37,8 @@ from handeye.vision.calibration import Calibration
 def summary(
     runner: Runner, pause: Pause, *, findings: Findings | None, built: Findings, host: HostSeconds
 ) -> Result:
-    """Make the result of a run. `built` has the referee's findings on the work of a job before the job undid it."""
+    """Make the result of a run. `built` has the referee's findings on the finished work before the arm undid
+    it."""
     completed = pause.kind == "end"
     names = runner.listing.stages
     cell = runner.system.cell
@@ -66,7 +67,8 @@ def summary(
 
 
 def _assembled(runner: Runner, findings: Findings | None, built: Findings, *, completed: bool) -> bool | None:
-    """The verdict on the assembly; None if the referee has not judged it, or if the work has been undone."""
+    """Return the verdict on the assembly; None if the referee has not judged it, or if the work was undone
+    without a verdict."""
     if runner.undone:
         return all_right(built) if built else None
     return None if findings is None else completed and all_right(findings)
@@ -77,7 +79,7 @@ def _checks(findings: Findings) -> dict[str, Check]:
 
 
 def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
-    """One sentence for each intervention in the run."""
+    """Yield one sentence for each intervention of a person in the run."""
     for event in events:
         when = f"at {event.time:.1f} s"
         if isinstance(event, OperatorAnswered):
@@ -89,7 +91,7 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
 
 
 def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
-    """Reasons to doubt a run, one sentence each."""
+    """Yield reasons to doubt the result of a run, one sentence each."""
     place = ""
     for event in events:
         if isinstance(event, RunStarted):
@@ -101,7 +103,8 @@ def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
 
 
 def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """Status and arm time of each stage; arm time is simulated time, s, without waiting for the camera's mechanism."""
+    """Return the status and the arm time of each stage. Arm time is simulated time (s), without the time in
+    which the arm waited for the camera's mechanism."""
     seconds = dict.fromkeys(names, 0.0)
     status: dict[str, Status] = dict.fromkeys(names, "not reached")
     here, begun, busy, now = "", 0.0, 0.0, 0.0
@@ -124,7 +127,7 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
 
 
 def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timing:
-    """Times of a run from its events so far; `clock` is the present time of the cell, s."""
+    """Return the times of a run, computed from its events so far. `clock` is the present time of the cell (s)."""
     prepared = sum((event.prepared for event in events if isinstance(event, RunStarted)), 0.0)
     friction = sum((event.seconds for event in events if isinstance(event, FrictionMeasured)), 0.0)
     lens = sum((event.seconds for event in events if isinstance(event, CameraBusy)), 0.0)
@@ -146,7 +149,8 @@ def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timin
 
 
 def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
-    """Time, s, up to `clock`, in which the camera's mechanism was busy while the arm did not wait for it."""
+    """Return the time up to `clock` (s) in which the camera's mechanism was busy while the arm did not wait for
+    it."""
     ready = busy = 0.0
     for event in events:
         if isinstance(event, CameraStarted):
@@ -158,7 +162,7 @@ def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
 
 
 def camera_report(renderer: Renderer, calibration: Calibration | None) -> CameraReport:
-    """Report on a camera, with the residuals of its calibration if there is one."""
+    """Report on a camera. If the camera is calibrated, the report includes the residuals of the calibration."""
     residuals = {} if calibration is None else calibration.residual_px
     return CameraReport(
         renderer=renderer_name(renderer),

@@ -1,4 +1,4 @@
-"""The quantities of a world, as a page for the terminal or as one JSON object."""
+"""Shows the quantities of a world as a page for the terminal or as one JSON object."""
 
 from collections.abc import Iterator
 from itertools import groupby
@@ -15,7 +15,7 @@ from handeye.core.variation import Quantity, Variation, World, WorldSpec
 
 
 class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
-    """A quantity of a world, with its value. All figures are in `unit`, except `si`."""
+    """A quantity of a world with its value. `si` is in SI units; all other figures are in `unit`."""
 
     name: str
     value: float
@@ -44,12 +44,12 @@ def report(table: Variation, world: World) -> WorldReport:
 
 
 def world_json(table: Variation, world: World) -> bytes:
-    """The quantities of a world as one JSON object."""
+    """Return the quantities of a world as one JSON object."""
     return msgspec.json.format(msgspec.json.encode(report(table, world)), indent=1) + b"\n"
 
 
 def world_page(table: Variation, world: World, columns: int) -> RenderableType:
-    """The quantities of a world, grouped by source, for a terminal `columns` wide."""
+    """Return the quantities of a world, grouped by source, as a page for a terminal that is `columns` wide."""
     found = report(table, world).quantities
     parts: list[RenderableType] = [Text(fill(f"The world of {world.spec}", columns), "bold")]
     if not found:
@@ -97,7 +97,8 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, ...] | No
 
 
 def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
-    """A quantity as one line of the page, or as two if one is too short; names fill `width` columns."""
+    """Return a quantity as one line of the page, or as two lines if one is too short. Names are padded to
+    `width` columns."""
     drawn = f"({how(quantity)})" if quantity.override else how(quantity)
     row = Text(f"  {quantity.name.ljust(width)} {quantity.value:10.4g} {quantity.unit:5}")
     told = (
@@ -110,7 +111,7 @@ def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
 
 
 def how(quantity: QuantityReport) -> str:
-    """The distribution of a quantity, in words."""
+    """Describe the distribution of a quantity in words."""
     unit = quantity.unit and f" {quantity.unit}"
     about = f" about {quantity.nominal:g}{unit}" if quantity.nominal else ""
     match quantity.spread:

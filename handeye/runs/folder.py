@@ -99,8 +99,8 @@ class RunFolder(Observer):
 
     @property
     def journal_lost(self) -> bool:
-        """True if the list of events was begun anew when the run was resumed, because the old list was lost or
-        belonged to another run.
+        """True if the list of events was started from scratch when the run was resumed, because the old list
+        was lost or belonged to another run.
         """
         return self._journal is not None and self._journal.lost
 

@@ -55,7 +55,8 @@ class Journal:
     def __init__(self, path: Path, events: Sequence[AnyEvent], *, again: bool) -> None:
         """Begin a journal with these events, or resume one.
 
-        An incomplete last line is dropped. A journal in which some of the events are missing is begun anew.
+        An incomplete last line is dropped. A journal in which some of the events are missing is started from
+        scratch.
         """
         self._owed: WentBack | None = None  # there was no room for it
         self._file = LineFile(path, "another run", again=again)

@@ -1,4 +1,4 @@
-"""Whole runs, and statistics over many runs."""
+"""Executes whole runs, and computes statistics over many runs."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -1,4 +1,5 @@
-"""One whole run: a world, a calibrated camera, an executed plan, and the referee's verdict."""
+"""Executes one whole run: calibrates the camera in a world, executes a plan, and lets the referee judge the
+result."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -44,16 +45,16 @@ def run_plan(
     without: tuple[str, ...] = (),
     operator: Operator = NOBODY,
 ) -> FinishedRun:
-    """Execute a plan in a world, and have the referee judge the result.
+    """Execute a plan in a world, and let the referee judge the result.
 
     Args:
-        meter: measures the host time of the run; by default from now on.
-        viewed: called for each view of the camera calibration with the number of the view and the number of all
-            views.
+        meter: measures the host time of the run; by default from this call on.
+        viewed: called for each view of the camera calibration, with the number of the view and the total number
+            of views.
         halt: the panic button, polled in every servo period.
 
-    Raises InvalidInput if arm, limits or camera do not fit, and Halted if the panic button is pressed before the
-    working phase.
+    Raises InvalidInput if arm, limits or camera do not fit, and Halted if the panic button is pressed before
+    the working phase.
     """
     setup = Setup(
         plan=plan,
@@ -82,7 +83,8 @@ def run_on(
     halt: Callable[[], bool] = lambda: False,
     operator: Operator = NOBODY,
 ) -> FinishedRun:
-    """Execute a run from its beginning or from a kept state, and have the referee judge it; see `run_plan`."""
+    """Continue a run from a checkpoint, which may be that of its beginning, and let the referee judge it.
+    Arguments are those of `run_plan`."""
     metered = meter or Meter()
     runner = Runner(
         start,
@@ -98,7 +100,7 @@ def run_on(
 
 
 def brakes_hold(cell: SimulatedCell) -> bool:
-    """True if the brakes are on and commanded to stay on, and no motor of the arm has a torque command."""
+    """Return True if the brakes are on and commanded to stay on, and no motor of the arm has a torque command."""
     state = cell.truth.states[cell.arm.name]
     assert isinstance(state, ArmState)
     return state.braked and state.command is None and not cell.truth.data.ctrl[cell.arm.motors].any()

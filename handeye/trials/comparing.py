@@ -1,4 +1,4 @@
-"""Compares batches of one kind in the same worlds, trial by trial."""
+"""Compares batches of the same kind trial by trial, in the worlds that they have in common."""
 
 from collections.abc import Mapping, Sequence
 from statistics import median
@@ -15,7 +15,7 @@ Key = tuple[str, int, int]  # Condition, seed, and which of the trials in that w
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """The difference of a measure over the pairs in which both trials succeeded."""
+    """The difference of a measured value, over those pairs in which both trials succeeded."""
 
     pairs: int
     more: float  # Median of how much more it is in this batch than in the first
@@ -24,7 +24,7 @@ class Difference(Record, frozen=True, kw_only=True):
 
 
 class PairedBatch(Record, frozen=True, kw_only=True):
-    """A batch compared with the first batch, over the trials that both contain."""
+    """The comparison of a batch with the first batch, over the trials that both contain."""
 
     name: str
     pairs: int
@@ -40,7 +40,7 @@ class PairedBatch(Record, frozen=True, kw_only=True):
 
 
 class PairedTrial(NamedTuple):
-    """Outcome and measures of one trial, for pairing."""
+    """The outcome and the measured values of one trial, to be paired with the trial of another batch."""
 
     standing: Standing
     broken_off: bool
@@ -48,7 +48,8 @@ class PairedTrial(NamedTuple):
 
 
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
-    """Each batch compared with the first one; raises InvalidInput if a batch is of other worlds or of another kind."""
+    """Compare each further batch with the first one. Raises InvalidInput if a batch is of another kind, or was
+    run in other worlds."""
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):
         if head.kind != first_head.kind:
@@ -71,7 +72,7 @@ def _trials(head: Head, rows: Sequence[TrialRow]) -> dict[Key, PairedTrial]:
 
 
 def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, PairedTrial]) -> PairedBatch:
-    """A batch compared with another; raises InvalidInput if they have no common trials."""
+    """Compare a batch with another. Raises InvalidInput if they have no trials in common."""
     pairs = [(first[key], this) for key, this in other.items() if key in first]
     if not pairs:
         raise Refused(

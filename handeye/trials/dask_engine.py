@@ -1,5 +1,5 @@
-"""Runs trials on workers of dask: processes on this computer, or those of a cluster, given by the address of its
-scheduler.
+"""Runs trials on dask workers: either processes on this computer, or workers of a cluster whose scheduler has a
+given address.
 """
 
 from collections.abc import Generator, Iterator, Sequence
@@ -15,17 +15,18 @@ HOST: Final = "127.0.0.1"  # Workers here listen on this computer alone
 
 
 def dask_workers(count: int, scheduler: str | None) -> Engine:
-    """Workers of dask: those of the scheduler at an address, or `count` new ones on this computer."""
+    """Return an engine that uses the workers of the scheduler at an address, or starts `count` workers on this
+    computer."""
     return lambda work, cases: _answers(work, cases, count, scheduler)
 
 
 def _answers(
     work: GuardedWork[Any], cases: Sequence[Case], count: int, scheduler: str | None
 ) -> Generator[Answer[Case, list[Any]], None, None]:
-    """Answers for all cases, in the order in which they end; raises InvalidInput if dask or its workers cannot be
-    used.
+    """Yield the answers for all cases in the order in which the cases end. Raises InvalidInput if dask or its
+    workers cannot be used.
 
-    The scheduler repeats a trial once if its worker is killed, without reporting it.
+    If a worker is killed, the scheduler repeats the trial once without reporting it.
     """
     try:
         from distributed import KilledWorker, as_completed
@@ -47,7 +48,7 @@ def _answers(
 
 
 def _tried(work: GuardedWork[Any], code: str, case: Case) -> list[Any]:
-    """Execute a case on a worker; raises InvalidInput if the worker has another version of handeye."""
+    """Execute a case on a worker. Raises InvalidInput if the worker has another version of handeye."""
     if code_digest() != code:
         raise Refused(
             "a worker has another version of handeye than this computer; install the same version on all"
@@ -70,7 +71,7 @@ def _client(count: int, scheduler: str | None) -> Iterator[Any]:
 
 @contextmanager
 def _cluster(count: int) -> Iterator[str]:
-    """Start workers on this computer; yields the address of their scheduler."""
+    """Start workers on this computer, and yield the address of their scheduler."""
     import dask
     from distributed import LocalCluster
 

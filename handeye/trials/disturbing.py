@@ -1,4 +1,5 @@
-"""Trials of reversal after a disturbance: whether a guard stops the arm before it does harm."""
+"""Trials in which the cell is disturbed before the arm undoes its work. They show whether a guard stops the arm
+before it does harm."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -28,7 +29,7 @@ FORCE: Final = 60.0  # N that the hand may not feel
 
 
 class DisturbanceResult(Record, frozen=True, kw_only=True):
-    """Result of one reversal after a disturbance."""
+    """The result of one reversal after a disturbance."""
 
     name: str
     built: bool  # There was something to disturb; without, nothing else of this counts
@@ -42,12 +43,12 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 
     @property
     def harmless(self) -> bool:
-        """True if the arm was stopped in time."""
+        """True if the arm was stopped before it did harm."""
         return self.stopped and self.moved <= MOVED and self.felt <= FORCE
 
 
 class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
-    """The trial of one disturbance; the disturbance is the condition."""
+    """The trial of one disturbance. The row's condition is the disturbance."""
 
     tried: DisturbanceResult | None = None  # None: it did not finish
 
@@ -70,7 +71,7 @@ class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DisturbanceWork:
-    """Executes a plan, disturbs its product and has the arm undo the work, once for each case."""
+    """For each case: executes a plan, disturbs its product, and lets the arm undo the work."""
 
     plan: Plan
     world: WorldSpec  # World of every case, without its seed
@@ -84,7 +85,7 @@ class DisturbanceWork:
 
 
 def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> DisturbanceResult:
-    """Execute the plan, disturb its product, undo the work, and judge the result."""
+    """Execute the plan, disturb its product, let the arm undo the work, and judge the result."""
     change = next(each for each in task(plan.task).disturbances() if each.name == name)
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=world, camera=camera, judged=True)))
     if not _built(runner, plan, change):
@@ -113,7 +114,7 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
 
 
 def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
-    """Execute the plan as far as the disturbance requires; True if that succeeded."""
+    """Execute the plan as far as the disturbance requires. Returns True if that succeeded."""
     stages = plan.program.stages
     number = len(stages) if change.after is None else change.after
     pause = advance(
@@ -123,8 +124,8 @@ def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
 
 
 def _moved(runner: Runner) -> tuple[float, str]:
-    """Execute a step; returns the greatest displacement, mm, of a part that the hand holds neither before nor after
-    the step, and the part's name.
+    """Execute a step. Returns the greatest displacement (mm) of a part that the hand holds neither before nor
+    after the step, and the part's name.
     """
     work = task(runner.setup.task)
     before = work.bystanders(runner.cell.truth)

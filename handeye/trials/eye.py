@@ -1,4 +1,4 @@
-"""Trials of a task that execute no program, such as those of vision: several attempts per world."""
+"""Trials that run no program, such as those of vision. Several attempts are made in each world."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +13,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 
 
 class EyeRow(TrialRow, frozen=True, kw_only=True):
-    """One attempt."""
+    """One attempt of a trial."""
 
     attempt: dict[str, Any] = msgspec.field(default_factory=dict)
     """The record of the attempt, whose class belongs to the trial."""
@@ -42,7 +42,7 @@ EYE: Final = Sweep(
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
-    """The sweep of a task's trial, given by name."""
+    """Return the sweep for a task's trial, which is called `name`."""
 
     def attempts(rows: Sequence[EyeRow]) -> list[Attempt]:
         found = [msgspec.convert(row.attempt, trial.attempt) for row in rows if row.attempt]
@@ -64,7 +64,7 @@ def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EyeWork:
-    """Makes attempts at a trial of a task; the attempts of a case share a world and its calibration."""
+    """Makes the attempts of a task's trial. The attempts of a case share a world and its camera calibration."""
 
     task: str
     trial: str
@@ -87,5 +87,5 @@ class EyeWork:
 
 
 def eye_cases(seed: int, number: int, worlds: int) -> list[Case]:
-    """Distribute attempts evenly over worlds: attempt k is in the world of `seed` + k % `worlds`."""
+    """Distribute attempts evenly over worlds. Attempt k is made in the world of `seed` + k % `worlds`."""
     return [Case(trials=tuple(range(k, number, worlds)), seed=seed + k) for k in range(min(number, worlds))]

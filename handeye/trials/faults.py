@@ -1,4 +1,5 @@
-"""Runs with one fault each: whether the fault is noticed, in which stage, and whether the error names it correctly."""
+"""Executes runs with one fault each. They show whether the fault is noticed, in which stage, and whether the
+message names it correctly."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -50,7 +51,7 @@ PANIC: Final = FaultKind(
 
 
 def with_panic(catalogue: Catalogue) -> Catalogue:
-    """The faults of a task, with the panic button added."""
+    """Return the faults of a task, with the panic button as a further fault."""
     return Catalogue(*catalogue.kinds.values(), PANIC, matrix=(*catalogue.matrix, PANIC.name))
 
 
@@ -61,18 +62,18 @@ class PanicInStage(Observer):
     """Presses the panic button once, a number of servo periods after the beginning of a stage."""
 
     def __init__(self, stage: int, periods: int = SOON) -> None:
-        """Wait for a stage, given by its index."""
+        """Wait for the stage with this index."""
         self._stage, self._left = stage, periods
         self._runner: Runner | None = None
         self._under_way = self._hit = False
 
     def watching(self, runner: Runner) -> Sequence[Observer]:
-        """Observe a run; returns this object as the only observer."""
+        """Observe a run. Returns this object as the run's only observer."""
         self._runner = runner
         return [self]
 
     def down(self) -> bool:
-        """True once, at the first poll after the button is due."""
+        """Return True once: at the first poll after the button was due to be pressed."""
         hit = self._under_way and self._left <= 0 and not self._hit
         self._hit = self._hit or hit
         return hit
@@ -86,7 +87,7 @@ class PanicInStage(Observer):
 
 
 class FaultTrial(Record, frozen=True, kw_only=True):
-    """Result of a run with one fault."""
+    """The result of a run with one fault."""
 
     name: str  # The fault, as it would be typed
     outcome: Outcome
@@ -98,7 +99,7 @@ class FaultTrial(Record, frozen=True, kw_only=True):
 
 
 class FaultRow(TrialRow, frozen=True, kw_only=True):
-    """The trial of one fault; the fault is the condition."""
+    """The trial of one fault. The row's condition is the fault."""
 
     tried: FaultTrial | None = None  # None: it did not finish
 
@@ -121,8 +122,8 @@ class FaultRow(TrialRow, frozen=True, kw_only=True):
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """The faults with these names or in these groups, by default those of the matrix; raises InvalidInput for an
-    unknown name.
+    """Return the faults with these names or in these groups, or by default those of the matrix. Raises
+    InvalidInput for an unknown name.
     """
     found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())
@@ -130,7 +131,8 @@ def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultWork:
-    """Executes a plan once with each of some faults; the condition of a case is the fault, as it is typed."""
+    """Executes a plan once for each fault. The condition of a case is the fault in the form in which users type
+    it."""
 
     plan: Plan
     world: WorldSpec  # World of every case, without its seed and fault
@@ -142,7 +144,7 @@ class FaultWork:
     """
 
     def __call__(self, case: Case) -> list[FaultRow]:
-        """Run once with the fault, or with the panic button."""
+        """Execute a run with the fault, or press the panic button during a run."""
         fault = self.faults[case.condition]
         world = msgspec.structs.replace(self.world, seed=case.seed)
         catalogue = with_panic(task(self.plan.task).faults(world))
@@ -156,7 +158,8 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
     def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
-        """The start of a run with these faults: a kept state before the stage in which they begin, if there is one."""
+        """Return the start of a run with these faults. If possible, it is the stored state before the stage in
+        which the faults begin."""
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         if self.sound is None or stage is None:
             return Checkpoint(
@@ -168,7 +171,8 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Faults at their usual sizes, as they are typed; faults that can begin later begin at `stage`, of `stages`."""
+    """Return the faults at their usual sizes, by the form in which users type them. Faults that can begin
+    during a run begin with `stage`; `stages` is the number of stages."""
     first = [None if kind.from_start else stage or min(kind.usual_stage or 0, stages) for kind in kinds]
     found = [kind.usual(each or None) for kind, each in zip(kinds, first, strict=True)]
     return {catalogue.written(fault): fault for fault in found}
@@ -177,7 +181,7 @@ def usual(
 def trial_of(
     fault: Fault, catalogue: Catalogue, result: Result, events: Sequence[AnyEvent], *, braked: bool
 ) -> FaultTrial:
-    """The result of a run with a fault, from the run's result and events."""
+    """Return the result of a run with a fault, computed from the result and the events of the run."""
     begun = [event for event in events if isinstance(event, StepStarted)]
     stopped = not result.completed and begun
     complaints = (check.told for check in result.referee.values() if check.refuses)
@@ -193,7 +197,7 @@ def trial_of(
 
 
 def outcome(expected: ExpectedDetection, result: Result, *, braked: bool) -> Outcome:
-    """The outcome of a run with a fault; `braked`: the brakes were on at the end."""
+    """Return the outcome of a run with a fault. `braked` is True if the brakes were on at the end."""
     if result.exit_code == 3:
         return "silent"
     if result.exit_code == 0:
@@ -204,14 +208,14 @@ def outcome(expected: ExpectedDetection, result: Result, *, braked: bool) -> Out
 
 
 def _named(expected: ExpectedDetection, result: Result) -> bool:
-    """True if a run was stopped by an error or call that names the fault correctly."""
+    """Return True if a run was stopped by an error or call that names the fault correctly."""
     if result.error is not None:
         return result.error in expected.errors
     return expected.at_setup if result.stopped_at is None else expected.called(result.message)
 
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:
-    """True if a run stopped in a stage in which that name is correct."""
+    """Return True if a run stopped in a stage in which the name of the fault is correct."""
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 
 

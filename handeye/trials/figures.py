@@ -1,5 +1,5 @@
-"""Statistics of a sweep, from its rows: success rates with confidence bounds, measures, and failures by place and
-cause.
+"""Computes the statistics of a sweep from its rows: success rates with confidence bounds, measured values, and
+failures by stage and cause.
 """
 
 from collections import Counter
@@ -15,7 +15,7 @@ CONFIDENCE: Final = 0.95
 
 
 class Rate(Record, frozen=True, kw_only=True):
-    """Successes among independent trials, with confidence bounds of the probability of success."""
+    """The number of successes among independent trials, with confidence bounds on the probability of success."""
 
     successes: int
     trials: int
@@ -29,7 +29,7 @@ class Rate(Record, frozen=True, kw_only=True):
 
 
 def rate(successes: int, trials: int) -> Rate:
-    """Success rate with its bounds."""
+    """Compute a success rate and its confidence bounds."""
     from scipy.stats import binomtest  # slow to import
 
     if trials == 0:
@@ -46,7 +46,8 @@ def rate(successes: int, trials: int) -> Rate:
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
-    """Two-sided p of McNemar's exact test: the probability of pairs so unevenly divided if neither batch is better."""
+    """Return the two-sided p-value of McNemar's exact test: the probability of at least so unequal a division
+    of the differing pairs, if neither batch is better."""
     from scipy.stats import binomtest
 
     differ = only_first + only_second
@@ -54,8 +55,8 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Two-sided p of Wilcoxon's signed-rank test: the probability of such one-sided differences if both batches are
-    equal.
+    """Return the two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least so
+    one-sided, if neither batch is better.
     """
     from scipy.stats import wilcoxon
 
@@ -63,7 +64,7 @@ def signed_rank(differences: Sequence[float]) -> float:
 
 
 class Spread(Record, frozen=True, kw_only=True):
-    """The distribution of the values of a measure."""
+    """The distribution of a measured value."""
 
     n: int
     median: float
@@ -72,7 +73,7 @@ class Spread(Record, frozen=True, kw_only=True):
 
 
 class ConditionFigures(Record, frozen=True, kw_only=True):
-    """Statistics of the trials under one condition."""
+    """Statistics of the trials that share a condition."""
 
     condition: str
     n: int  # Trials that count
@@ -98,7 +99,7 @@ class Failure(Record, frozen=True, kw_only=True):
 
 
 class Cause(Record, frozen=True, kw_only=True):
-    """Failures in the same stage with the same cause."""
+    """Failures that happened in the same stage and have the same cause."""
 
     stage: str
     cause: str
@@ -129,14 +130,15 @@ class Figures(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """Exit code of the command: 3, a failure was taken for a success; 1, no trial finished; else 0."""
+        """Exit code of the command: 3 if a failure was taken for a success, 1 if no trial finished, and 0 in
+        all other cases."""
         return 3 if self.silent_failures else int(0 < self.failed == self.n)
 
 
 def figures(
     sweep: Sweep[R], rows: Sequence[R], command: Callable[[R], str] = lambda _: "", *, wall_s: float = 0.0
 ) -> Figures:
-    """Compute the statistics of rows; `command` gives the command that repeats the trial of a row."""
+    """Compute the statistics of rows. `command` returns the command that repeats a row's trial."""
     standings = Counter(sweep.standing(row) for row in rows)
     counted = [row for row in rows if sweep.standing(row) != "uncounted"]
     failures = tuple(_failure(row, command) for row in counted if sweep.standing(row) != "right")
@@ -185,7 +187,7 @@ def _of_condition(sweep: Sweep[R], name: str, rows: Sequence[R]) -> ConditionFig
 
 
 def spread(values: Sequence[float]) -> Spread:
-    """The distribution of at least one value."""
+    """Return the distribution of one or more values."""
     median, p95, most = np.percentile(values, [50, 95, 100]).round(6).tolist()
     return Spread(n=len(values), median=median, p95=p95, most=most)
 

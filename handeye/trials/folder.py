@@ -1,4 +1,5 @@
-"""The folder of a batch: a head with its settings, its plan, and one line for each finished trial."""
+"""Reads and writes the folder of a batch, which contains a head with the batch's settings, its plan, and one
+line for each finished trial."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -31,7 +32,8 @@ _OURS: Final = {
 
 
 def sweep_of(kind: str) -> Sweep[Any]:
-    """The kind of sweep in the folder of a batch; raises InvalidInput if the kind is unknown here."""
+    """Return the kind of sweep that the folder of a batch names. Raises InvalidInput if this installation does
+    not know the kind."""
     name = kind.partition(" ")[0]
     places = {name: place for entry in entries().values() for name, place in entry.sweeps.items()} | _OURS
     if name not in places:
@@ -56,7 +58,7 @@ _NAMES: Final = {
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """First line of a batch's file: everything that determines the outcomes of its trials."""
+    """The first line of a batch's file, with everything that determines the outcomes of the trials."""
 
     format: Literal["handeye batch"] = "handeye batch"
     version: Literal[2] = 2
@@ -76,13 +78,13 @@ class Head(Record, frozen=True, kw_only=True):
     code: str  # Digest of handeye and its scenes
 
     def seed_of(self, trial: int) -> int | None:
-        """The seed of the world of a trial; None if there is no such trial."""
+        """Return the seed of a trial's world, or None if there is no such trial."""
         if not self.seeds:
             return self.world.seed + trial
         return self.seeds[trial] if trial < len(self.seeds) else None
 
     def differs(self, other: "Head") -> list[str]:
-        """Names of the fields in which two heads differ."""
+        """Return the names of the fields in which two heads differ."""
         names = [told for name, told in _NAMES.items() if getattr(self, name) != getattr(other, name)]
         both = dict.fromkeys([*self.settings, *other.settings])
         return names + [name for name in both if self.settings.get(name) != other.settings.get(name)]
@@ -95,7 +97,8 @@ def head_of(
     settings: Mapping[str, str] | None = None,
     **more: Any,
 ) -> Head:
-    """The head of a batch with trial 0 in this world; raises InvalidInput if the installation is incomplete."""
+    """Return the head of a batch whose trial 0 is in this world. Raises InvalidInput if the installation is
+    incomplete."""
     if plan is not None:
         more |= {"plan": plan_digest(plan), "program": plan.program.name}
     more |= {"settings": dict(settings or {}), "versions": versions(), "code": code_digest()}
@@ -103,12 +106,12 @@ def head_of(
 
 
 class BatchFolder(Generic[R]):
-    """A folder to which trials are written as they end."""
+    """A folder into which the trials of a batch are written when they end."""
 
     def __init__(
         self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False
     ) -> None:
-        """Begin a batch, continue it, or with `anew` delete it first; raises InvalidInput."""
+        """Begin or continue a batch. With `anew`, delete the old batch first. Raises InvalidInput."""
         self.path, self._sweep = path, sweep
         _check(path, sweep, head, plan, anew=anew)
         try:
@@ -126,11 +129,11 @@ class BatchFolder(Generic[R]):
 
     @property
     def unlocked(self) -> str:
-        """The reason why other commands cannot be kept from writing to the folder; empty if they are."""
+        """The reason why the folder cannot be locked against writing by other commands; empty if it is locked."""
         return self._file.unlocked
 
     def append(self, row: R) -> None:
-        """Write a trial; raises InvalidInput if the disk is full."""
+        """Write the row of a trial. Raises InvalidInput if the disk is full."""
         self._file.append(msgspec.json.encode(row) + b"\n")
         self.rows[row.key] = row
 
@@ -150,8 +153,8 @@ class BatchFolder(Generic[R]):
 
 
 def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
-    """The head of the batch in a folder, and its rows by condition and number; raises InvalidInput if there is
-    none.
+    """Return the head of the batch in a folder, and its rows in the order of condition and number. Raises
+    InvalidInput if the folder holds no batch.
     """
     check_exists(path)
     file = path / TRIALS
@@ -180,7 +183,7 @@ def _decoded(line: bytes, kind: type[T], file: Path, number: int) -> T:
 
 
 def _same_batch(path: Path, sweep: Sweep[R], head: Head, plan: Plan | None) -> tuple[R, ...]:
-    """The trials of the batch in a folder; raises InvalidInput if it is another batch."""
+    """Return the rows of the batch in a folder. Raises InvalidInput if the folder holds another batch."""
     file = path / TRIALS
     first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]
     begun = _decoded(first, Head, file, 1)
@@ -197,7 +200,7 @@ def _same_batch(path: Path, sweep: Sweep[R], head: Head, plan: Plan | None) -> t
 
 
 def _check(path: Path, sweep: Sweep[Any], head: Head, plan: Plan | None, *, anew: bool) -> None:
-    """Raises InvalidInput if the contents of a folder forbid writing to it; the folder is not changed."""
+    """Raise InvalidInput if the contents of a folder forbid writing to it. The folder is not changed."""
     if not path.exists():
         return
     if (path / TRIALS).is_file() and (path / TRIALS).stat().st_size:

@@ -1,7 +1,8 @@
-"""Insertion bench: inserts one pin into one hole, in many worlds and with many errors of the hole's position.
+"""The insertion bench: inserts one pin into one hole, in many worlds and with many position errors of the hole.
 
-A trial begins when the program holds the pin over the hole, and consists of search, insertion and check. The pin is
-fetched once per world; this state is the start of several trials, each with another hole.
+A trial begins when the program holds the pin above the hole, and consists of search, insertion and check. The
+pin is fetched once per world. Several trials start from this state, each with a different position error of the
+hole.
 """
 
 import math
@@ -46,14 +47,14 @@ _PLACE: Final = 0.005  # in, to which it is rounded down
 
 
 def bench() -> InsertionTask:
-    """The task of the insertion bench."""
+    """Return the task of the insertion bench."""
     found = task(TASK)
     assert isinstance(found, InsertionTask)
     return found
 
 
 class Condition(Record, frozen=True, kw_only=True):
-    """The condition of a trial: hole, error of its position, and search."""
+    """The condition of a trial: the hole, the spread of its position error, and the kind of search."""
 
     clearance: float = CLEARANCE  # Clearance of the hole in diameter, mm
     chamfer: float = CHAMFER  # mm
@@ -62,19 +63,20 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Display name of the condition."""
+        """The name of the condition for display."""
         search = "" if self.search == "gentle" else f", {self.search}"
         return f"{self.clearance:g} mm, chamfer {self.chamfer:g}, sd {self.sd:g}{search}"
 
     @property
     def step(self) -> float:
-        """Step of the search, in: the hole is still caught from the worst place between four search places."""
+        """Distance between neighbouring search places (in). It is chosen so that the pin still enters the hole
+        from the worst point between four places."""
         caught = bench().caught(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
         return max(1, math.floor(_STEP_SHARE * math.sqrt(2) * caught / INCH / _PLACE)) * _PLACE
 
     @property
     def hole(self) -> dict[str, float]:
-        """Quantities of a world with the hole of this condition, at its taught position."""
+        """The quantities of a world with the hole of this condition, at the hole's taught position."""
         return bench().hole(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
 
     @property
@@ -84,7 +86,8 @@ class Condition(Record, frozen=True, kw_only=True):
 
 
 def grid(search: Search) -> list[Condition]:
-    """Conditions around Factory's setting, which comes first; the others differ from it in one value."""
+    """Return the conditions to try. The first one is the setting of Factory; each of the others differs from it
+    in one value."""
     return [
         Condition(search=search),
         *(Condition(search=search, clearance=clearance) for clearance in (0.05, 0.3, 1.0)),
@@ -94,7 +97,7 @@ def grid(search: Search) -> list[Condition]:
 
 
 class InsertionTrial(Record, frozen=True, kw_only=True):
-    """Result of one trial."""
+    """The result of one trial."""
 
     seed: int
     number: int  # Number of the trial in that world, from 0
@@ -113,7 +116,7 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
 
 
 class _ForcePeak(Observer):
-    """Records the greatest force sensed at the hand, N."""
+    """Records the greatest force that the hand senses (N)."""
 
     def __init__(self) -> None:
         self.most = 0.0
@@ -124,7 +127,7 @@ class _ForcePeak(Observer):
 
 
 class InsertionRow(TrialRow, frozen=True, kw_only=True):
-    """One trial under a condition; ten trials share a world, in which the pin is fetched once."""
+    """One trial under a condition. Ten trials share a world, in which the pin is fetched once."""
 
     tried: InsertionTrial | None = None  # None: it did not finish
     step_in: float = 0.0  # Step of the search
@@ -155,12 +158,12 @@ class InsertionRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWork:
-    """Executes trials of conditions, given by name."""
+    """Executes the trials of a case. The name of the case's condition selects the condition."""
 
     conditions: Mapping[str, Condition]
 
     def __call__(self, case: Case) -> list[InsertionRow]:
-        """Fetch the pin once, and execute the trials of the case from there."""
+        """Fetch the pin once, and execute all trials of the case from that state."""
         condition = self.conditions[case.condition]
         last = InsertionTrial(seed=case.seed, number=len(case.trials) - 1)
         found = zip(case.trials, trials_in_world(condition, last), strict=True)
@@ -177,8 +180,8 @@ class InsertionWork:
 
 
 def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[Case]:
-    """Cases with `n` trials of each condition, ten per world from a seed on; raises InvalidInput if a condition is
-    impossible.
+    """Return the cases with `n` trials of each condition, ten trials per world, in the worlds from a seed on.
+    Raises InvalidInput if a condition is impossible.
     """
     for condition in conditions:
         bench().variation().check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))
@@ -194,13 +197,14 @@ def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[
 
 
 def trials_in_world(condition: Condition, last: InsertionTrial) -> list[InsertionTrial]:
-    """The trials of a condition in one world, up to the last one."""
+    """Execute the trials of a condition in one world, up to the one with the number of `last`."""
     begun = fetched(condition.plan, last.seed)
     return [tried(condition, begun, replace(last, number=number)) for number in range(last.number + 1)]
 
 
 def fetched(plan: Plan, seed: int) -> Runner:
-    """A run in the world of a seed, at the beginning of its second stage, unless the run stopped earlier."""
+    """Execute a run in the world of a seed until its second stage begins, with the pin in the hand, or until
+    the run stops earlier."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
     setup = Setup(plan=plan, world=world, camera="ray")
     runner = Runner(Checkpoint(setup=setup))
@@ -212,7 +216,8 @@ def fetched(plan: Plan, seed: int) -> Runner:
 def tried(
     condition: Condition, begun: Runner, trial: InsertionTrial, plan: Plan | None = None
 ) -> InsertionTrial:
-    """Execute a trial from the state with the fetched pin, by a plan with the same first stage as the condition's."""
+    """Execute a trial from the state in which the hand holds the pin. The plan must have the same first stage
+    as the plan of the condition."""
     if begun.ended:
         return replace(trial, told=_told(begun))
     drawn = random_numbers(trial.seed, f"insertion.error.{trial.number}").standard_normal(2) * condition.sd
@@ -226,7 +231,7 @@ def tried(
 
 
 def _seen(trial: InsertionTrial, runner: Runner) -> InsertionTrial:
-    """The trial completed by the witness's record and the program's report."""
+    """Complete the trial with what the witness recorded and what the program reported."""
     seen, done = bench().witnessed(runner.arm_cell), runner.call is None and runner.trouble is None
     return replace(
         trial,
@@ -239,9 +244,11 @@ def _seen(trial: InsertionTrial, runner: Runner) -> InsertionTrial:
 
 
 def _beginning(condition: Condition, begun: Runner, trial: InsertionTrial, plan: Plan) -> Checkpoint:
-    """The start of a trial: the state with the fetched pin, but with another plate and other noise.
+    """Return the start of a trial: the state in which the hand holds the pin, with the plate and the noise of
+    this trial.
 
-    The plate is placed relative to the true position of the pin's end, so that the error is exactly the drawn one.
+    The plate is placed relative to the true position of the pin's end, so that the position error is exactly
+    the one that was drawn.
     """
     start = begun.checkpoint()
     assert start.snapshot is not None
@@ -258,7 +265,7 @@ def _beginning(condition: Condition, begun: Runner, trial: InsertionTrial, plan:
 
 
 def _told(runner: Runner) -> str:
-    """The text of the call of the operator."""
+    """Return the text of the call of the operator."""
     if runner.call is None:
         return runner.trouble or ""
     return call_sentence(runner.call.message, runner.call.error, runner.call.cause)
@@ -266,7 +273,7 @@ def _told(runner: Runner) -> str:
 
 @cache
 def _plan(search: Search, step: float) -> Plan:
-    """The plan of a program of the bench, with a given search step (in)."""
+    """Return the plan of a program of the bench with a given search step (in)."""
     file = plans() / bench().programs[search]
     written = read_source(file)
     source = Source(name=written.name, text=written.text.replace(_WRITTEN_STEP, f"SEARCH  {step:g}"))
@@ -279,7 +286,7 @@ GENTLE: Final = 20.0  # N that a peak is held against
 
 
 class Setting(Record, frozen=True, kw_only=True):
-    """A condition with its search step, and the number of pins inserted gently."""
+    """A condition with its search step, and the number of pins that were inserted gently."""
 
     condition: str
     step_in: float | None  # Step of the search

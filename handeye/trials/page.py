@@ -1,4 +1,4 @@
-"""The statistics of a sweep as an HTML page, in the style of the report of a run."""
+"""Shows the statistics of a sweep as an HTML page, in the style of the report of a run."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -18,7 +18,7 @@ _WIDE, _HIGH = 240.0, 16.0  # plot in a table row, drawing units
 
 
 def sweep_page(title: str, sweep: Sweep[R], rows: Sequence[R], found: Figures) -> bytes:
-    """The page of a sweep; it loads no external files."""
+    """Return the page of a sweep. It loads no external files."""
     body = element(
         "body",
         element(
@@ -71,7 +71,7 @@ def _interval(each: ConditionFigures | Figures) -> Markup:
 
 
 def _details(details: Details) -> Markup:
-    """A table of the sweep's kind, with a bar in each line if the kind defines one."""
+    """Return a table that the kind of sweep defines. If the kind also defines bars, each line ends with a bar."""
     numbers = [details.number(column) for column in range(len(details.heads))]
     headings = [
         (figure_heads if each else heads)(name)[0] for name, each in zip(details.heads, numbers, strict=True)
@@ -106,7 +106,7 @@ def _spans(details: Details) -> list[Markup]:
 
 
 def _measures(rows: Sequence[R], found: Figures) -> Markup:
-    """A strip chart for each measure and condition, with one dot per trial."""
+    """Return a strip chart for each measured value and condition, with one dot per trial."""
     lines = []
     for name in found.measures:
         values = [row.measures[name] for row in rows if name in row.measures]

@@ -1,4 +1,4 @@
-"""Results of many runs as a table."""
+"""The results of many runs as a table."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -31,13 +31,13 @@ _TOLD: Final = 2  # Findings that a row tells
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Results(Sequence[Result]):
-    """Results in the order of their worlds; `print` and notebooks show a table."""
+    """Results in the order of their worlds. `print` and notebooks display them as a table."""
 
     each: tuple[Result, ...]
 
     @property
     def assembled(self) -> int:
-        """Number of worlds in which the referee accepts the work."""
+        """Number of worlds in which the referee accepted the work."""
         return sum(result.assembled is True for result in self.each)
 
     @overload
@@ -66,7 +66,8 @@ class Results(Sequence[Result]):
         return page(table(("world", "verdict", "working phase, s", ""), rows), heading(self._count()))
 
     def table(self) -> Table:
-        """The results as a table, one row per world: verdict, times, and the value of each finding of the referee."""
+        """Return the results as a table with one row per world: verdict, times, and the value of each finding
+        of the referee."""
         findings = {name: each for result in self.each for name, each in result.referee.items()}
         columns = (
             Column(name="seed", about="of the world", values=np.array([each.seed for each in self.each])),
@@ -93,7 +94,7 @@ def assemble_each(
     referee: Referee | Limits | None = None,
     jobs: int = 1,
 ) -> Results:
-    """Run a script in several worlds, and have the referee judge each result.
+    """Run a script in several worlds, and let the referee judge each result.
 
     Args:
         worlds: seeds or worlds.
@@ -102,8 +103,9 @@ def assemble_each(
         camera: renderer of the TV camera: `auto`, `gl` or `ray`.
         search: search pattern, as for `handeye.begin`.
         referee: referee or limits, as for `handeye.begin`.
-        jobs: number of parallel processes. With more than 1, the calling program must be guarded by `if __name__ ==
-            "__main__":`, and `search` and `referee` cannot be Python code; limits are possible.
+        jobs: number of parallel processes. With more than 1, the calling program must be guarded by `if
+            __name__ ==
+            "__main__":`, and `search` and `referee` cannot be Python code, but `referee` can be limits.
 
     Returns:
         a table of results in the order of the worlds.
@@ -135,7 +137,8 @@ def _result(record: Plan, camera: str, limits: Limits | None, world: WorldSpec) 
 
 
 def why(result: Result) -> str:
-    """The reason why a result is not right, with the first of several findings; empty if it is right."""
+    """Return the reason why a result is not right, with the first of several failed findings. Empty if the
+    result is right."""
     if not result.completed:
         return f"{result.stopped_at or ''}: {result.message}"
     wrong = [each.told for each in result.referee.values() if each.refuses]

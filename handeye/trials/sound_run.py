@@ -1,4 +1,5 @@
-"""Fault-free runs, one per world, with closely spaced checkpoints, from which trials start."""
+"""Executes fault-free runs, one per world, and stores closely spaced checkpoints of them. Trials start from
+these checkpoints."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -29,7 +30,7 @@ _WHOLE: Final = "whole"  # A file that says that the run reached its end
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SoundRun:
-    """A run without faults."""
+    """A run without faults, with its stored states."""
 
     world: WorldSpec
     store: CheckpointStore
@@ -37,7 +38,8 @@ class SoundRun:
     stages: tuple[int, ...]  # Numbers, from 1, of the stages that these begin in
 
     def at(self, position: int) -> Checkpoint:
-        """The kept state at, or last before, a number of steps; raises InvalidInput if there is none."""
+        """Return the last stored state with at most `position` steps done. Raises InvalidInput if there is
+        none."""
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
@@ -46,8 +48,8 @@ class SoundRun:
         return found
 
     def before(self, stage: int) -> Checkpoint:
-        """The kept state before the first step of a stage, given by its number from 1; raises InvalidInput if there
-        is none.
+        """Return the stored state before the first step of a stage, whose number counts from 1. Raises
+        InvalidInput if there is none.
         """
         begun = [start for start, number in zip(self.starts, self.stages, strict=True) if number == stage]
         if not begun:
@@ -56,15 +58,15 @@ class SoundRun:
 
 
 def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
-    """The fault-free runs of some worlds, in the order in which they are ready. They are kept in a folder; missing
-    ones are executed now.
+    """Yield the fault-free runs of some worlds, in the order in which they are ready. Runs that the folder does
+    not contain yet are executed now.
     """
     yield from in_processes(partial(sound_run, folder, of), worlds, jobs)
 
 
 def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
-    """The fault-free run of a world, executed now unless the folder contains it; raises InvalidInput for a wrong
-    folder.
+    """Return the fault-free run of a world. It is executed now, unless the folder contains it. Raises
+    InvalidInput if the folder belongs to another setup.
     """
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
     setup = msgspec.structs.replace(of, world=world)
@@ -87,9 +89,10 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
 
 
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Numbers of steps after which a schedule can begin, each with the number of the stage.
+    """Yield the numbers of steps after which a schedule can begin, each with the number of the stage.
 
-    In a program with one stage, none is near the end, because a resumed run may have to undo its work.
+    If the program has only one stage, no schedule begins near its end, because a resumed run may have to undo
+    its work.
     """
     heads = [head for _, head in store.heads()]
     last = max(head.position for head in heads) - (NEAR_END if len(stages) < 2 else 0)
@@ -99,8 +102,8 @@ def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int,
 
 
 def with_faults(start: Checkpoint, faults: Sequence[Fault]) -> Checkpoint:
-    """The state of a fault-free run, changed to that of a run with faults that begin later; raises InvalidInput if
-    that is impossible.
+    """Change the state of a fault-free run to that of a run with faults that begin later. Raises InvalidInput
+    if that is impossible.
     """
     if not faults:
         return start

@@ -1,9 +1,10 @@
-"""A sweep: trials of one kind in many worlds, each saved when it ends, and statistics over all of them.
+"""Executes a sweep: trials of one kind in many worlds. Each trial is saved when it ends, and statistics are
+computed over all of them.
 
-A kind is a value of type `Sweep`: the record of a trial, the class of each outcome, and the tables made from many
-trials. Everything else is common to all kinds: the folder, in which an interrupted sweep continues (`folder`),
-statistics with their intervals (`figures`), the terminal (`text`), the page (`page`), tables (`tables`), and the
-comparison of batches (`comparing`).
+A kind is a value of type `Sweep`. It defines the record of a trial, the class of each outcome, and the tables
+made from many trials. Everything else is common to all kinds: the folder, from which an interrupted sweep can
+continue (`folder`), statistics with their confidence intervals (`figures`), the output on the terminal
+(`text`), the page (`page`), tables (`tables`), and the comparison of batches (`comparing`).
 """
 
 from collections.abc import Callable, Generator, Mapping, Sequence
@@ -46,19 +47,19 @@ _BROKEN_OFF: Final[Mapping[str, str]] = {
 
 
 class Case(Record, frozen=True, kw_only=True):
-    """Trials that are executed together, in one world."""
+    """One or more trials that are executed together in one world."""
 
     trials: tuple[int, ...]  # Their numbers among the trials of the condition, from 0
     seed: Seed
     condition: str = ""  # Condition under which they run; empty: there is only one
 
     def __post_init__(self) -> None:
-        """Raises BadArgument if the seed is out of range."""
+        """Check the seed. Raises BadArgument if it is out of range."""
         checked_seed(self.seed)
 
 
 class TrialRow(Record, frozen=True, kw_only=True):
-    """Record of one trial. Equal trials have equal rows, except for computing time and killed processes."""
+    """The record of one trial. Equal trials have equal rows, except for computing time and killed processes."""
 
     trial: Annotated[int, msgspec.Meta(ge=0)]
     seed: Seed
@@ -71,7 +72,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def key(self) -> tuple[str, int]:
-        """Condition and number, which together identify a trial of a sweep."""
+        """The condition and the number of the trial, which together identify it within its sweep."""
         return self.condition, self.trial
 
     @property
@@ -81,22 +82,22 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def to_be_tried_again(self) -> bool:
-        """True if the trial was ended by this computer, which says nothing about the program."""
+        """True if a problem of this computer ended the trial, so that the trial says nothing about the program."""
         return self.ended in _OF_THE_MACHINE
 
     @property
     def verdict(self) -> str:
-        """Outcome of the trial, a key of `Sweep.outcomes`, or `failed`."""
+        """Outcome of the trial: a key of `Sweep.outcomes`, or `failed`."""
         return FAILED if self.broken_off else self.outcome
 
     @property
     def outcome(self) -> str:
-        """Outcome of a trial that ended by itself; defined by each kind."""
+        """Outcome of a trial that ended by itself. Each kind of trial defines its outcomes."""
         raise NotImplementedError
 
     @property
     def stage(self) -> str:
-        """The stage in which a failed trial failed; empty if unknown."""
+        """The stage in which the trial failed; empty if unknown."""
         return ""
 
     @property
@@ -106,22 +107,23 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def cause(self) -> str:
-        """Cause of the failure; equal causes have equal words."""
+        """Cause of the failure, in words. Failures with equal causes have equal words, so that they can be
+        counted."""
         return self.detail
 
     @property
     def detail(self) -> str:
-        """Cause of the failure, with figures."""
+        """Cause of the failure, in words and numbers."""
         return self.raised or _BROKEN_OFF.get(self.ended, "")
 
     @property
     def measures(self) -> Mapping[str, float]:
-        """Measured values by name and unit, such as `peak, N`; missing values are left out."""
+        """Measured values, by a name with a unit, such as `peak, N`. Missing values are left out."""
         return {}
 
     @property
     def facts(self) -> Mapping[str, float]:
-        """Values that only the table of trials shows, by name and unit."""
+        """Values that appear only in the table of trials, by a name with a unit."""
         return {}
 
 
@@ -130,7 +132,8 @@ R = TypeVar("R", bound=TrialRow)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Details:
-    """A table that a kind of sweep adds to its statistics: on the terminal, on the page, as CSV and in the JSON."""
+    """A table that a kind of sweep adds to its statistics. It appears on the terminal, on the page, as CSV and
+    in the JSON output."""
 
     name: str  # Name of the table and of its key in the JSON
     title: str
@@ -143,18 +146,18 @@ class Details:
     """Fields drawn as a bar with a dot: low end, dot, high end."""
 
     def cells(self) -> list[tuple[str, ...]]:
-        """The rows as displayed."""
+        """Return the rows as they are displayed."""
         names = self.rows[0].__struct_fields__ if self.rows else ()
         return [tuple(told(name, getattr(row, name)) for name in names) for row in self.rows]
 
     def number(self, column: int) -> bool:
-        """True if a column has numbers."""
+        """Return True if a column contains numbers."""
         row = self.rows[0]
         return not isinstance(getattr(row, row.__struct_fields__[column]), str)
 
 
 def told(name: str, value: object) -> str:
-    """The value of a field, as displayed."""
+    """Return the value of a field as it is displayed."""
     if value is None:
         return ""
     if isinstance(value, float):
@@ -169,7 +172,7 @@ def told(name: str, value: object) -> str:
 
 
 def percent(*parts: float | None) -> str:
-    """Fractions of one as percentages, such as `88.6 to 99.1 %`."""
+    """Return fractions as percentages, such as `88.6 to 99.1 %`."""
     return f"{' to '.join(f'{100 * part:.1f}' for part in parts if part is not None)} %"
 
 
@@ -195,7 +198,7 @@ class Sweep(Generic[R]):
     """True if several trials share a world, so that the seed of a trial does not follow from its number."""
 
     def standing(self, row: R) -> Standing:
-        """The class of a trial's outcome."""
+        """Return the class of a trial's outcome."""
         return "wrong" if row.broken_off else self.outcomes[row.outcome]
 
 
@@ -205,7 +208,7 @@ Work = Callable[[Case], Sequence[R]]
 
 @dataclass(frozen=True, slots=True)
 class GuardedWork(Generic[R]):
-    """Work whose exceptions become results, so that a failed trial does not end the sweep."""
+    """Wraps the work of a case. An exception becomes a result, so that a failed trial does not end the sweep."""
 
     work: Work[R]
     row: type[R]
@@ -223,7 +226,7 @@ class GuardedWork(Generic[R]):
 
 
 def lost(row: type[R], case: Case, **fields: object) -> list[R]:
-    """Rows for the lost trials of a case; only how they ended is known."""
+    """Return rows for the lost trials of a case. The rows record only how the trials ended."""
     return [row(trial=k, seed=case.seed, condition=case.condition, **fields) for k in case.trials]  # type: ignore[arg-type]
 
 
@@ -232,11 +235,11 @@ Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, lis
 
 
 def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:
-    """Execute cases in processes on this computer, each used for many cases; with one job and no time limit, in
-    this process.
+    """Return an engine that executes cases in worker processes on this computer. With one job and no time
+    limit, it executes the cases in this process.
 
     Args:
-        cpu_limit_s: CPU time limit of a case, s.
+        cpu_limit_s: CPU time limit for a case (s).
     """
 
     def carry_out(
@@ -250,7 +253,7 @@ def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:
 
 
 def cases(seed: int, numbers: Sequence[int], conditions: Sequence[str] = ("",)) -> list[Case]:
-    """One trial per world under each condition: trial k is in the world of `seed` + k."""
+    """Return one case per world and condition. Trial k is in the world of `seed` + k."""
     return [Case(trials=(k,), seed=seed + k, condition=each) for each in conditions for k in numbers]
 
 
@@ -263,8 +266,8 @@ def carry_out(
     folder: "BatchFolder[R] | None" = None,
     told: Callable[[R], None] = lambda _: None,
 ) -> tuple[R, ...]:
-    """Execute trials and return their rows in the order of the cases; `told` is called for each row after it is
-    kept. Trials already in the folder are not repeated.
+    """Execute trials, and return their rows in the order of the cases. Trials that are already in the folder
+    are not repeated. `told` is called for each row after the row has been saved.
     """
     rows: dict[tuple[str, int], R] = {} if folder is None else dict(folder.rows)
     todo = [case for case in cases if any((case.condition, number) not in rows for number in case.trials)]
@@ -279,7 +282,8 @@ def carry_out(
 
 
 def rows_of(sweep: Sweep[R], answer: Answer[Case, list[R]]) -> list[R]:
-    """Rows of a case, also of a case lost with its process; raises errors from outside the trials."""
+    """Return the rows of a case, even if the case was lost with its process. Raises errors that did not come
+    from the trials."""
     if answer.error is not None:
         raise answer.error
     if answer.value is not None:

@@ -1,4 +1,4 @@
-"""The statistics of a sweep as tables for other programs."""
+"""Converts the statistics of a sweep to tables for other programs."""
 
 from collections.abc import Sequence
 from typing import Any, Final
@@ -15,7 +15,8 @@ ROWS: Final = Kind("table of trials", b"trial,seed,condition,", ending=".csv")
 
 
 def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures, camera: str = "") -> tuple[Table, ...]:
-    """One table per subject: trials, those of the kind, measures, conditions, failures; empty ones are left out."""
+    """Return one table per subject: trials, the subjects of the kind, measured values, conditions and failures.
+    Empty tables are left out."""
     made = [trials(sweep, rows, camera)]
     made += [_of_records(each.name, each.title, each.rows) for each in sweep.details(rows) if each.rows]
     flat: dict[str, Sequence[Record]] = {"conditions": found.conditions, "failures": found.failures}
@@ -28,8 +29,8 @@ def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures, camera: str = "")
 
 
 def trials(sweep: Sweep[R], rows: Sequence[R], camera: str = "") -> Table:
-    """A table with one row per trial: how it ended, why it failed, and all measured values; with a camera, also the
-    renderer.
+    """Return a table with one row per trial: how it ended, why it failed, and all measured values. With a
+    camera, the table also names the renderer.
     """
     failed = [sweep.standing(row) != "right" for row in rows]
     columns = [
@@ -69,7 +70,7 @@ def _of_records(name: str, about: str, records: Sequence[Record]) -> Table:
 
 
 def column(name: str, about: str, values: Sequence[Any], unit: str = "") -> Column:
-    """A column of words or numbers; None becomes an empty word or NaN."""
+    """Return a column of words or numbers. None becomes an empty word or NaN."""
     if any(isinstance(value, str) for value in values):
         return Column(
             name=name, about=about, values=tuple("" if value is None else str(value) for value in values)

@@ -1,4 +1,4 @@
-"""The statistics of a sweep for a terminal."""
+"""Shows the statistics of a sweep on a terminal."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -18,7 +18,8 @@ NARROWEST: Final = 80
 
 
 class PlainTable(Table):
-    """A table of words and figures, which may come from an untrusted file."""
+    """A table of words and figures. Its contents may come from an untrusted file, so control characters are
+    made visible."""
 
     def __init__(self, words: tuple[str, ...], *figures: str) -> None:
         super().__init__(box=None, pad_edge=False, collapse_padding=True, header_style="bold")
@@ -36,7 +37,7 @@ class PlainTable(Table):
 
 
 def page(sweep: Sweep[R], rows: Sequence[R], found: Figures) -> RenderableType:
-    """The summary printed at the end of a sweep."""
+    """Return the summary that is printed at the end of a sweep."""
     tables = [table for table in _tables(sweep, rows, found) if table.rows]
     spaced = [part for table in tables for part in (table, Text())]
     lines = [] if sweep.sentence else [*failures(found)]
@@ -72,7 +73,7 @@ def _rates(sweep: Sweep[R], conditions: Sequence[ConditionFigures]) -> PlainTabl
 
 
 def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
-    """Table of the distributions of measures, by condition or over all trials."""
+    """Return the table of the distributions of measured values, by condition or over all trials."""
     table = PlainTable(("measure",), "trials", "median", "95 %", "most")
     for each in figures:
         name = f"{each.condition}: " if isinstance(each, ConditionFigures) else ""
@@ -86,12 +87,14 @@ def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
 
 
 def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, str]:
-    """Interval and lower bound of a rate, as text; empty if there were no trials."""
+    """Return the confidence interval and the lower bound of a rate as text. Both are empty if there were no
+    trials."""
     return ("", "") if wilson95 is None or p_s is None else (percent(*wilson95), percent(p_s))
 
 
 def failures(found: Figures) -> Iterator[str]:
-    """The failures, each with the command that repeats it, and counts of their causes."""
+    """Yield a line for each failure with the command that repeats it, then a line for each cause with its
+    count."""
     for failure in found.failures:
         place = _place(failure.stage, failure.line)
         condition = f", {failure.condition}" if failure.condition else ""
@@ -105,7 +108,7 @@ def failures(found: Figures) -> Iterator[str]:
 
 
 def verdict(sweep: Sweep[R], found: Figures) -> str:
-    """The number of right trials, with its confidence limits, as a sentence."""
+    """Say in a sentence how many trials were right, with confidence limits."""
     wrong = [name for name, standing in sweep.outcomes.items() if standing == "wrong"]
     counts = [
         counted(found.silent_failures, "silent failure"),
@@ -125,13 +128,14 @@ def verdict(sweep: Sweep[R], found: Figures) -> str:
 
 
 def _place(stage: str, line: str | None = None) -> str:
-    """The place of a failure as a prefix to its cause; empty if unknown."""
+    """Return the place of a failure as a prefix to its cause; empty if the place is unknown."""
     named = f"“{stage}”" if stage not in ("", "referee") else stage
     return f"{named}{f', line {line}' if line else ''}: " if named else ""
 
 
 def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
-    """Batches compared with the first one: success rates, and differences where both succeeded."""
+    """Compare batches with the first one: success rates, and differences of measured values where both trials
+    succeeded."""
     rates = PlainTable(
         (f"compared with {first}",),
         "right",
@@ -156,7 +160,7 @@ def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
 
 
 def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
-    """The success rate so far, such as `3 of 4 assembled (30.1 to 95.4 %)`."""
+    """Return the success rate so far, such as `3 of 4 assembled (30.1 to 95.4 %)`."""
     from handeye.trials.figures import rate
 
     known = [row for row in rows if sweep.standing(row) != "uncounted"]
@@ -166,5 +170,5 @@ def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
 
 
 def kept(rows: int, out: object) -> str:
-    """A sentence about an interrupted batch: how many trials are kept, and how to continue."""
+    """Say in a sentence how many trials of an interrupted batch are saved, and how to continue."""
     return f"{counted(rows, 'trial')} kept in {out}; the same command continues from there"

@@ -1,4 +1,5 @@
-"""Worker processes that execute many trials each; the loss of a process costs only its present trial."""
+"""Worker processes that execute many trials each. If a process is lost, only the trial that it was executing is
+lost."""
 
 import os
 import signal
@@ -26,12 +27,12 @@ SHORTEST_LIMIT_S: Final = 1e-6  # Shortest that it knows from none
 
 
 class WorkerLost(HandeyeError):
-    """The process of a trial was killed, and killed again when the trial was repeated."""
+    """Raised if the process of a trial was killed, and killed again when the trial was repeated."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer(Generic[Item, T]):
-    """Outcome of one item."""
+    """The outcome of one item."""
 
     item: Item
     value: T | None = None
@@ -42,7 +43,7 @@ class Answer(Generic[Item, T]):
 
     @property
     def lost(self) -> bool:
-        """True if the process of the item was killed; the item may be repeated once."""
+        """True if the process of the item was killed. The item may be repeated once."""
         return self.value is None and self.error is None and not self.overdue
 
 
@@ -50,7 +51,7 @@ class Worker:
     """A process that executes one trial after another."""
 
     def __init__(self, trial: Callable[[Any], Any], limit_s: float | None = None) -> None:
-        """Start the process. It ignores Ctrl-C at the terminal, which the parent process handles."""
+        """Start the process. It ignores Ctrl-C at the terminal; the parent process handles it."""
         self.here, there = get_context("spawn").Pipe()
         self.process = get_context("spawn").Process(target=_serve, args=(there, limit_s), daemon=True)
         with deaf_to_interrupts():
@@ -67,7 +68,7 @@ class Worker:
         self._send(given.item)
 
     def end(self) -> None:
-        """Kill the process, even during a trial."""
+        """Kill the process, even if it is executing a trial."""
         self.here.close()
         self.process.kill()
         self.process.join()
@@ -79,7 +80,7 @@ class Worker:
 
 @dataclass(slots=True, kw_only=True)
 class _Assignment(Generic[Item]):
-    """A trial that is waiting or running."""
+    """A trial that waits for a worker or is being executed."""
 
     item: Item
     killed: int = 0
@@ -89,10 +90,12 @@ class _Assignment(Generic[Item]):
 def answers(
     trial: Callable[[Item], T], items: Sequence[Item], count: int, *, limit_s: float | None = None
 ) -> Generator[Answer[Item, T], None, None]:
-    """Answers for all items, in the order in which they end, from worker processes that end with the caller.
+    """Yield the answers for all items, in the order in which the items end. The worker processes end when the
+    caller ends.
 
-    A trial whose process is killed is repeated once in a new process; a trial that uses more than `limit_s` seconds
-    of CPU time is ended. Time in which the process is paused or waits for the processor does not count.
+    If the process of a trial is killed, the trial is repeated once in a new process. A trial is stopped when it
+    has used more than `limit_s` seconds of CPU time; time in which the process is paused or waits for the
+    processor does not count.
     """
     todo = deque(_Assignment[Item](item=item) for item in items)
     workers: list[Worker] = []
@@ -118,7 +121,8 @@ def answers(
 
 
 def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) -> Iterator[T]:
-    """Values for many items, in the order in which they are ready; raises WorkerLost, or the exception of a trial."""
+    """Yield the results for many items, in the order in which they are ready. Raises WorkerLost, or the
+    exception of a trial."""
     for answer in answers(trial, worlds, jobs):
         if answer.error is not None:
             raise answer.error
@@ -132,11 +136,12 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
 
 @contextmanager
 def deaf_to_interrupts() -> Iterator[None]:
-    """In this context, processes are started that ignore Ctrl-C at the terminal; the parent handles it and ends
-    them silently.
+    """Within this context, processes are started so that they ignore Ctrl-C at the terminal. The parent process
+    handles Ctrl-C and ends them silently.
 
-    Threads started here, and processes started by them, ignore Ctrl-C permanently. An interrupt of the parent is
-    delayed until all processes have started, because a partly started process would be unknown and print an error.
+    Threads started here, and processes started by them, ignore Ctrl-C permanently. An interrupt of the parent
+    is delayed until all processes have started, because the parent cannot yet end a partly started process,
+    which would print an error.
     """
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield
@@ -159,14 +164,14 @@ def deaf_to_interrupts() -> Iterator[None]:
 
 
 def _heard(workers: list[Worker]) -> list[Worker]:
-    """Wait for workers that have answered or were lost."""
+    """Wait for workers that have answered or were lost, and return them."""
     busy = [worker for worker in workers if worker.given is not None]
     told = connection.wait([worker.here for worker in busy])
     return [worker for worker in busy if worker.here in told]
 
 
 def _answer(worker: Worker) -> Answer[Any, Any]:
-    """The answer of a worker, which is then idle unless it is lost."""
+    """Return the answer of a worker. The worker is then idle, unless it was lost."""
     given = worker.given
     assert given is not None
     wall_s = given.timer.wall_s
@@ -200,7 +205,8 @@ def _serve(there: Connection, limit_s: float | None) -> None:
 
 @contextmanager
 def _limited(limit_s: float | None) -> Iterator[None]:
-    """In this context, the system ends this process when it has used this much more CPU time."""
+    """Within this context, let the operating system end this process when it has used this much more CPU time
+    (s)."""
     if limit_s is None or not hasattr(signal, "setitimer"):  # as on Windows
         yield
         return

@@ -1,1 +1,1 @@
-"""Facts about a run for display: pictures, forces, planned and measured places, and outcome."""
+"""Collects the facts of a run for display: pictures, forces, planned and measured positions, and outcome."""

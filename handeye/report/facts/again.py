@@ -1,4 +1,4 @@
-"""The command that repeats a run."""
+"""Finds the command that repeats a run."""
 
 import shlex
 from collections.abc import Sequence
@@ -15,8 +15,8 @@ _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
 
 
 def command(run: RecordedRun) -> str | None:
-    """The command that repeats a run; None if the run uses code or a task of the caller, which no command line can
-    contain.
+    """Return the command that repeats a run. Returns None if the run uses code or a task of the caller, which a
+    command line cannot contain.
     """
     head = run.trace.head
     if known(head.task) is None or head.own_parts:
@@ -39,7 +39,7 @@ def command(run: RecordedRun) -> str | None:
 
 
 def is_shipped(digest: str) -> bool:
-    """True if a plan is the one that `assemble` makes."""
+    """Return True if a plan is the one that `assemble` makes by default."""
     task = known(DEFAULT)
     assert task is not None
     assert task.script is not None
@@ -48,12 +48,12 @@ def is_shipped(digest: str) -> bool:
 
 
 def sense_words(senses: Sequence[str]) -> list[str]:
-    """The command-line options that switch senses off."""
+    """Return the command-line options that switch these senses off."""
     return [word for sense in senses for word in ("--without", sense)]
 
 
 def world_words(world: WorldSpec, of: str) -> list[str]:
-    """The command-line options for a world of a task that is known here."""
+    """Return the command-line options that select a world of a known task."""
     task = known(of)
     assert task is not None
     quantities, faults = task.variation().quantities, task.faults(world)
@@ -68,7 +68,8 @@ def world_words(world: WorldSpec, of: str) -> list[str]:
 
 
 def written(quantity: Quantity | None, value: float) -> str:
-    """A value (SI) as it is typed: in the unit of its quantity if that loses no precision, else in SI."""
+    """Return a value (SI) as users type it. It is written in the unit of its quantity or, if that would lose
+    precision, in the SI unit."""
     if quantity is None:
         return repr(value)
     for unit in (quantity.measure, _si(quantity.measure)):
@@ -79,5 +80,5 @@ def written(quantity: Quantity | None, value: float) -> str:
 
 
 def _si(unit: Unit) -> Unit:
-    """The SI unit of the same dimension."""
+    """Return the SI unit of the same dimension."""
     return next(each for each in UNITS.values() if each.dimension == unit.dimension and each.size == 1.0)

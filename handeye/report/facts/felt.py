@@ -1,4 +1,4 @@
-"""Forces and moments at the hand in the guarded motions of a run."""
+"""Extracts the forces and moments at the hand in the guarded motions of a run."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ class GuardedMotion:
 
 
 def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
-    """The guarded motions of a run, in order."""
+    """Return the guarded motions of a run, in order."""
     if not len(run.trace.times):
         return ()
     forces = run.trace.forces()
@@ -47,7 +47,7 @@ def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
 
 
 def lost_trips(run: RecordedRun, motions: Sequence[GuardedMotion]) -> int:
-    """Number of guards that tripped in motions that are not in the trace."""
+    """Return the number of guards that tripped in motions that the trace does not contain."""
     met = sum(isinstance(event, GuardTripped) for event in run.trace.events)
     return met - sum(motion.trip is not None for motion in motions)
 
@@ -62,7 +62,7 @@ def _motions(run: RecordedRun, forces: Forces) -> Iterator[GuardedMotion]:
 
 
 def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, stage: str) -> GuardedMotion:
-    """The guarded motion of a step, over the servo periods in which a guard was active."""
+    """Return the guarded motion of a step, over the servo periods in which a guard was active."""
     kind = GuardKind(str(forces.guard[watched[0]]))
     met = next((event for event in step.events if isinstance(event, GuardTripped)), None)
     return GuardedMotion(
@@ -77,7 +77,7 @@ def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, st
 
 
 def _stages(run: RecordedRun) -> dict[tuple[float, int], str]:
-    """The stage of each step that began, by the step's time and number."""
+    """Return the stage of each step that began, by the step's time and number."""
     found: dict[tuple[float, int], str] = {}
     stage = ""
     for event in run.trace.events:

@@ -1,4 +1,4 @@
-"""The outcome of a run, and the moment that decided it."""
+"""Determines the outcome of a run, and the moment that decided it."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -35,7 +35,7 @@ class Outcome:
 
     @property
     def good(self) -> bool:
-        """True if no failure is known."""
+        """True if the run had no known failure."""
         return self.kind in ("right", "ended")
 
     @property
@@ -45,12 +45,12 @@ class Outcome:
 
     @property
     def ended(self) -> bool:
-        """True if the program ended."""
+        """True if the program reached its end."""
         return self.kind in ("right", "wrong", "ended")
 
 
 def outcome(run: RecordedRun) -> Outcome:
-    """The outcome of a run."""
+    """Return the outcome of a run."""
     last = run.trace.events[-1]
     if isinstance(last, RunFinished) and last.completed:
         return _ended(run)
@@ -66,7 +66,7 @@ def outcome(run: RecordedRun) -> Outcome:
 
 
 def _ended(run: RecordedRun) -> Outcome:
-    """The outcome of a run whose program has ended."""
+    """Return the outcome of a run whose program reached its end."""
     judged = None if run.result is None else run.result.judged
     if run.result is None or judged is None:
         return Outcome(kind="ended", time=run.ends)
@@ -80,7 +80,7 @@ def _ended(run: RecordedRun) -> Outcome:
 
 
 def _standing(run: RecordedRun) -> tuple[str | None, StepStarted | None, OperatorCalled | None]:
-    """The present stage and step of a run, and the call of the operator that is not answered yet."""
+    """Return the present stage and step of a run, and the call of the operator that has not been answered yet."""
     stages = run.trace.stages
     step: StepStarted | None = None
     call: OperatorCalled | None = None

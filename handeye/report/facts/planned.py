@@ -1,5 +1,5 @@
-"""Differences between plan and run: where motions ended and why, which goals were shifted and why, and the
-searches.
+"""Finds differences between plan and run: where motions ended and why, which goals were shifted and why, and
+which searches were made.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -48,7 +48,7 @@ class MotionEnd:
 
 
 def ends(run: RecordedRun) -> tuple[MotionEnd, ...]:
-    """The ends of all motions, in order."""
+    """Return the ends of all motions, in order."""
     return tuple(_ends(run))
 
 
@@ -64,8 +64,8 @@ def _ends(run: RecordedRun) -> Iterator[MotionEnd]:
 
 
 def _off(step: DoneStep) -> Array | None:
-    """Offset of the hand from the planned end of a step, shape (3,), m; None if the step had no planned end, or did
-    not finish.
+    """Return the offset of the hand from the planned end of a step (m, shape (3,)), or None if the step had no
+    planned end or did not finish.
     """
     last = step.events[-1] if step.finished else None
     hand, planned = getattr(last, "hand", None), getattr(last, "planned", None)
@@ -83,7 +83,7 @@ def _why(events: list[AnyEvent], off: Array, before: Array) -> EndReason:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Search:
-    """A search that tried more than its first place."""
+    """A search that tried more than one place."""
 
     step: StepStarted  # The step that sent it on last
     times: tuple[float, ...]  # When it went on, s since the run began
@@ -92,12 +92,12 @@ class Search:
 
 
 def searches(run: RecordedRun) -> tuple[Search, ...]:
-    """The searches that tried more than one place, in order."""
+    """Return the searches that tried more than one place, in order."""
     return tuple(_search(run, tries) for tries in _tries(run.trace.events))
 
 
 def _tries(events: tuple[AnyEvent, ...]) -> Iterator[list[tuple[StepStarted, AnyEvent]]]:
-    """For each search, the steps in which it advanced, with the events of these steps."""
+    """Yield, for each search, the steps in which it advanced, each with its event."""
     step: StepStarted | None = None
     tries: list[tuple[StepStarted, AnyEvent]] = []
     for event in events:
@@ -127,7 +127,7 @@ def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Sear
 
 
 class Mover(StrEnum):
-    """Kinds of reasons for which a goal is shifted."""
+    """The kinds of reasons for shifting a goal."""
 
     SAVE = "saved in"
     LOOK = "seen in"
@@ -136,7 +136,8 @@ class Mover(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """The reason for the shift of a goal: a saved difference, a part that was seen, or the place of a search."""
+    """The reason why a goal was shifted: a saved difference, a part that vision located, or a place of a
+    search."""
 
     name: str
     by: Mover
@@ -156,7 +157,7 @@ class Correction:
 
 
 def corrections(run: RecordedRun) -> tuple[Correction, ...]:
-    """The goals that were shifted, in order."""
+    """Return the goals that were shifted, in order."""
     return tuple(_corrections(run))
 
 
@@ -203,8 +204,8 @@ def _causes(
     known: Mapping[tuple[Mover, str], Cause],
     search: _Search,
 ) -> Iterator[Cause]:
-    """The reasons for the shift of a goal: saved differences, the search and, for the remainder, the last look at
-    the goal's part.
+    """Yield the reasons for the shift of a goal: saved differences, the search and, for the rest of the shift,
+    the last time that vision located the goal's part.
     """
     restored = [event for event in step.events if isinstance(event, Restored)]
     rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))
@@ -220,10 +221,10 @@ def _causes(
 
 
 def _concerns_search(uses: Iterable[Use]) -> bool:
-    """True if the present search is among the values that an operation reads or writes."""
+    """Return True if one of the values that an operation reads or writes is the present search."""
     return any(use.kind == "search" for use in uses)
 
 
 def _operation(run: RecordedRun, step: DoneStep) -> Operation:
-    """The operation of a step."""
+    """Return the operation of a step."""
     return run.program.steps[step.started.step].operation

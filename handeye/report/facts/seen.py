@@ -1,4 +1,4 @@
-"""The pictures that a program took, with the findings of vision in each."""
+"""Collects the pictures that a program took, and what vision found in each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ Finding = PartSeen | PartInspected | PartMatched | ErrorRaised
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SeenPicture:
-    """A picture that was taken."""
+    """A picture that the program took, with what vision found in it."""
 
     time: float  # s since the run began
     name: str
@@ -30,12 +30,12 @@ class SeenPicture:
 
 
 def seen_pictures(run: RecordedRun) -> tuple[SeenPicture, ...]:
-    """The pictures in order; raises InvalidInput if a message about a picture is invalid."""
+    """Return the pictures in order. Raises InvalidInput if a message about a picture is invalid."""
     return tuple(_seen(run))
 
 
 def lost_pictures(run: RecordedRun) -> int:
-    """Number of pictures that are not in the trace."""
+    """Return the number of pictures that the trace does not contain."""
     taken = sum(isinstance(event, PictureTaken) for event in run.trace.events)
     return taken - len(run.trace.pictures)
 
@@ -56,8 +56,8 @@ def _seen(run: RecordedRun) -> Iterator[SeenPicture]:
 
 
 def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
-    """The last marks on each picture, by the time (ns) at which the picture was taken; each set of marks contains
-    the earlier ones.
+    """Return the last marks on each picture, by the time at which the picture was taken (ns). Each set of marks
+    includes the earlier ones.
     """
     try:
         return dict(
@@ -68,7 +68,7 @@ def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
 
 
 def _findings(run: RecordedRun) -> dict[float, list[Finding]]:
-    """The findings in each picture, by the time (s) at which the picture was taken."""
+    """Return what vision found in each picture, by the time at which the picture was taken (s)."""
     found: dict[float, list[Finding]] = {}
     taken: dict[str, float] = {}
     for step in done_steps(run.trace.events):

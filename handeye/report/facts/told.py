@@ -1,4 +1,4 @@
-"""Sensor readings of a run at one moment, and the events that have captions."""
+"""Collects the sensor readings of a run at one moment, and the events that have captions."""
 
 from dataclasses import dataclass
 from typing import Final, NamedTuple
@@ -46,7 +46,7 @@ class CaptionedEvent(NamedTuple):
 
 
 def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
-    """All events with captions, in order."""
+    """Return all events that have captions, in order."""
     return tuple(CaptionedEvent(event.time, event) for event in run.trace.events if isinstance(event, SENSED))
 
 
@@ -60,8 +60,8 @@ class Senses:
 
 
 def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
-    """Sensor readings at a time (s) since the run began; None if not recorded. Raises InvalidInput if the trace is
-    damaged.
+    """Return the sensor readings at a time since the run began (s), or None if none were recorded. Raises
+    InvalidInput if the trace is damaged.
     """
     until = nanoseconds(seconds)
     told = [message for message in run.trace.messages if message.topic == HAND and message.time <= until]

@@ -1,1 +1,1 @@
-"""The report of a run as one HTML page, with one module per section."""
+"""Builds the report of a run as one HTML page, with one module per section."""

@@ -1,4 +1,5 @@
-"""The whole page, with or without a plan: one file that loads no other files and runs only its own scripts."""
+"""Builds the whole page, with or without a plan. The page is one file that loads no other files and runs only
+its own scripts."""
 
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
@@ -34,11 +35,11 @@ REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
 
 
 def report_page(run: RecordedRun, photographs: Album, animated: Animation | None) -> bytes:
-    """The report of a run; equal traces and results give equal pages on one computer. Raises InvalidInput if the
-    trace is invalid.
+    """Return the report of a run. On the same computer, equal traces and results give equal pages. Raises
+    InvalidInput if the trace is invalid.
 
     Args:
-        animated: the 3D animation; None: photographs only.
+        animated: the 3D animation; if None, the page shows only photographs.
     """
     came, heard = outcome(run), told(run)
     sections = tuple(_sections(run, photographs, failed=came.failed))
@@ -75,7 +76,8 @@ def _sections(run: RecordedRun, photographs: Album, *, failed: bool) -> Iterator
 
 
 def head(name: str, style: str, scripts: Sequence[str], *also: str) -> Markup:
-    """The head of a page, with a content security policy that permits only the page's own style and scripts.
+    """Return the head of a page, with a content security policy that permits only the page's own style and
+    scripts.
 
     Args:
         also: further directives for the policy.
@@ -93,22 +95,22 @@ def head(name: str, style: str, scripts: Sequence[str], *also: str) -> Markup:
 
 
 def packed(name: str, data: bytes) -> Markup:
-    """Compressed data in the page, which one of its scripts decompresses."""
+    """Embed compressed data in the page, so that a script of the page can decompress them."""
     return element("script", Markup(b64encode(data).decode()), id=name, type="application/octet-stream")
 
 
 def _digest(content: str) -> str:
-    """The expression with which the policy permits an element of this content."""
+    """Return the expression with which the content security policy permits an element with this content."""
     return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
 
 
 def resource(name: str) -> str:
-    """The content of a file that is included in the page unchanged."""
+    """Return the content of a file that is copied into the page unchanged."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
 def account_page(run: RecordedRun) -> bytes:
-    """The report of a run of any system; equal traces and results give equal pages."""
+    """Return the report of a run of any system. Equal traces and results give equal pages."""
     came = outcome(run)
     said = title(run, came)
     top = element("header", element("h1", said), class_="failed" if came.failed else None)

@@ -1,4 +1,4 @@
-"""Plots over time: forces at the hand in guarded motions, and the machines' own channels."""
+"""Plots quantities over time: forces at the hand in guarded motions, and the machines' own channels."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
@@ -30,11 +30,11 @@ class How(StrEnum):
 
 
 def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: bool = False) -> Markup:
-    """The section on forces, with a collapsible part for each stage.
+    """Return the section on forces, with a collapsible part for each stage.
 
     Args:
         lost: number of guards that tripped before the trace begins.
-        failed: True if the run failed; its last stage is then open.
+        failed: True if the run failed. The part for the last stage is then expanded.
     """
     return section("felt", "What the hand felt", *_content(motions, how=how, lost=lost, failed=failed))
 
@@ -62,7 +62,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
 
 
 def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Markup:
-    """The plots of a stage, closed unless `shown`."""
+    """Return the plots of a stage, collapsed unless `shown`."""
     met = sum(motion.trip is not None for motion in motions)
     said = f"{counted(len(motions), 'guarded motion')}, {met} stopped by a guard"
     summary = element("summary", element("h3", stage), " ", element("span", said))
@@ -71,7 +71,7 @@ def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Mark
 
 
 def _figure(motion: GuardedMotion) -> Markup:
-    """The plot of a guarded motion, with a link to the motion in the 3D view."""
+    """Return the plot of a guarded motion, with a link to this motion in the 3D view."""
     moment = motion.times[-1] if motion.trip is None else motion.trip.time
     when, place = exact_clock(float(moment)), motion.step.place
     statement, said = one_line(motion.step.text), _said(motion)
@@ -87,7 +87,7 @@ def _figure(motion: GuardedMotion) -> Markup:
 
 
 def _said(motion: GuardedMotion) -> str:
-    """The outcome of the guard, in words."""
+    """Say in words whether the guard stopped the motion."""
     limit = felt(motion.guard, motion.limit)
     if motion.trip is not None:
         return f"{_short(motion.guard, motion.trip.value)}; guard {limit}"
@@ -127,7 +127,7 @@ def _short(kind: GuardKind, limit: float) -> str:
 
 
 def channels_section(trace: Trace) -> Markup:
-    """The section on machine channels; empty if no machine has channels."""
+    """Return the section on machine channels. It is empty if no machine has channels."""
     if not trace.channels:
         return Markup("")
     figures = map(_channel_figure, trace.channels)

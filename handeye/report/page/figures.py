@@ -5,31 +5,31 @@ from handeye.program.guards import GuardKind
 
 
 def clock(seconds: float) -> str:
-    """A time of the run, in minutes and whole seconds: `7:08`."""
+    """Return a time of the run in minutes and whole seconds, such as `7:08`."""
     whole = max(0, int(seconds + 1e-6))
     return f"{whole // 60}:{whole % 60:02d}"
 
 
 def duration(seconds: float) -> str:
-    """A duration in minutes and whole seconds."""
+    """Return a duration in minutes and whole seconds."""
     return clock(round(seconds))
 
 
 def exact_clock(seconds: float) -> str:
-    """A time of the run to a tenth of a second: `7:08.6`."""
+    """Return a time of the run to a tenth of a second, such as `7:08.6`."""
     tenths = max(0, int(10 * seconds + 1e-6))
     return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
 
 
 def millimetres(length: float) -> str:
-    """A length (m) in millimetres, with one or two decimals."""
+    """Return a length (m) in millimetres, with one or two decimals."""
     size = length / MILLIMETRE
     places = 2 if abs(size) < 10 else 1
     return f"{size:z.{places}f}"
 
 
 def felt(kind: GuardKind, value: float) -> str:
-    """The value that a guard watches, in SI and in the units of the language."""
+    """Return the value that a guard watches, in SI units and in the units of the arm language."""
     match kind:
         case GuardKind.FORCE | GuardKind.AGAINST:
             return f"{value:z.1f} N ({value / OUNCE_FORCE:.4g} oz)"

@@ -1,4 +1,4 @@
-"""Data for the page's script: steps, stages and captions with their times."""
+"""Prepares data for the page's script: steps, stages and captions with their times."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -16,7 +16,7 @@ from handeye.trace.sentences import measures_of, sentence
 
 
 def moments(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Markup:
-    """The data, as an invisible element."""
+    """Return these data as an invisible HTML element."""
     files = ("", *run.program.required)
     steps = [event for event in run.trace.events if isinstance(event, StepStarted)]
     measures = measures_of(run.trace.head.task)
@@ -33,5 +33,5 @@ def moments(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
 
 
 def json_markup(data: Any) -> Markup:
-    """Data as JSON that cannot end the HTML element that contains it."""
+    """Encode data as JSON that cannot end the HTML element that contains it."""
     return Markup(msgspec.json.encode(data).decode().replace("<", "\\u003c"))

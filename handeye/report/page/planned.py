@@ -1,4 +1,5 @@
-"""The section "Planned and found": how far motions ended from their planned ends, and why goals were shifted."""
+"""Builds the section "Planned and found": how far from their planned ends motions ended, and why goals were
+shifted."""
 
 from collections.abc import Iterator, Sequence
 from math import log10
@@ -50,7 +51,7 @@ def planned_section(
     searches: Sequence[Search],
     stages: Sequence[Stage],
 ) -> Markup:
-    """The section with ends of motions, shifted goals and searches."""
+    """Return the section with ends of motions, shifted goals and searches."""
     return section(
         "planned",
         "Planned and found",
@@ -91,7 +92,7 @@ def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Markup:
 
 
 class _Decades:
-    """A logarithmic scale of distances, mm."""
+    """A logarithmic scale of distances (mm)."""
 
     def __init__(self, least: float, most: float) -> None:
         self._scale = Scale(log10(least), log10(most), _HIGH - _FOOT, 12.0)
@@ -107,7 +108,7 @@ def _grid(decades: Sequence[float], y: _Decades) -> Iterator[Markup]:
 
 
 def _bands(stages: Sequence[Stage], x: Scale) -> Iterator[Markup]:
-    """Marks with numbers at the beginnings of stages."""
+    """Yield a numbered mark at the beginning of each stage."""
     for number, stage in enumerate(stages, 1):
         at = x(stage.begin)
         yield rule(at, 12, at, _HIGH - _FOOT + 6, class_="grid")
@@ -155,7 +156,7 @@ _SPIRAL: Final = 220.0
 
 
 def searched(searches: Sequence[Search]) -> Iterator[Markup]:
-    """Drawings of the searches of a run, each as a path through its places."""
+    """Yield drawings of the searches of a run. Each shows the path through the places that the search tried."""
     yield element("h3", "Searches")
     if not searches:
         yield note("No search needed a second place.")

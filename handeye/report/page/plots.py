@@ -30,12 +30,13 @@ class Scale:
 def drawing(
     *children: Content, wide: float = WIDE, high: float = HIGH, label: str, role: str = "img"
 ) -> Markup:
-    """A drawing with a label for screen readers; with the role `group`, its elements can be reached."""
+    """Return a drawing with a label for screen readers. With the role `group`, screen readers can also reach
+    the elements inside the drawing."""
     return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role=role, aria_label=label)
 
 
 def curve(xs: Array, ys: Array, **attributes: str) -> Markup:
-    """A line through points, without those that make no visible difference."""
+    """Return a line through points, without the points that make no visible difference."""
     kept = kept_points(np.column_stack([xs, ys]), TOLERANCE)
     way = "M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in kept.tolist())
     return element("path", d=way, **attributes)
@@ -57,12 +58,12 @@ def words(x: float, y: float, content: str, *, anchor: str = "start", class_: st
 
 
 def bar(x: float, y: float, wide: float, high: float, *, class_: str) -> Markup:
-    """A bar, wide enough to be visible."""
+    """Return a bar, which is always wide enough to be visible."""
     return element("rect", x=_at(x), y=_at(y), width=_at(max(wide, 0.5)), height=_at(high), class_=class_)
 
 
 def kept_points(points: Array, tolerance: float) -> Array:
-    """The points that are needed to draw a line within a tolerance, shape (n, 2)."""
+    """Return those points, shape (n, 2), that are needed to draw a line within a tolerance."""
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
         begins = points[first]

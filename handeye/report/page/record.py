@@ -1,4 +1,5 @@
-"""The section with the conditions of the run: world, plan, versions, and the command that repeats the run."""
+"""Builds the section with the conditions of the run: world, plan, versions, and the command that repeats the
+run."""
 
 from collections.abc import Iterator
 
@@ -47,7 +48,7 @@ def _again(run: RecordedRun) -> Iterator[Markup]:
 
 
 def facts(run: RecordedRun) -> Markup:
-    """The conditions of the run, one per line."""
+    """Return the conditions of the run, one per line."""
     head = run.trace.head
     rows: list[tuple[str, Content]] = [*_overrides(run)]
     rows += [
@@ -67,7 +68,7 @@ def facts(run: RecordedRun) -> Markup:
 
 
 def _overrides(run: RecordedRun) -> Iterator[tuple[str, Content]]:
-    """The faults and overrides of the run's world."""
+    """Yield the faults and overrides of the run's world."""
     world = run.trace.head.world
     for name, meaning in told_faults(run):
         yield "fault", joined([element("code", name), f" {meaning}"])
@@ -101,8 +102,8 @@ def _world(run: RecordedRun) -> Iterator[Markup]:
 
 
 def _quantities(run: RecordedRun) -> tuple[QuantityReport, ...]:
-    """The quantities of the run's world, with set quantities first; raises InvalidInput if another version
-    generated them differently.
+    """Return the quantities of the run's world. Quantities that the user set come first. Raises InvalidInput if
+    another version of handeye drew the world differently.
     """
     task, world = known(run.trace.head.task), run.trace.head.world
     if task is None:

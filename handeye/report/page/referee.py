@@ -1,4 +1,4 @@
-"""The section with the referee's measurements and their limits."""
+"""Builds the section with the referee's measurements and their limits."""
 
 from collections.abc import Iterable, Iterator
 from typing import Final
@@ -41,7 +41,7 @@ def _content(run: RecordedRun) -> Iterator[Markup]:
 
 
 def findings_table(checks: Iterable[Check]) -> Markup:
-    """A table of findings, each with a bar that shows what fraction of the limit the value uses."""
+    """Return a table of findings. A bar in each row shows what fraction of the limit the value reaches."""
     head = [
         *heads("", "finding"),
         *figure_heads("value", "limit"),
@@ -75,7 +75,7 @@ def _mark(check: Check) -> tuple[Markup]:
 
 
 def used(check: Check) -> float | None:
-    """Fraction of its limit that a value uses; None for a count, or if the limit is zero."""
+    """Return the fraction of its limit that a value reaches. Returns None for a count, or if the limit is zero."""
     if check.unit not in UNITS or check.limit == 0:
         return None
     if check.relation == "at least" and check.limit > 0:

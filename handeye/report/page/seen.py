@@ -1,4 +1,4 @@
-"""The section with the camera's pictures and the findings in them."""
+"""Builds the section with the camera's pictures and what vision found in them."""
 
 import struct
 import zlib
@@ -20,7 +20,8 @@ from handeye.vision.marks import Colour, Disc, Line, Loop, Mark
 
 
 def seen_section(pictures: Sequence[SeenPicture], *, lost: int) -> Markup:
-    """The section with the camera's pictures; `lost` is the number of pictures that are not in the trace."""
+    """Return the section with the camera's pictures. `lost` is the number of pictures that the trace does not
+    contain."""
     return section("seen", "What the camera saw", *_content(pictures, lost))
 
 
@@ -49,7 +50,7 @@ def _figure(seen: SeenPicture) -> Markup:
 
 
 def figure(seen: SeenPicture, name: str) -> Markup:
-    """A picture with its name, the findings drawn over it, and the findings in words below."""
+    """Return a picture with its name. What vision found is drawn over the picture, and described below it."""
     png = data_address("image/png", picture_png(seen.picture))
     rows, columns = seen.picture.shape
     told = [_told(finding) for finding in seen.findings]
@@ -72,14 +73,15 @@ def figure(seen: SeenPicture, name: str) -> Markup:
 
 
 def _told(finding: Finding) -> str:
-    """The finding as a sentence, or the reason why there is none."""
+    """Describe in a sentence what vision found, or why it found nothing."""
     if isinstance(finding, ErrorRaised):
         return f"error {finding.number}: {error_sentence(finding.number, finding.cause)}"
     return sentence(finding)
 
 
 def _mark(mark: Mark) -> Markup:
-    """A mark as SVG; picture points count from the centre of the first point, drawings from its corner."""
+    """Return a mark as SVG. Coordinates in pictures count from the centre of the first pixel, those in drawings
+    from its corner."""
     match mark:
         case Loop():
             points = " ".join(f"{u + 0.5:.2f},{v + 0.5:.2f}" for u, v in mark.points)
@@ -108,7 +110,7 @@ _BITS: Final = 4
 
 
 def picture_png(picture: Picture) -> bytes:
-    """A picture as a PNG file: grey, four bits per point, with unchanged levels."""
+    """Encode a picture as a grey PNG file with four bits per pixel and unchanged grey levels."""
     height, width = picture.shape
     head = struct.pack(">IIBBBBB", width, height, _BITS, _GREY, 0, 0, 0)
     return (
@@ -120,7 +122,8 @@ def picture_png(picture: Picture) -> bytes:
 
 
 def _lines(picture: Picture) -> bytes:
-    """The lines of a picture, two points per byte, each line preceded by the number of its filter (none)."""
+    """Return the lines of a picture as PNG stores them: two pixels per byte, and before each line the number of
+    its filter, which is "none"."""
     even = np.pad(picture, ((0, 0), (0, picture.shape[1] % 2)))
     packed = (even[:, ::2] << 4 | even[:, 1::2]).astype(np.uint8)
     return np.pad(packed, ((0, 0), (1, 0))).tobytes()

@@ -1,4 +1,4 @@
-"""The script as HTML, line by line, with syntax colours."""
+"""Shows the script as HTML, line by line, with syntax colours."""
 
 from typing import Final
 
@@ -17,12 +17,12 @@ _AROUND: Final = 2
 
 
 def line_id(line: int, file: str = "", files: tuple[str, ...] = ()) -> str:
-    """The id of a line in the page."""
+    """Return the HTML id of a line of the script."""
     return f"line-{files.index(file) if file in files else 0}-{line}"
 
 
 def listing(program: Program) -> Markup:
-    """All texts of a program: the script, then the required files."""
+    """Return all texts of a program: the script, followed by the required files."""
     files = ("", *program.required)
     texts = (program.source, *program.required.values())
     return joined(
@@ -42,7 +42,7 @@ def listing(program: Program) -> Markup:
 
 
 def excerpt(program: Program, step: StepStarted) -> Markup:
-    """The line of a step, with the lines around it."""
+    """Return the line of a step together with the lines around it."""
     lines = coloured(program, program.required.get(step.file, program.source))
     first = max(1, step.line - _AROUND)
     shown = lines[first - 1 : step.line + _AROUND]
@@ -54,7 +54,7 @@ def excerpt(program: Program, step: StepStarted) -> Markup:
 
 
 def coloured(program: Program, content: str) -> list[Markup]:
-    """The lines of a text, with syntax colours."""
+    """Return the lines of a text with syntax colours."""
     plain = content.replace("\r\n", "\n").expandtabs(8)
     if program.language != LANGUAGE:
         return [text(line) for line in plain.split("\n")]

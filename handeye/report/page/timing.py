@@ -1,4 +1,4 @@
-"""The section with the times of the run by stage, beside those of 1973."""
+"""Builds the section with the times of the run by stage, compared with those of 1973."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -69,7 +69,7 @@ def _row(
 
 
 def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
-    """Remarks on times that the table does not contain."""
+    """Yield remarks about times that the table does not contain."""
     yield "Times are in minutes and seconds of simulated time."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
     calibration = run.trace.head.prepared - friction

@@ -1,4 +1,5 @@
-"""The head of the page: the outcome of the run and, if it failed, the reason, the line, and the sensor readings."""
+"""Builds the top of the page: the outcome of the run and, if it failed, the reason, the line of the script, and
+the sensor readings."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -37,7 +38,7 @@ _NEUTRAL: Final = Words(done="The referee found everything right.", product="the
 
 
 def title(run: RecordedRun, outcome: Outcome) -> str:
-    """The outcome of a run in one sentence."""
+    """Say in one sentence how the run ended."""
     task = known(run.trace.head.task)
     words = _NEUTRAL if task is None else task.words
     apart = None if run.result is None else run.result.apart
@@ -66,7 +67,7 @@ def title(run: RecordedRun, outcome: Outcome) -> str:
 def verdict(
     run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent], photograph: Photograph
 ) -> Markup:
-    """The head of the page."""
+    """Return the top of the page."""
     head = run.trace.head
     arm = f" on the simulated {head.arm} arm" if head.arm else ""
     words = element(
@@ -79,7 +80,7 @@ def verdict(
 
 
 def _said(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
-    """The sentences below the title."""
+    """Yield the sentences below the title."""
     yield from why(outcome)
     yield from _broken(run)
     if outcome.ended:
@@ -92,7 +93,7 @@ def _said(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) ->
 
 
 def _unseen(run: RecordedRun) -> Iterator[Markup]:
-    """Notes on parts of the run that the page cannot show."""
+    """Yield notes on parts of the run that the page cannot show."""
     if run.begins > 0:
         yield note(
             f"This run was resumed from a checkpoint, and its trace begins at {clock(run.begins)}. Events before "
@@ -103,7 +104,7 @@ def _unseen(run: RecordedRun) -> Iterator[Markup]:
 
 
 def _course(run: RecordedRun) -> Iterator[str]:
-    """Sentences on progress and duration of the run."""
+    """Yield sentences on the progress and the duration of the run."""
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
     yield f"The run did {steps} in {stages} and took {duration(run.ends)} min of simulated time."
@@ -113,7 +114,7 @@ def _course(run: RecordedRun) -> Iterator[str]:
 
 
 def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
-    """The referee's verdict on work that is right."""
+    """Yield the referee's verdict on work that is right."""
     if run.result is None or not run.result.referee or not outcome.good:
         return
     shares = [(share, check) for check in run.result.referee.values() if (share := used(check)) is not None]
@@ -127,14 +128,14 @@ def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
 
 
 def _broken(run: RecordedRun) -> Iterator[Markup]:
-    """The injected faults of the run."""
+    """Yield the faults injected in the run."""
     for name, meaning in told_faults(run):
         told = element("code", name)
         yield element("p", "Injected fault, unknown to the program: ", told, f". {meaning}", class_="broken")
 
 
 def in_figures(run: RecordedRun) -> Iterator[Markup]:
-    """The statistics of a run as a list, without zeros."""
+    """Yield the statistics of a run as a list. Zeros are left out."""
     told = [(count, what) for count, what in _figures(run) if count]
     rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in told)
     if told:
@@ -158,7 +159,7 @@ _SAID: Final = 4
 
 
 def why(outcome: Outcome) -> Iterator[Markup]:
-    """Sentences on why the run failed."""
+    """Yield sentences that say why the run failed."""
     yield from (element("p", reason, class_="reason") for reason in _reasons(outcome))
 
 
@@ -173,7 +174,7 @@ def _reasons(outcome: Outcome) -> Iterator[str]:
 
 
 def _called(call: OperatorCalled) -> str:
-    """The reason why the program called the operator, as a sentence."""
+    """Say in a sentence why the program called the operator."""
     reason = call_sentence(call.message, call.error, call.cause)
     if call.message or not reason:
         return f"The program called the operator{f': “{reason}”' if reason else ''}."
@@ -181,7 +182,7 @@ def _called(call: OperatorCalled) -> str:
 
 
 def _finding(check: Check) -> str:
-    """A failed finding as a sentence."""
+    """Describe a failed finding in a sentence."""
     right = f"allowed: {check.relation} {check.limit:.3g} {check.unit}"
     return f"{_capital(check.subject)}: {check.value:.3g} {check.unit}; {right}."
 
@@ -191,7 +192,7 @@ def _capital(words: str) -> str:
 
 
 def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
-    """Progress of the run, the current line, and the last sensor readings."""
+    """Yield the progress of the run, the current line of the script, and the last sensor readings."""
     line = "" if outcome.step is None else f"Line {outcome.step.place}, "
     done = {stage.name for stage in run.trace.stages if stage.status == "done"}
     at = to_moment(outcome.time, exact_clock(outcome.time))
@@ -203,7 +204,7 @@ def where(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) ->
 
 
 def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Iterator[Markup]:
-    """The last sensor readings."""
+    """Yield the last sensor readings."""
     rows = [(exact_clock(each.time), sentence(each.event)) for each in told if _tells(each, run, outcome)][
         -_SAID:
     ]
@@ -217,7 +218,8 @@ def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
 
 
 def _tells(each: CaptionedEvent, run: RecordedRun, outcome: Outcome) -> bool:
-    """True if an event may explain the outcome: it is from the same stage, and is not the reason itself."""
+    """Return True if an event may explain the outcome: it happened in the same stage, and is not itself the
+    reported reason."""
     begun = max((stage.begin for stage in run.trace.stages), default=0.0)
     call = outcome.call
     reason = isinstance(each.event, ErrorRaised) and call is not None and each.event.number == call.error

@@ -1,4 +1,4 @@
-"""The section with the 3D view of the run: stages, controls, and the script beside the view."""
+"""Builds the section with the 3D view of the run: the stages, the controls, and the script beside the view."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -54,7 +54,7 @@ def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
 
 
 def _bar(run: RecordedRun) -> Markup:
-    """The stages as links, with widths in proportion to their durations."""
+    """Return the stages as links, whose widths are proportional to the durations of the stages."""
     links = (_stage(run, number, stage) for number, stage in enumerate(run.trace.stages, 1))
     return element(
         "nav",
@@ -80,7 +80,7 @@ def _stage(run: RecordedRun, number: int, stage: Stage) -> Markup:
 
 
 def widths(run: RecordedRun) -> str:
-    """CSS rules that make the width of each stage proportional to its duration."""
+    """Return CSS rules that make the width of each stage proportional to the stage's duration."""
     return "".join(
         f"#stages .s{number}{{flex-grow:{100 * max(stage.end - stage.begin, 0.1):.0f}}}"
         for number, stage in enumerate(run.trace.stages, 1)

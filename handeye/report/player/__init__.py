@@ -7,26 +7,27 @@ decompresses scene and tracks (`DecompressionStream("gzip")`) and passes them to
 const player = await createPlayer(canvas, scene, tracks, options);
 ```
 
-Without WebGL 2 the promise is rejected with an `Error` whose message is a sentence. Times are seconds since the run
-began. Options: `still` (the view changes at once; the default follows the browser's setting for reduced motion),
-`exposures` (pictures that are averaged when nothing moves).
+Without WebGL 2 the promise is rejected with an `Error` whose message is a sentence. Times are seconds since the
+run began. There are two options. `still`: the view changes at once instead of gliding; the default follows the
+browser's setting for reduced motion. `exposures`: the number of pictures that are averaged when nothing moves.
 
 | member | |
 |---|---|
 | `begin`, `end`, `duration` | the range of the tracks, s |
-| `at(seconds)`, `time` | show a time of the run; the time shown. The page advances the time |
+| `at(seconds)`, `time` | show the run at a time; the time that is shown. The page must advance the time |
 | `views`, `view(name)` | names of the views, `room` first; change to a view |
-| `names`, `pose(body, seconds)` | bodies as in `Trace.poses`; position (m) and quaternion w, x, y, z, or null: hidden |
+| `names`, `pose(body, seconds)` | names of the bodies, as in `Trace.poses`; a body's position (m) and
+quaternion w, x, y, z, or null if it is hidden |
 | `pick(x, y)` | the displayed name of the body at a point of the canvas (CSS pixels), or null |
-| `onpick` | null or a function `(name, x, y)`, called at a click |
-| `settled()` | a promise: the averaged picture is shown |
-| `frames` | pictures drawn so far |
+| `onpick` | null, or a function `(name, x, y)` that is called at each click |
+| `settled()` | a promise that is fulfilled when the averaged picture is shown |
+| `frames` | number of pictures drawn so far |
 | `destroy()` | release canvas and graphics memory |
 
-Gestures: one finger or the left button turns the view, two fingers or the right button move it, a pinch zooms. While
-the canvas has the focus, the wheel, plus and minus zoom, arrows turn, and Shift with arrows moves the view. The page
-sets the size of the canvas. The style `touch-action` of the canvas determines which touches it gets: `none` gives it
-all touches, `pan-y` all except vertical scrolling.
+Gestures: one finger or the left button turns the view, two fingers or the right button move it, a pinch zooms.
+While the canvas has the focus, the wheel and the plus and minus keys zoom, the arrow keys turn the view, and
+Shift with the arrow keys moves it. The page sets the size of the canvas. The style `touch-action` of the canvas
+determines which touches it gets: `none` gives it all touches, `pan-y` all except vertical scrolling.
 """
 
 from pathlib import Path
@@ -49,12 +50,12 @@ SOURCES: Final = Path(__file__).with_name("script")
 
 
 def scene_bytes(trace: Trace) -> bytes:
-    """The scene of a run, compressed: surfaces, materials, names, views."""
+    """Return the scene of a run, compressed: surfaces, materials, names and views."""
     return scene.scene_bytes(trace.scene)
 
 
 def tracks_bytes(trace: Trace) -> bytes:
-    """The tracks of all visible bodies in a run, and the run's clock, compressed."""
+    """Return the tracks of all visible bodies in a run and the run's clock, compressed."""
     begin, end = trace.covers
     return tracks.tracks_bytes(
         shown_poses(trace),
@@ -66,8 +67,8 @@ def tracks_bytes(trace: Trace) -> bytes:
 
 
 def shown_poses(trace: Trace) -> dict[str, Poses]:
-    """Poses of the visible bodies in all servo periods: those in the trace, and for bodies that no run moves, those
-    of the scene.
+    """Return the poses of the visible bodies in all servo periods. They come from the trace or, for bodies that
+    no run moves, from the scene.
     """
     model, poses = trace.scene, trace.poses
     shown = [model.body(body).name for body in range(1, model.nbody) if scene.seen(model, body)]
@@ -76,14 +77,14 @@ def shown_poses(trace: Trace) -> dict[str, Poses]:
 
 
 def script() -> str:
-    """The script, `const createPlayer = ...;`, with all modules in one, so that a page can contain it and state its
-    hash.
+    """Return the script, `const createPlayer = ...;`. It contains all modules, so that a page can embed it and
+    state its hash.
     """
     parts = [_plain((SOURCES / f"{name}.js").read_text("utf-8")) for name in MODULES]
     return f'const createPlayer = (() => {{\n"use strict";\n{"".join(parts)}return createPlayer;\n}})();\n'
 
 
 def _plain(module: str) -> str:
-    """A module without comments and import statements, because all modules share one scope in the page."""
+    """Return a module without comments and import statements, because all modules share one scope in the page."""
     lines = (line.strip().removeprefix("export ") for line in module.splitlines())
     return "".join(f"{line}\n" for line in lines if line and not line.startswith(("import ", "//")))

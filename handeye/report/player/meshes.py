@@ -1,4 +1,4 @@
-"""Surfaces of bodies as arrays of corners; equal surfaces are stored once."""
+"""Stores the surfaces of bodies as arrays of vertices. Equal surfaces are stored once."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ FINE: Final = 200  # Triangles from which on a body has a coarser surface as wel
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Piece:
-    """A surface of one material."""
+    """A part of a body's surface, of one material."""
 
     name: str
     surface: Surface
@@ -25,13 +25,13 @@ class Piece:
 
     @property
     def size(self) -> float:
-        """Length of the longest side of the surface's bounding box, m."""
+        """Length of the longest side of the surface's bounding box (m)."""
         return float(np.ptp(self.surface.points, axis=0).max())
 
 
 @dataclass(slots=True)
 class Meshes:
-    """Meshes, one per body and made of its pieces: a fine mesh, and a coarse one if that saves much."""
+    """The meshes of bodies. Each body has a fine mesh, and also a coarse one if that has far fewer corners."""
 
     told: list[dict[str, Any]] = field(default_factory=list)
     """Data for the page on each mesh: `fine` and `coarse`, first corner and number of corners of the triangles;
@@ -44,11 +44,12 @@ class Meshes:
     _known: dict[tuple[bytes, ...], int] = field(default_factory=dict)
 
     def number(self, pieces: Sequence[Piece]) -> int:
-        """Number of the mesh of a body; the mesh is added if it is new."""
+        """Return the number of a body's mesh. A new mesh is added."""
         return self._added(pieces, _coarse(pieces))
 
     def number_of_parts(self, pieces: Sequence[Piece]) -> int:
-        """Like `number`, for a body whose pieces have names to point at; pieces of one name are stored together."""
+        """Like `number`, for a body on whose named pieces the user can click. Pieces with the same name are
+        stored together."""
         number = self._added(pieces, ())
         first, _ = self.told[number]["fine"]
         self.told[number]["parts"] = parts = []
@@ -59,7 +60,7 @@ class Meshes:
         return number
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Corners and triangles of all meshes."""
+        """Return the vertices and triangles of all meshes."""
         return {
             "points": columns(np.concatenate(self._points)),
             "normals": np.ascontiguousarray(np.concatenate(self._normals).T),
@@ -98,7 +99,7 @@ class Meshes:
 
 
 def _coarse(pieces: Sequence[Piece]) -> Sequence[Piece]:
-    """Coarser pieces; none if they would save less than half of the corners."""
+    """Return coarser pieces, or none if they would save less than half of the corners."""
     cell = float(np.ptp(_points(pieces), axis=0).max()) / CELLS
     if _corners(pieces) < 3 * FINE:
         return ()
@@ -110,7 +111,7 @@ def _coarse(pieces: Sequence[Piece]) -> Sequence[Piece]:
 
 
 def _corners(pieces: Sequence[Piece]) -> int:
-    """Number of corners of all triangles."""
+    """Return the number of corners of all triangles."""
     return sum(piece.surface.triangles.size for piece in pieces)
 
 
@@ -122,7 +123,8 @@ CELLS: Final = 14  # Along the longest side of a body: what lies in one cell bec
 
 
 def coarsened(surface: Surface, cell: float) -> Surface:
-    """A surface in which all points within a cell (m) of a grid are merged, with the triangles that remain."""
+    """Merge all points of a surface that lie in the same cell of a grid with cells of `cell` (m). Returns the
+    surface of the remaining triangles."""
     places = np.floor((surface.points - surface.points.min(axis=0)) / cell + 0.5)
     _, number = np.unique(places, axis=0, return_inverse=True)
     number = number.reshape(-1)

@@ -1,6 +1,7 @@
-"""Packs arrays into few bytes for a page: a header in JSON, then the arrays one after another, compressed.
+"""Packs arrays for a page into few bytes: a JSON header, followed by the arrays, all compressed.
 
-Arrays are stored by column and as differences, because repeated bytes compress well.
+Arrays are stored by column, as differences of successive values. These contain many repeated bytes, which
+compress well.
 """
 
 import gzip
@@ -16,10 +17,11 @@ _ALIGNED: Final = 4
 
 
 def packed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """Compress a header and arrays. The header has the type, first byte and number of values of each array.
+    """Compress a header and arrays. The header gives the type, the first byte and the number of values of each
+    array.
 
-    The first byte counts from the end of the header; the first four bytes of the data give the length of the
-    header.
+    The position of the first byte counts from the end of the header. The first four bytes of the data give the
+    length of the header.
     """
     places, body = {}, b""
     for name, array in arrays.items():
@@ -35,8 +37,8 @@ def _padded(data: bytes, filling: bytes = b"\0") -> bytes:
 
 
 def columns(values: NDArray[Any]) -> NDArray[np.uint16]:
-    """Differences along each column of whole numbers, shape (n, k), column after column; differences wrap at 16
-    bits.
+    """Return the differences between successive rows of whole numbers, shape (n, k), one column after another.
+    Differences wrap at 16 bits.
     """
     rows = values.astype(np.int64)
     steps = np.diff(rows, axis=0, prepend=np.zeros_like(rows[:1]))
@@ -44,14 +46,15 @@ def columns(values: NDArray[Any]) -> NDArray[np.uint16]:
 
 
 def zigzag(values: NDArray[Any]) -> NDArray[np.uint32]:
-    """Differences of whole numbers, shape (n,), with negative ones as odd numbers: 0, -1, 1, -2 become 0, 1, 2, 3."""
+    """Return the differences between successive whole numbers, shape (n,). Negative differences become odd
+    numbers: 0, -1, 1, -2 become 0, 1, 2, 3."""
     steps = np.diff(values.astype(np.int64), prepend=0)
     return np.where(steps < 0, -2 * steps - 1, 2 * steps).astype(np.uint32)
 
 
 def quantised(values: NDArray[Any]) -> tuple[NDArray[np.uint16], list[float]]:
-    """Points, shape (n, 3), as 16-bit whole numbers, and `least` (3 numbers) and `step`: the points are `least` +
-    number * `step`.
+    """Convert points, shape (n, 3), to 16-bit whole numbers. Also returns `least` (3 numbers) and `step`: a
+    point is `least` + number * `step`.
     """
     least = values.min(axis=0)
     step = max(float(np.ptp(values, axis=0).max()), 1e-6) / 0xFFFF
@@ -59,8 +62,8 @@ def quantised(values: NDArray[Any]) -> tuple[NDArray[np.uint16], list[float]]:
 
 
 def octahedral(normals: NDArray[Any]) -> NDArray[np.int8]:
-    """Unit vectors, shape (n, 3), as two 8-bit numbers each, shape (n, 2): positions on an octahedron unfolded to a
-    square.
+    """Convert unit vectors, shape (n, 3), to two 8-bit numbers each, shape (n, 2). These are coordinates on an
+    octahedron that is unfolded to a square.
     """
     flat = normals / np.abs(normals).sum(axis=1, keepdims=True)
     sign = np.where(flat[:, :2] >= 0, 1.0, -1.0)
@@ -69,5 +72,5 @@ def octahedral(normals: NDArray[Any]) -> NDArray[np.int8]:
 
 
 def rounded(values: NDArray[Any]) -> list[float]:
-    """Figures rounded to seven decimals, to keep JSON short."""
+    """Round numbers to seven decimals, to keep JSON short."""
     return [round(float(value), 7) for value in values]

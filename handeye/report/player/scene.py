@@ -1,4 +1,4 @@
-"""Data for drawing a scene on a page: surfaces, materials, names, views and lamp."""
+"""Prepares the data for drawing a scene on a page: surfaces, materials, names, views and lamp."""
 
 import re
 from collections.abc import Sequence
@@ -31,7 +31,7 @@ axis of the body (0 to 2) along which the grain runs; repeats of the grain per m
 
 @dataclass(slots=True)
 class Palette:
-    """Materials of the shapes of a scene, each stored once."""
+    """The materials of the shapes in a scene. Each is stored once."""
 
     model: Any
     rows: list[Row] = field(default_factory=list)
@@ -39,7 +39,8 @@ class Palette:
     _grains: list[int] = field(default_factory=list)
 
     def number(self, shape: int, sides: Array) -> int:
-        """Number of the material of a shape; `sides` are the lengths of the shape along the axes of its body (m)."""
+        """Return the number of a shape's material. `sides` are the lengths of the shape along the axes of its
+        body (m)."""
         row = (*self._colour(shape), *self._gloss(shape), *self._grain(shape, sides))
         if row not in self._numbers:
             assert len(self.rows) < _MOST, "a number of a material has seven bits"
@@ -49,11 +50,11 @@ class Palette:
 
     @property
     def grains(self) -> int:
-        """Number of grains."""
+        """Number of different grains."""
         return len(self._grains)
 
     def picture(self) -> bytes:
-        """The grains as one grey WebP picture, one below another; empty if there are none."""
+        """Return the grains as one grey WebP picture, one below the other. Empty if there are none."""
         if not self._grains:
             return b""
         grey = np.vstack([cv2.cvtColor(_texture(self.model, n), cv2.COLOR_RGB2GRAY) for n in self._grains])
@@ -64,7 +65,8 @@ class Palette:
         return data.tobytes()
 
     def _colour(self, shape: int) -> Row:
-        """Colour and emitted light of a shape; the tint of a grain is included in the colour."""
+        """Return the colour and the emitted light of a shape. The colour includes the tint of the shape's
+        grain."""
         material, texture = self.model.geom_matid[shape], self._texture_of(shape)
         screen = self.model.mat_rgba[material] if material >= 0 else self.model.geom_rgba[shape]
         colour = np.asarray(screen[:3], dtype=float)
@@ -75,7 +77,7 @@ class Palette:
         return (*(round(float(c) ** 2.2, 4) for c in colour), round(own, 3))
 
     def _gloss(self, shape: int) -> Row:
-        """Metalness and roughness of a shape."""
+        """Return the metalness and the roughness of a shape."""
         material = self.model.geom_matid[shape]
         if material < 0:
             return 0.0, 1.0
@@ -93,7 +95,8 @@ class Palette:
         )
 
     def _grain(self, shape: int, sides: Array) -> Row:
-        """Number of the grain, its axis, and its repeats per metre along and across the axis."""
+        """Return the number of a shape's grain, the grain's axis, and the repeats per metre along and across
+        that axis."""
         texture = self._texture_of(shape)
         if texture < 0:
             return -1.0, 0.0, 0.0, 0.0
@@ -114,7 +117,7 @@ class Palette:
 
 
 def _texture(model: Any, number: int) -> NDArray[np.uint8]:
-    """Red, green and blue of a texture, shape (GRAIN, GRAIN, 3)."""
+    """Return the red, green and blue values of a texture, shape (GRAIN, GRAIN, 3)."""
     first, height, width = model.tex_adr[number], model.tex_height[number], model.tex_width[number]
     pixels = model.tex_data[first : first + 3 * height * width].reshape(height, width, 3)
     return np.asarray(cv2.resize(pixels, (GRAIN, GRAIN), interpolation=cv2.INTER_AREA), dtype=np.uint8)
@@ -126,12 +129,13 @@ _CALLED: Final = "called/"
 
 @dataclass(frozen=True)
 class Names:
-    """The names in a scene."""
+    """The display names of the bodies and shapes in a scene."""
 
     model: Any
 
     def body(self, number: int) -> str:
-        """Display name of a body: the name given by the scene, or the body's name in words, such as `pin 0`."""
+        """Return the display name of a body: the name that the scene defines, or the body's own name in words,
+        such as `pin 0`."""
         name = self.model.body(number).name
         stem = name.rstrip("0123456789")
         if name in self._called:
@@ -139,7 +143,8 @@ class Names:
         return _words(self._called.get(stem, stem) + name.removeprefix(stem))
 
     def part(self, shape: int) -> str:
-        """Display name of a shape of the world: the shape's name without its number, or the name of its material."""
+        """Return the display name of a shape of the world: the shape's name without its number, or the name of
+        its material."""
         material = self.model.geom_matid[shape]
         made = self.model.material(material).name if material >= 0 else "something"
         return _words((self.model.geom(shape).name or made).rstrip("0123456789"))
@@ -154,18 +159,18 @@ class Names:
 
 
 def _text(data: bytes, first: int) -> str:
-    """The zero-terminated text that begins at `first`."""
+    """Return the zero-terminated text that begins at the byte `first`."""
     return data[first : data.index(b"\0", first)].decode()
 
 
 def _words(name: str) -> str:
-    """A name in words: `finger_a` of an arm becomes `finger a`."""
+    """Return a name in words: `finger_a` of an arm becomes `finger a`."""
     own = name.rpartition("/")[2]
     return re.sub(r"(?<=[a-z])(?=\d)", " ", own).replace("_", " ")
 
 
 def scene_bytes(model: Any) -> bytes:
-    """The scene, compressed."""
+    """Return the scene, compressed."""
     palette, names, meshes, bodies = Palette(model), Names(model), Meshes(), []
     for body in range(model.nbody):
         pieces = _pieces(model, palette, names, body)
@@ -184,13 +189,13 @@ def scene_bytes(model: Any) -> bytes:
 
 
 def seen(model: Any, body: int) -> list[int]:
-    """The shapes of a body that are visible, or will be after an event."""
+    """Return the shapes of a body that are visible, or that will become visible after an event."""
     mine = np.flatnonzero(model.geom_bodyid == body)
     return [int(shape) for shape in mine if model.geom_group[shape] in (SCENERY, SEEN, LATENT)]
 
 
 def lowest(model: Any) -> float:
-    """Height (m) of the lowest point of the world; absent bodies lie below it."""
+    """Return the height (m) of the lowest point of the world. Absent bodies are put below it."""
     found = [surface(model, shape) for shape in seen(model, 0)]
     return min((float(part.points[:, 2].min()) for part in found if part is not None), default=-np.inf)
 
@@ -207,7 +212,8 @@ def _pieces(model: Any, palette: Palette, names: Names, body: int) -> list[Piece
 
 
 def _small_first(pieces: Sequence[Piece]) -> list[Piece]:
-    """The pieces by name, with large ones last, because floor and walls are behind everything else."""
+    """Return the pieces sorted by name, with large pieces last, because floor and walls are behind all other
+    pieces."""
     sizes = {piece.name: 0.0 for piece in pieces}
     for piece in pieces:
         sizes[piece.name] = max(sizes[piece.name], piece.size)
@@ -228,7 +234,8 @@ left of the viewer.
 
 
 def views(model: Any) -> list[dict[str, Any]]:
-    """The views of a scene, each with its name, `eye` and `at` (m), and angle (degrees).
+    """Return the views of a scene. Each has a name, the position `eye` of the viewer (m), the point `at` which
+    the viewer looks (m), and a viewing angle (degrees).
 
     In a view with a `body`, `eye` and `at` are relative to the body's position, along the axes of the world.
     """
@@ -243,13 +250,13 @@ def views(model: Any) -> list[dict[str, Any]]:
 
 
 def lamp(model: Any) -> dict[str, list[float]]:
-    """Positions of the lamp and of the point at which it is aimed, m."""
+    """Return the positions of the lamp and of the point at which it is aimed (m)."""
     middle = np.array(model.stat.center)
     return {"eye": rounded(middle + model.stat.extent * _LAMP), "at": rounded(middle * [1, 1, 0])}
 
 
 def _camera(model: Any, number: int) -> dict[str, Any]:
-    """The view of a camera of the scene."""
+    """Return the view of a camera of the scene."""
     name, eye = model.camera(number).name, model.cam_pos0[number]
     forward = -model.cam_mat0[number].reshape(3, 3)[:, 2]
     at = eye + _distance(model, eye, forward) * forward
@@ -257,19 +264,19 @@ def _camera(model: Any, number: int) -> dict[str, Any]:
 
 
 def _distance(model: Any, eye: Array, forward: Array) -> float:
-    """Distance (m) along a camera's line of sight to the height of the scene's centre."""
+    """Return the distance (m) from a camera, along its line of sight, to the height of the scene's centre."""
     drop = eye[2] - model.stat.center[2]
     return float(-drop / forward[2]) if drop > 0 and forward[2] < -0.1 else float(model.stat.extent)
 
 
 def _overview(model: Any) -> dict[str, Any]:
-    """A view of the whole scene, for scenes without a camera for it."""
+    """Return a view of the whole scene, for scenes that have no camera for it."""
     middle = np.array(model.stat.center)
     return _view(ROOM, middle + model.stat.extent * np.array([1.2, 0.7, 0.8]), middle, _LENS)
 
 
 def _hand(model: Any, site: int) -> dict[str, Any]:
-    """A view that moves with the hand, which points down while it works."""
+    """Return a view that moves with the hand. The hand is assumed to point down while it works."""
     body = model.site_bodyid[site]
     at = np.array([0.0, 0.0, -_FINGERS * np.linalg.norm(model.site_pos[site])])
     return {**_view("hand", _BESIDE + at, at, _LENS), "body": model.body(body).name}

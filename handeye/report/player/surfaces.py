@@ -1,4 +1,4 @@
-"""Surfaces of the shapes of a scene: triangles, with the normal of the surface at each corner."""
+"""Makes the surfaces of the shapes in a scene: triangles, with the normal of the surface at each corner."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class Surface:
 
     @classmethod
     def joined(cls, surfaces: Sequence[Self]) -> Self:
-        """Several surfaces as one, in order."""
+        """Join several surfaces to one, in order."""
         first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
         return cls(
             points=np.concatenate([surface.points for surface in surfaces]),
@@ -40,7 +40,7 @@ class Surface:
 
 
 def surface(model: Any, shape: int) -> Surface | None:
-    """The surface of a shape of a scene, in the frame of its body; None if the shape has none."""
+    """Return the surface of a shape of a scene in the frame of its body, or None if the shape has no surface."""
     kind, size = model.geom_type[shape], model.geom_size[shape]
     if kind == BOX:
         local = _scaled(_box(), size)
@@ -66,7 +66,7 @@ def surface(model: Any, shape: int) -> Surface | None:
 
 
 def rotation(quaternion: Array) -> Array:
-    """The rotation by a unit quaternion w, x, y, z, shape (3, 3)."""
+    """Return the rotation matrix of a unit quaternion w, x, y, z, shape (3, 3)."""
     w, x, y, z = quaternion
     return np.array(
         [
@@ -78,8 +78,8 @@ def rotation(quaternion: Array) -> Array:
 
 
 def creased(points: Array, triangles: NDArray[Any]) -> Surface:
-    """A surface from points and triangles, smooth where neighbouring faces nearly agree, with sharp edges
-    elsewhere.
+    """Make a surface from points and triangles. It is smooth where neighbouring faces nearly agree, and has
+    sharp edges elsewhere.
     """
     facets = points[triangles]
     area = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
@@ -97,7 +97,8 @@ def creased(points: Array, triangles: NDArray[Any]) -> Surface:
 
 
 def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Indices of the distinct rows in order of first occurrence, and for each row the number of its distinct row."""
+    """Return the indices of the distinct rows in order of first occurrence, and for each row the number of its
+    distinct row."""
     _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.empty_like(order)
@@ -106,7 +107,7 @@ def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]
 
 
 def _meeting(corner: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """All pairs of entries that are the same point, including each entry with itself."""
+    """Return all pairs of entries that are the same point, including the pair of each entry with itself."""
     order = np.argsort(corner, kind="stable")
     first = np.flatnonzero(np.diff(corner[order], prepend=-1))
     count = np.diff(np.append(first, len(order)))

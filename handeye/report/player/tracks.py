@@ -1,4 +1,4 @@
-"""Data for showing the motion of all bodies on a page: tracks and clock."""
+"""Prepares the data that show the motion of all bodies on a page: tracks, and the run's clock."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ _STILL: Final = 1e-6  # What is no movement: m, and parts of a quaternion
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Track:
-    """Some poses of a body; poses in between are interpolated linearly."""
+    """Selected poses of a body. The poses between them are interpolated linearly."""
 
     spans: tuple[tuple[int, int, int], ...]
     """Spans in which the body is present: first servo period, last one (exclusive), and the number of poses in the
@@ -33,10 +33,11 @@ class Track:
 
     @classmethod
     def of(cls, poses: NDArray[np.floating[Any]], lowest: float) -> Self | None:
-        """The track of a body from its poses in all servo periods, shape (m, 7); None if it is always hidden.
+        """Make the track of a body from its poses in all servo periods, shape (m, 7). Returns None if the body
+        is always hidden.
 
         Args:
-            lowest: height below which a body is hidden, m. NaN also means hidden.
+            lowest: height (m) below which a body is hidden. A pose of NaN also means that the body is hidden.
         """
         there = poses[:, 2] >= lowest
         edges = np.flatnonzero(np.diff(there, prepend=False, append=False)).reshape(-1, 2).tolist()
@@ -51,12 +52,12 @@ class Track:
         )
 
     def still(self, count: int) -> bool:
-        """True if the body is present in all `count` servo periods and never moves."""
+        """Return True if the body is present in all `count` servo periods and never moves."""
         return self.spans == ((0, count, 1),)
 
 
 def _needed(poses: Array) -> Rows:
-    """The rows between which all other poses can be interpolated within tolerance."""
+    """Return the rows between which all other poses can be interpolated within tolerance."""
     if np.ptp(poses, axis=0).max() < _STILL:
         return np.zeros(1, dtype=np.int64)
     numbers = np.arange(len(poses), dtype=np.float64)
@@ -72,13 +73,13 @@ constant.
 def tracks_bytes(
     poses: Mapping[str, Poses], *, times: Array, begin: float, end: float, lowest: float
 ) -> bytes:
-    """Tracks and clock, compressed.
+    """Return tracks and clock, compressed.
 
     Args:
         poses: poses of the bodies in all servo periods, shape (n, 7) each; NaN while a body is hidden.
-        times: ends of the servo periods, shape (n,), s since the run began, like `begin` and `end`, the range of
-            the page.
-        lowest: height below which a body is put away, m.
+        times: times at the end of each servo period, shape (n,), in seconds since the run began. `begin` and
+            `end`, the range of the page, are also in seconds since the run began.
+        lowest: height (m) below which a body is hidden.
     """
     found = {name: Track.of(rows, lowest) for name, rows in poses.items()}
     tracks = {name: track for name, track in found.items() if track is not None}
@@ -99,5 +100,5 @@ def tracks_bytes(
 
 
 def _joined(arrays: Iterable[NDArray[Any]], width: int = 1) -> NDArray[Any]:
-    """Rows of arrays one below another, shape (n, width); an empty array if there are none."""
+    """Concatenate the rows of arrays, shape (n, width). The result is empty if there are no arrays."""
     return np.concatenate([np.empty((0, width)), *arrays])

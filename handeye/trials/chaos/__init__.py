@@ -1,1 +1,2 @@
-"""Chaos trials: schedules of faults, interruptions and answers, drawn from a seed, and checked against invariants."""
+"""Chaos trials: faults, interruptions and operator's answers are drawn from a seed, and invariants are checked
+after each run."""

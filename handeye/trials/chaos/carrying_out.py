@@ -1,5 +1,5 @@
-"""Executes a schedule: interrupts the run where the schedule says so, resumes it from disk, and lets its operator
-end it.
+"""Executes a schedule: interrupts the run where the schedule says so, resumes it from disk, and answers its
+calls of the operator.
 """
 
 import subprocess
@@ -30,7 +30,7 @@ LIMIT: Final = 300.0  # s after which a process is taken to hang
 
 
 class ReachedPosition(StopCondition, frozen=True, kw_only=True):
-    """Pause when a number of steps is done."""
+    """Pause when this number of steps is done."""
 
     position: int
 
@@ -40,19 +40,20 @@ class ReachedPosition(StopCondition, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class Answers:
-    """An operator who gives a list of answers, one per call, and then aborts."""
+    """An operator who gives the answers of a list, one per call, and then aborts the run."""
 
     answers: Sequence[Answer]
     before: int  # Answers that were given before the schedule began
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
-        """The answer to a call; if the previous answer was refused, abort."""
+        """Return the next answer of the list, or `abort` if the previous answer was refused or no answer is
+        left."""
         given = sum(isinstance(event, OperatorAnswered) for event in runner.events) - self.before
         return "abort" if refused or given >= len(self.answers) else self.answers[given]
 
 
 class Button(Observer):
-    """A panic button that is pressed after a number of servo periods; None: never."""
+    """A panic button that is pressed after a number of servo periods, or never if the number is None."""
 
     def __init__(self, after: int | None) -> None:
         self._left = after
@@ -67,7 +68,7 @@ class Button(Observer):
 
 @dataclass(slots=True)
 class ScheduleRun:
-    """An executed schedule."""
+    """The run of a schedule, after it has ended."""
 
     folder: Path
     runner: Runner
@@ -77,7 +78,7 @@ class ScheduleRun:
 
 
 class ScheduleRunner:
-    """A schedule in progress, in a separate folder."""
+    """Executes a schedule in a separate folder."""
 
     def __init__(self, schedule: Schedule, start: Checkpoint, folder: Path) -> None:
         before = sum(isinstance(event, OperatorAnswered) for event in start.events)
@@ -89,7 +90,7 @@ class ScheduleRunner:
         self._lost: list[str] = []
 
     def carry_out(self, stops: Sequence[StopCondition], *, broken: bool) -> ScheduleRun:
-        """Execute the whole schedule until one of `stops`; its interruptions are left out unless `broken`."""
+        """Execute the whole schedule until one of `stops`. Its interruptions are made only with `broken`."""
         runner = pause = None
         for interruption in self._schedule.breaks if broken else ():
             runner, pause = self._interrupted(interruption, stops)
@@ -109,7 +110,7 @@ class ScheduleRunner:
         return ScheduleRun(self._place, runner, pause, self._unbraked, self._lost)
 
     def _waits(self, pause: Pause) -> bool:
-        """True if the pause is that of an interruption, and does not end the schedule."""
+        """Return True if the pause is that of an interruption, and does not end the schedule."""
         return isinstance(pause.met, Interruption)
 
     def _interrupted(
@@ -149,12 +150,12 @@ class ScheduleRunner:
 
 
 class Interruption(ReachedPosition, frozen=True, kw_only=True):
-    """Pause at an interruption."""
+    """Pause for an interruption of the schedule."""
 
 
 def kill_resumed(folder: Path, events: int) -> None:
-    """Resume a run in a separate process, and kill the process when the run has written a number of events, unless
-    the run has ended.
+    """Resume a run in a separate process, and kill the process when the run has written this number of further
+    events, unless the run ends earlier.
     """
     journal = folder / EVENTS
     enough = _lines(journal) + events + 1  # and the one that tells that it was resumed

@@ -1,7 +1,8 @@
-"""A schedule: where a run begins, which faults and interruptions it has, and which answers the operator gives.
+"""Defines a schedule: where a run begins, which faults and interruptions it has, and which answers the operator
+gives.
 
-As text, a schedule consists of words `NAME=VALUE` separated by blanks; a word that is left out means none, or the
-least possible value.
+The text form of a schedule consists of words `NAME=VALUE`, separated by blanks. A word may be left out if its
+list is empty or its number is the smallest possible.
 """
 
 import random
@@ -64,14 +65,15 @@ class Schedule(Record, frozen=True, kw_only=True):
         return " ".join(f"{name}={value}" for name, value in words.items() if value)
 
     def without(self) -> Iterator["Schedule"]:
-        """This schedule with one element removed, for each element."""
+        """Yield copies of this schedule, each with one fault, interruption or answer removed."""
         for name in ("faults", "breaks", "answers"):
             things = getattr(self, name)
             for number in range(len(things)):
                 yield msgspec.structs.replace(self, **{name: (*things[:number], *things[number + 1 :])})
 
     def given(self, catalogue: Catalogue) -> tuple[Fault, ...]:
-        """The faults of the schedule; raises InvalidInput if a fault is unknown, or begins without a stage."""
+        """Return the faults of the schedule. Raises InvalidInput if a fault is unknown, or if no stage is given
+        with which it begins."""
         found = faults(catalogue, self.faults, by_number)
         for fault in found:
             if fault.stage is None:
@@ -80,7 +82,7 @@ class Schedule(Record, frozen=True, kw_only=True):
 
 
 def parse_schedule(text: str) -> Schedule:
-    """Parse a schedule; raises InvalidInput if the text is none."""
+    """Parse a schedule. Raises InvalidInput if the text is not a schedule."""
     words = dict(re.findall(r"(\w+)=(\S+)", text))
     known = {*Schedule.__struct_fields__}
     if (
@@ -100,7 +102,7 @@ def parse_schedule(text: str) -> Schedule:
 
 
 def is_count(text: str) -> bool:
-    """True if a text is a whole number of at most 18 digits."""
+    """Return True if a text is a whole number of at most 18 digits."""
     return re.fullmatch("[0-9]{1,18}", text) is not None
 
 
@@ -117,7 +119,8 @@ def draw(
     number: int, seed: int, worlds: Sequence[tuple[int, Level]], starts: Sequence[Sequence[int]], catalogue: Catalogue,
     stage_of: Sequence[Sequence[int]],
 ) -> Schedule:  # fmt: skip
-    """Draw the schedule with a number in the series of a seed; `starts` and `stage_of` are given for each world."""
+    """Draw the schedule with this number in the series of a seed. `starts` and `stage_of` contain one list for
+    each world."""
     chance = random.Random(f"{seed} {number}")  # noqa: S311 - choices, not secrets
     which = chance.randrange(len(worlds))
     place = chance.randrange(len(starts[which]))
@@ -138,7 +141,7 @@ def draw(
 
 
 def _fault(chance: random.Random, kind: FaultKind, stage: int) -> Fault:
-    """A fault of a kind that begins with a stage, at its usual size or at another size."""
+    """Draw a fault of a kind that begins with a stage. It has its usual size or a random size."""
     usual = kind.usual(stage)
     if kind.size is None or chance.random() < 0.5:
         return usual

@@ -1,5 +1,5 @@
-"""Executes schedules and checks invariants after each; failing schedules are reduced to the fewest elements that
-still fail.
+"""Executes schedules and checks invariants after each. A failing schedule is reduced to the fewest elements
+with which it still fails.
 """
 
 import tempfile
@@ -35,7 +35,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 
 
 def on_disk(carried: ScheduleRun) -> Iterator[str]:
-    """Sentences on lost or invalid files on disk."""
+    """Yield a sentence for each file on disk that is lost or invalid."""
     yield from carried.lost
     yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
     try:
@@ -47,7 +47,7 @@ def on_disk(carried: ScheduleRun) -> Iterator[str]:
 
 
 def in_trace(carried: ScheduleRun) -> Iterator[str]:
-    """Sentences on inconsistencies in the trace."""
+    """Yield a sentence for each inconsistency in the trace."""
     try:
         trace = read_trace(carried.folder / TRACE)
     except InvalidInput as fault:
@@ -60,7 +60,8 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
 
 
 def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]:
-    """Differences between an interrupted run and the same run without interruptions, one sentence each."""
+    """Yield the differences between an interrupted run and the same run without interruptions, one sentence
+    each."""
     if carried.runner.events != unbroken.runner.events:
         yield "events differ from those without interruptions"
     if _bytes(carried.folder) != _bytes(unbroken.folder):
@@ -72,8 +73,8 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
-    """Failed findings that must hold after `done` of the stages: all findings after the last stage, some
-    (`holds_from`) before.
+    """Return the failed findings that should hold after `done` of the program's stages. All findings must hold
+    after the last stage; `holds_from` names those that must hold after an earlier stage.
     """
     return [
         f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
@@ -96,7 +97,7 @@ def _plain(snapshot: Snapshot) -> bytes:
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause between two stages, after a number of steps."""
+    """Pause between two stages, but not before this number of steps is done."""
 
     after: int
 
@@ -105,7 +106,7 @@ class EndOfStage(StopCondition, frozen=True, kw_only=True):
 
 
 class Violation(Record, frozen=True):
-    """An invariant that did not hold."""
+    """An invariant that does not hold."""
 
     invariant: str
     what: str
@@ -115,7 +116,7 @@ class Violation(Record, frozen=True):
 
 
 class ScheduleResult(Record, frozen=True, kw_only=True):
-    """Result of a schedule."""
+    """The result of executing a schedule."""
 
     schedule: str
     ended: str  # The kind of its last pause; `error`: it raised what nothing should
@@ -128,7 +129,8 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
 
 
 def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
-    """Execute a schedule and check the invariants; raises InvalidInput for an unknown fault or start."""
+    """Execute a schedule and check the invariants. Raises InvalidInput if a fault is unknown or the run cannot
+    begin at the start of the schedule."""
     begun = sound.at(schedule.start)
     start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(begun.setup.world)))
     ended, broken = "error", list[Violation]()
@@ -158,7 +160,7 @@ def _named(invariant: str, sentences: Iterator[str]) -> Iterator[Violation]:
 
 
 def _sound(carried: ScheduleRun) -> Iterator[Violation]:
-    """Violations of the invariants that hold for all runs, stopped or not."""
+    """Yield violations of the invariants that hold for every run, whether it was stopped or not."""
     yield from _named("brakes", iter(carried.unbraked))
     yield from _named("trace", in_trace(carried))
     yield from _named("disk", on_disk(carried))
@@ -168,10 +170,11 @@ def _sound(carried: ScheduleRun) -> Iterator[Violation]:
 
 
 def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
-    """Failed findings on work that the program considers right.
+    """Yield failed findings on work that the program considers right.
 
-    A completed stage is judged by the findings that must hold from its end on. If one does not hold, the run
-    continues, because a later check may notice: the failure is silent only if the program ends with a wrong pump.
+    A completed stage is judged by the findings that must hold from its end on. If such a finding fails, the run
+    continues, because a later check of the program may notice the failure. The failure is silent only if the
+    program ends with a wrong pump.
     """
     happened = carried.runner.events[len(start.events) :]
     overruled = any(isinstance(event, OperatorAnswered) and event.choice != "retry" for event in happened)
@@ -194,7 +197,8 @@ def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
 def shrunk(
     failing: ScheduleResult, schedule: Schedule, fails: Callable[[Schedule], ScheduleResult]
 ) -> tuple[Schedule, ScheduleResult]:
-    """Reduce a failing schedule: remove one element at a time while the schedule still fails."""
+    """Reduce a failing schedule by removing one element at a time, as long as the schedule still fails. Returns
+    the reduced schedule and its result."""
     for fewer in schedule.without():
         tried = fails(fewer)
         if tried.names & failing.names:
@@ -206,7 +210,7 @@ LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 
 
 class ChaosRow(TrialRow, frozen=True, kw_only=True):
-    """The trial of one schedule; the schedule is the condition."""
+    """The trial of one schedule. The row's condition is the schedule."""
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
@@ -223,13 +227,13 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChaosWork:
-    """Executes schedules on the fault-free runs in a folder."""
+    """Executes schedules. Each starts from the fault-free run of its world, which is kept in a folder."""
 
     setup: Setup  # The setup of the runs without their worlds
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:
-        """Execute a schedule; if it fails, reduce it to the fewest elements that still fail."""
+        """Execute a schedule. If it fails, reduce it to the fewest elements with which it still fails."""
         schedule = parse_schedule(case.condition)
         sound = sound_run(self.folder, self.setup, WorldSpec(seed=schedule.seed, level=schedule.level))
         drawn = try_schedule(schedule, sound)
@@ -242,15 +246,15 @@ class ChaosWork:
 
 
 def worlds(seed: int, count: int, *, levels: bool = True) -> list[WorldSpec]:
-    """Worlds for the schedules of a seed: those of the seed and of the following seeds; with `levels`, the levels
-    take turns.
+    """Return the worlds for the schedules of a seed: those of this seed and of the seeds that follow. With
+    `levels`, successive worlds have different levels of error.
     """
     chosen = LEVELS if levels else LEVELS[:1]
     return [WorldSpec(seed=seed + number, level=chosen[number % len(chosen)]) for number in range(count)]
 
 
 def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) -> Iterator[Schedule]:
-    """The first schedules in the series of a seed."""
+    """Yield the first `count` schedules in the series of a seed."""
     for number in range(count):
         yield draw(
             number,
@@ -263,7 +267,7 @@ def schedules(seed: int, count: int, runs: Sequence[SoundRun], work: AnyTask) ->
 
 
 def _sentence(row: ChaosRow) -> str:
-    """The violations of a failing schedule, and the command that reproduces them."""
+    """Describe the violations of a failing schedule, and give the command that reproduces them."""
     if row.drawn is None:
         return f"{row.condition}: {row.detail}"
     if row.shrunk is None:

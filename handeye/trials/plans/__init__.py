@@ -1,1 +1,1 @@
-"""Trials of planned programs in many worlds: assembly, or assembly followed by dismantling."""
+"""Trials of planned programs in many worlds: assembly alone, or assembly followed by dismantling."""

@@ -1,4 +1,5 @@
-"""Distributions over trials: times of stages, numbers of search places, margins to the referee's limits."""
+"""Computes distributions over trials: times of stages, numbers of search places, and margins to the referee's
+limits."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
@@ -15,7 +16,7 @@ ALIKE: Final = 1e-3  # Part of their mean by which margins may vary and still co
 
 
 class StageTime(Record, frozen=True, kw_only=True):
-    """Arm time (s) of a stage, in the trials that completed the stage."""
+    """Arm time of a stage (s), over the trials that completed the stage."""
 
     stage: str
     n: int
@@ -25,7 +26,7 @@ class StageTime(Record, frozen=True, kw_only=True):
 
 
 class SearchPlaces(Record, frozen=True, kw_only=True):
-    """Numbers of places tried by the searches around one position."""
+    """Numbers of places that the searches around one position tried."""
 
     at: str
     n: int
@@ -36,7 +37,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
 
 class Margin(Record, frozen=True, kw_only=True):
-    """Margin of a finding to its limit over the judged trials, in the finding's unit."""
+    """The margin between a finding and its limit, over the judged trials, in the finding's unit."""
 
     finding: str
     unit: str
@@ -52,7 +53,7 @@ class Margin(Record, frozen=True, kw_only=True):
 
 
 class OperationRate(Record, frozen=True, kw_only=True):
-    """Success rate of a contact operation; success means that the program continued after the operation."""
+    """Success rate of a contact operation. An operation succeeded if the program continued after it."""
 
     operation: str
     successes: int
@@ -64,7 +65,7 @@ class OperationRate(Record, frozen=True, kw_only=True):
 
 
 def operations(rows: Sequence[Row]) -> Iterator[OperationRate]:
-    """Success rates of all contact operations."""
+    """Yield the success rates of all contact operations."""
     done: dict[str, list[bool]] = {}
     for contact in (contact for row in rows for contact in row.contacts):
         done.setdefault(contact.operation, []).append(contact.done)
@@ -78,7 +79,7 @@ def operations(rows: Sequence[Row]) -> Iterator[OperationRate]:
 
 
 def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
-    """Times of the stages, in program order."""
+    """Yield the times of the stages, in program order."""
     results = [row.result for row in rows if row.result is not None]
     for name in dict.fromkeys(stage.name for result in results for stage in result.stages):
         seconds = [
@@ -90,7 +91,7 @@ def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
 
 
 def search_places(rows: Sequence[Row]) -> Iterator[SearchPlaces]:
-    """Numbers of places tried, by the position around which was searched."""
+    """Yield the numbers of places tried, for each position around which the program searched."""
     ends = [end for row in rows for end in row.searches]
     for at in dict.fromkeys(end.at for end in ends):
         here = [end for end in ends if end.at == at]
@@ -102,7 +103,7 @@ def search_places(rows: Sequence[Row]) -> Iterator[SearchPlaces]:
 
 
 def details(rows: Sequence[Row]) -> tuple[Details, ...]:
-    """Tables of operations, stages, searches and margins."""
+    """Return tables of operations, stages, searches and margins."""
     return (
         Details(
             name="operations", title="Contact operations", rows=tuple(operations(rows)),
@@ -122,8 +123,8 @@ def details(rows: Sequence[Row]) -> tuple[Details, ...]:
 
 
 def margin_details(rows: Sequence[Row]) -> Details:
-    """The table of margins to the referee's limits; the finding with the smallest margin in standard deviations is
-    the most likely to fail next.
+    """Return the table of margins to the referee's limits. The finding with the smallest margin, in standard
+    deviations, comes first, because it is the most likely to fail.
     """
     return Details(
         name="margins", title="Margins to the referee’s limits, the smallest first", rows=margins(rows),
@@ -133,7 +134,7 @@ def margin_details(rows: Sequence[Row]) -> Details:
 
 
 def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:
-    """Margins of all findings, those most likely to fail first."""
+    """Return the margins of all findings. Those most likely to fail come first."""
     judged = [(row.seed, row.result.referee) for row in rows if row.result is not None and row.result.referee]
     names = dict.fromkeys(name for _, referee in judged for name in referee)
     found = [
@@ -144,7 +145,8 @@ def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:
 
 
 def margin_of(check: Check) -> float:
-    """Margin of a finding to its limit, in the finding's unit; negative beyond the limit."""
+    """Return the margin between a finding and its limit, in the finding's unit. It is negative if the limit is
+    exceeded."""
     return check.limit - check.value if check.relation == "at most" else check.value - check.limit
 
 

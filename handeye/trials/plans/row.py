@@ -1,4 +1,4 @@
-"""The record of one trial of a planned program, with its contact operations and searches."""
+"""Defines the row of one trial of a planned program, with the trial's contact operations and searches."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
@@ -14,7 +14,7 @@ from handeye.trials.sweep import Standing, TrialRow
 
 
 class Contact(Record, frozen=True, kw_only=True):
-    """One contact operation, from the motion to its position until the hand goes to another position."""
+    """One contact operation. It lasts from the motion to its position until the hand moves to another position."""
 
     operation: str
     at: str  # The position
@@ -22,7 +22,7 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class SearchEnd(Record, frozen=True, kw_only=True):
-    """One search of a trial."""
+    """How one search of a trial ended."""
 
     at: str  # The position that it is around
     places: int  # tried, the first included
@@ -32,7 +32,8 @@ class SearchEnd(Record, frozen=True, kw_only=True):
 def contacts(
     program: Program, events: Sequence[AnyEvent], where: Mapping[str, tuple[str, ...]], *, completed: bool
 ) -> Iterator[Contact]:
-    """The contact operations of a trial, in order; `where` has their positions by the name of the operation."""
+    """Yield the contact operations of a trial, in order. `where` gives the positions at which each operation
+    takes place, by the name of the operation."""
     names = {position: name for name, positions in where.items() for position in positions}
     here = ""
     for goal in _goals(program, events):
@@ -44,7 +45,7 @@ def contacts(
 
 
 def searches(program: Program, events: Sequence[AnyEvent]) -> Iterator[SearchEnd]:
-    """The searches in which the hand moved to a place, in order."""
+    """Yield those searches in which the hand moved to a place, in order."""
     under_way: SearchEnd | None = None
     for event in events:
         if isinstance(event, StepStarted):
@@ -71,7 +72,7 @@ def _ended(search: SearchEnd | None) -> Iterator[SearchEnd]:
 
 
 def _goals(program: Program, events: Sequence[AnyEvent]) -> Iterator[str]:
-    """The positions to which the hand moved."""
+    """Yield the positions to which the hand moved."""
     for event in events:
         if isinstance(event, StepStarted):
             operation = program.steps[event.step].operation
@@ -103,7 +104,7 @@ class Row(TrialRow, frozen=True, kw_only=True):
     """Greatest force on the hand during the undoing, N; None: nothing was undone."""
 
     def __post_init__(self) -> None:
-        """Raises ValueError if there is neither a result nor a reason for its absence."""
+        """Check that the row has a result, or a reason for its absence. Raises ValueError if it has neither."""
         if self.result is None and not self.broken_off:
             raise ValueError(f"a trial that counts as {self.ended!r} has no result")
 

@@ -1,4 +1,4 @@
-"""One trial of a planned program, or of dismantling its product, from the seed to the row that is kept."""
+"""Executes one trial of a planned program, or of dismantling its product, and returns the row for the batch."""
 
 import hashlib
 from collections.abc import Callable, Sequence
@@ -48,7 +48,8 @@ class Trial:
     cpu_limit_s: float = CPU_LIMIT_S
 
     def head(self, sweep: Sweep[Row], seeds: tuple[int, ...] = ()) -> Head:
-        """The head of a batch of these trials; `seeds` are their seeds, if they are not consecutive."""
+        """Return the head of a batch of these trials. `seeds` are needed only if the seeds of the trials are
+        not consecutive."""
         return head_of(
             sweep, self.world, self.plan, self.settings, camera=self.camera, without=self.without,
             on_stop=self.on_stop, simulated_limit_s=self.simulated_limit_s, seeds=seeds,
@@ -72,7 +73,7 @@ class Trial:
         return [Row(trial=number, seed=case.seed, condition=case.condition, **found)]  # type: ignore[arg-type]
 
     def _facts(self, world: WorldSpec, timer: HostTimer, watch: "Watch") -> dict[str, object]:
-        """The fields of the row of a trial that raised no exception."""
+        """Return the fields of a trial's row, if the trial raised no exception."""
         done = run_plan(
             self.plan,
             world=world,
@@ -91,7 +92,7 @@ class Trial:
 
 
 def events_digest(events: list[AnyEvent]) -> str:
-    """Sixteen hexadecimal digits that identify the events of a run."""
+    """Return sixteen hexadecimal digits that identify the events of a run."""
     digest = hashlib.sha256()
     for event in events:
         digest.update(to_line(event))
@@ -99,7 +100,7 @@ def events_digest(events: list[AnyEvent]) -> str:
 
 
 def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
-    """The fields that are common to the rows of all runs."""
+    """Return the fields that the rows of all runs have."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
     return {
         "ended": ended,
@@ -111,8 +112,8 @@ def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
 
 @dataclass(slots=True, kw_only=True)
 class Watch:
-    """Ends a run that takes too long, in the way of the panic button. Only simulated time and CPU time count, so
-    that a paused or slow computer does not matter.
+    """Stops a run that takes too long, as the panic button would. Only simulated time and CPU time count, so a
+    paused or slow computer makes no difference.
     """
 
     simulated_s: float
@@ -122,12 +123,12 @@ class Watch:
     clock: Callable[[], float] = lambda: 0.0
 
     def looking_on(self, runner: Runner) -> tuple[Observer, ...]:
-        """Use the clock of a run from now on; adds no observers."""
+        """Use the clock of this run from now on. Returns no observers."""
         self.clock = lambda: runner.time
         return ()
 
     def over(self) -> bool:
-        """True if the run has taken too long."""
+        """Return True if the run has taken too long."""
         if self.clock() > self.simulated_s:
             self.ended = "simulated limit"
         elif self.timer.cpu_s > self.cpu_s:
@@ -136,7 +137,7 @@ class Watch:
 
 
 def answered(rows: Sequence[Row]) -> int:
-    """Number of trials in which calls of the operator were answered, however the trials ended."""
+    """Return the number of trials in which calls of the operator were answered, however the trials ended."""
     return sum(row.result is not None and bool(row.result.interventions) for row in rows)
 
 
@@ -160,8 +161,8 @@ ASSEMBLY: Final = Sweep(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DismantlingTrial(Trial):
-    """Executes a plan, has the arm undo all its work, and lets the referee judge whether everything is back in
-    place.
+    """Executes a plan, lets the arm undo all its work, and lets the referee judge whether every part is back in
+    its place.
     """
 
     to: str = ""  # The stage after which it begins to undo; empty: after the last
