@@ -153,20 +153,23 @@ def test_a_load_that_meets_something_else_does_so_in_short_steps(steps: list[flo
 
 CAROUSEL = """<mujoco><option timestep="{short}" integrator="implicitfast" cone="elliptic" impratio="50"/><worldbody>
 <body name="tray"><joint name="round" axis="0 0 1"/><geom type="box" size=".1 .1 .01" pos=".5 0 0" {soft}/></body>
-<body name="box" pos=".5 0 .03"><freejoint/><geom type="box" size=".02 .02 .02" {soft}/></body>
+<body name="box" pos=".5 0 .03"><freejoint/>
+<geom type="box" size=".02 .02 .02" friction="{grip}" priority="1" {soft}/></body>
 </worldbody><actuator><velocity joint="round" kv="100000"/></actuator></mujoco>"""
 
 
-def slipped(*, carries: bool) -> tuple[float, float]:
-    """How far (m) and by what angle (rad) a box slips on a tray that takes it along an arc of 2 radians."""
-    model = mujoco.MjModel.from_xml_string(CAROUSEL.format(short=SHORT, soft=SOFT))
+def slipped(*, carries: bool, grip: float = 1.0, periods: int = 120) -> tuple[float, float]:
+    """How far (m) and by what angle (rad) a box slips on a tray that carries it along an arc at 1 rad/s; `grip` is the
+    coefficient of friction.
+    """
+    model = mujoco.MjModel.from_xml_string(CAROUSEL.format(short=SHORT, soft=SOFT, grip=grip))
     data = mujoco.MjData(model)
     data.ctrl[0] = data.qvel[0] = data.qvel[6] = 1.0  # rad/s
     data.qvel[2] = 0.5  # m/s
     carrying = Carrying(hand="tray", pairs=(("tray", "box"),)) if carries else None
     stepper = PhysicsStepper(model, data, carrying)
     mujoco.mj_forward(model, data)
-    for _ in range(120):
+    for _ in range(periods):
         stepper.step(PERIOD)
     mujoco.mj_kinematics(model, data)
     R = data.body("tray").xmat.reshape(3, 3).T @ data.body("box").xmat.reshape(3, 3)
@@ -180,3 +183,10 @@ def test_what_the_hand_carries_along_an_arc_is_not_left_behind() -> None:
     assert short[0] == pytest.approx(0.5 * SHORT * 0.5 * 2.0, rel=0.1)
     assert long[0] < short[0] / 10
     assert abs(long[1]) < 1e-4
+
+
+def test_a_load_that_friction_does_not_hold_slips_off_in_long_steps_as_in_short_ones() -> None:
+    """The arc takes .5 m/s2 of friction, a coefficient of .051; with .03 the box slides outwards."""
+    short, long = (slipped(carries=carries, grip=0.03, periods=30)[0] for carries in (False, True))
+    assert short > 0.02
+    assert long == pytest.approx(short, rel=0.05)
