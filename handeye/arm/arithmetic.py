@@ -1,5 +1,5 @@
-"""The kinematics and dynamics that the servo needs in every period, as an interface that any numerical library can
-implement.
+"""The interface for the kinematics and dynamics that the servo computes in every period. Any numerical library can
+implement it.
 
 Planning, and everything computed for a whole motion at once, uses the formulas of `arm.kinematics` and
 `arm.dynamics` directly.
@@ -15,26 +15,26 @@ from handeye.core.pose import Array, Pose
 
 
 class ArmArithmetic(ABC):
-    """Frames and dynamics of one arm at one configuration, shape (n,), rad and m; the caller may keep and change
-    all results.
+    """Kinematics and dynamics of one arm. Joint positions `q` have shape (n,), in rad and m. The caller may keep
+    and change all results.
     """
 
     @abstractmethod
     def forward(self, q: Array) -> Pose:
-        """Forward kinematics: the pose `X_WT` of the hand."""
+        """Return the pose `X_WT` of the hand at joint positions `q`."""
 
     @abstractmethod
     def gravity(self, q: Array) -> Array:
-        """Joint torques that hold the arm up at rest, shape (n,), N m, or N for prismatic joints."""
+        """Return the joint torques that hold the arm up at rest, shape (n,), N m, or N for prismatic joints."""
 
     @abstractmethod
     def at_rest(self, q: Array) -> Dynamics:
-        """Mass matrix, gravity torques and Jacobian."""
+        """Return the mass matrix, gravity torques and Jacobian of the arm at rest."""
 
 
 @dataclass(frozen=True, slots=True)
 class Formulas(ArmArithmetic):
-    """The formulas of `arm.kinematics` and `arm.dynamics`; they need no library besides NumPy, and all other
+    """The formulas of `arm.kinematics` and `arm.dynamics`, which need no library besides NumPy. All other
     implementations are tested against them.
     """
 

@@ -1,5 +1,5 @@
-"""Computed-torque control: the servo law, its precomputation for a motion, and the estimate of external force from
-the torque residual.
+"""Computed-torque control: the servo law, its precomputation for a motion, and the estimate of the external force
+from the torque residual.
 
 Torque = planned inertia x (planned acceleration - velocity error - position error) + planned gravity, Coriolis and
 friction torques (Paul 1972). The torque is computed once in each servo period and held for that period.
@@ -19,10 +19,10 @@ def torque(
     arm: ArmModel, M: Array, bias: Array, q_des: Array, qd_des: Array, qdd_des: Array, q: Array, qd: Array,
     exerted: Array | float = 0.0,
 ) -> Array:  # fmt: skip
-    """Drive torques for one period, shape (n,), N m, and N for prismatic joints.
+    """Compute the drive torques for one servo period, shape (n,), N m, or N for prismatic joints.
 
-    `M`, (n, n), and `bias`, (n,), belong to the planned state at the moment when `q` and `qd` are read; `exerted`
-    is J^T F of a force or load that the hand is to exert.
+    `M`, shape (n, n), and `bias`, shape (n,), belong to the planned state at the moment when `q` and `qd` are read.
+    `exerted` is J^T F, where F is a force that the hand is to exert or a load that it carries.
     """
     omega = constants(arm).frequency
     acceleration = qdd_des + 2 * omega * (qd_des - qd) + omega * omega * (q_des - q)
@@ -32,15 +32,16 @@ def torque(
 def felt_wrench(
     M: Array, bias: Array, J: Array, tau: Array, qd_before: Array, qd_after: Array, period: float
 ) -> Array:
-    """External force and moment on the hand during a servo period (s) with torques `tau`, before taring; see
-    `external_wrench`.
+    """Estimate the external force and moment on the hand during a servo period (s) with torques `tau`, before
+    taring. For the method see `external_wrench`.
     """
     acceleration = (qd_after - qd_before) / period
     return external_wrench(J, M @ acceleration + bias - tau)
 
 
 def external_wrench(J: Array, unexplained: Array) -> Array:
-    """The external wrench on the hand at T that best explains a torque residual; world axes, shape (6,), N and N m.
+    """Estimate the external wrench on the hand that best explains a torque residual: force and moment at T in world
+    axes, shape (6,), N and N m.
 
     The residual `unexplained` is M qdd + bias - torque, shape (n,). The estimate needs no wrist sensor, but joint
     friction that the model lacks appears as force. An arm with fewer than six joints senses only the components
@@ -70,7 +71,9 @@ class Motion:
 
 
 def prepare(arm: ArmModel, q_start: Array, samples: Samples) -> Motion:
-    """Precompute a motion from rest, so that the working phase evaluates no trigonometric functions for it."""
+    """Precompute a motion that begins at rest, so that the working phase evaluates no trigonometric functions for
+    it.
+    """
     q = np.vstack([q_start, samples.q])[:-1]
     qd = np.vstack([np.zeros(len(q_start)), samples.qd])
     return Motion(

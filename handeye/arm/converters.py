@@ -1,4 +1,6 @@
-"""Resolution of the analogue-digital converters between computer and arm (data sheet of 1974)."""
+"""Resolution of the analogue-to-digital and digital-to-analogue converters between computer and arm (data sheet of
+1974).
+"""
 
 from functools import lru_cache
 from typing import Final
@@ -14,34 +16,38 @@ TORQUE_BITS: Final = 8  # drives: "8 bits or more"
 
 @lru_cache(maxsize=16)
 def position_step(arm: ArmModel) -> Array:
-    """One converter step of each potentiometer, whose steps span the joint's range; shape (n,), rad or m."""
+    """Return one converter step of each potentiometer, shape (n,), rad or m. The steps of a converter span the
+    range of its joint.
+    """
     return (arm.upper - arm.lower) / 2**SENSE_BITS
 
 
 @lru_cache(maxsize=16)
 def rate_step(arm: ArmModel) -> Array:
-    """One converter step of each tachometer, whose steps span the joint's rates; shape (n,), rad/s or m/s.
-    Inferred.
+    """Return one converter step of each tachometer, shape (n,), rad/s or m/s. The steps of a converter are taken to
+    span the rates of its joint.
     """
     return 2 * constants(arm).speed / 2**SENSE_BITS
 
 
 @lru_cache(maxsize=16)
 def torque_step(arm: ArmModel) -> Array:
-    """One converter step of each drive, whose steps span the torques in both directions; shape (n,), N m or N."""
+    """Return one converter step of each drive, shape (n,), N m or N. The steps of a converter span the torques in
+    both directions.
+    """
     return 2 * constants(arm).effort / 2**TORQUE_BITS
 
 
 def followed(arm: ArmModel, here: Array, moved: Array, reading: Array) -> Array:
-    """Joint positions with a finer resolution than the potentiometers: integrated from the tachometers (`moved`),
-    and kept within half a step of the potentiometer `reading`.
+    """Return joint positions with a finer resolution than the potentiometers give. Positions `here` advance by
+    `moved`, as integrated from the tachometers, and are kept within half a step of the potentiometer `reading`.
     """
     half = position_step(arm) / 2
     return (here + moved).clip(reading - half, reading + half)
 
 
 def sliding(arm: ArmModel, rate: Array) -> Array:
-    """Direction in which each joint slides, from -1 to 1, shape (n,); the magnitude is less than 1 if the rate is
-    below one tachometer step.
+    """Return the direction in which each joint slides, from -1 to 1, shape (n,). The magnitude is less than 1 if
+    the rate is below one tachometer step.
     """
     return (rate / rate_step(arm)).clip(-1.0, 1.0)

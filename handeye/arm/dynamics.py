@@ -29,24 +29,26 @@ class _Links:
 
 
 def mass_matrix(arm: ArmModel, q: Array) -> Array:
-    """Mass matrix M(q), including the inertia of the drives; q of shape (..., n) gives (..., n, n)."""
+    """Return the mass matrix M(q), including the inertia of the drives. `q` of shape (..., n) gives shape (..., n,
+    n).
+    """
     return _mass_matrix(arm, _links(arm, q))
 
 
 def gravity(arm: ArmModel, q: Array) -> Array:
-    """Joint torques that hold the arm up at rest, shape (..., n), N m or N."""
+    """Return the joint torques that hold the arm up at rest, shape (..., n), N m or N."""
     return _bias(arm, _links(arm, q), None)
 
 
 def bias(arm: ArmModel, q: Array, qd: Array) -> Array:
-    """Torques h(q, qd) + damping qd at given joint rates: gravity, Coriolis and viscous friction."""
+    """Return the torques h(q, qd) + damping qd: gravity, Coriolis and viscous friction torques at joint rates `qd`."""
     qd = np.asarray(qd, dtype=np.float64)
     return np.asarray(_bias(arm, _links(arm, q), qd) + constants(arm).damping * qd)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Dynamics:
-    """Dynamics of an arm at joint positions."""
+    """Mass matrix, gravity torques and Jacobian of an arm at given joint positions."""
 
     M: Array  # mass matrix, (..., n, n)
     bias: Array  # torques that hold or keep moving, (..., n)
@@ -54,8 +56,8 @@ class Dynamics:
 
 
 def at_rest(arm: ArmModel, q: Array) -> Dynamics:
-    """Mass matrix, gravity torques and Jacobian of an arm at rest, from one computation of the frames; `q` has
-    shape (..., n).
+    """Compute the mass matrix, gravity torques and Jacobian of an arm at rest, with the link frames computed only
+    once. `q` has shape (..., n).
     """
     links = _links(arm, q)
     J = tool_jacobian(arm, links.R, links.p)
@@ -63,8 +65,8 @@ def at_rest(arm: ArmModel, q: Array) -> Dynamics:
 
 
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """Torques of joint j that carry the weight of link i, (..., i, j), and the part of each that is due to the
-    distance of the link's mass centre.
+    """Return the torque of joint j that carries the weight of link i, shape (..., i, j), and the part of each
+    torque that is due to the distance of the mass centre from the origin of the link.
     """
     links, k = _links(arm, q), constants(arm)
     origins, _ = point_jacobian(arm, links.R, links.p, links.p[..., 1:, :])

@@ -1,4 +1,6 @@
-"""What a motion takes of the joints, servo period by servo period: taken down as it happens, judged at its end."""
+"""The torques and positions of the joints in each servo period of a motion: recorded during the motion, and judged
+at its end.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -9,7 +11,9 @@ from handeye.core.pose import Array
 
 
 class Exertion(NamedTuple):
-    """What the joints took in a servo period; arrays of shape (n,), N m and rad (N and m if prismatic)."""
+    """Torques and positions of the joints in one servo period. Arrays have shape (n,), in N m and rad, or N and m
+    for prismatic joints.
+    """
 
     q: Array  # set-points at its beginning
     spare: Array  # torques that weight, inertia and load leave unexplained
@@ -18,5 +22,5 @@ class Exertion(NamedTuple):
 
 
 def columns(taken: Sequence[Exertion]) -> Exertion:
-    """The figures of N servo periods, one at least, each as an array of shape (N, n)."""
+    """Collect the values of N servo periods, at least one, into arrays of shape (N, n)."""
     return Exertion(*map(np.array, zip(*taken, strict=True)))

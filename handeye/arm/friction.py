@@ -1,5 +1,4 @@
-"""The hand force that is sensed in free air: it comes from unknown joint friction and from the steps of the
-converters.
+"""The force that the hand senses in free air. It comes from unknown joint friction and from the converter steps.
 
 The force estimate takes only the known part of joint friction into account. A joint at rest takes up any torque up
 to its Coulomb friction f_i, a sliding joint takes up all of f_i, and the estimate reports the torque residual tau
@@ -30,25 +29,27 @@ from handeye.program.guards import HandLoad
 
 UNKNOWN: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
 PEAK: Final = 4.0
-"""Margin of a guard, in multiples of the scatter of single servo periods; one period of 30,000 exceeds it."""
+"""Margin of a guard, in multiples of the scatter of single servo periods. One servo period in 30,000 exceeds this
+margin.
+"""
 
 
 def unknown_friction(arm: ArmModel, friction: Array) -> Array:
-    """Upper bound of each joint's friction that remains unknown after friction has been measured, shape (n,), N m
-    or N.
+    """Return an upper bound of the friction of each joint that remains unknown after friction has been measured,
+    shape (n,), N m or N.
     """
     return np.asarray(torque_step(arm) / 4 + UNKNOWN * friction)
 
 
 def felt_friction(arm: ArmModel, q: Array, friction: Array) -> Array:
-    """The wrench that is sensed because of each joint's Coulomb friction (N m, N), as columns of shape (6, n), N
-    and N m, in W.
+    """Return the wrenches that are sensed because of the Coulomb friction (N m, N) of each joint: one column for
+    each joint, shape (6, n), N and N m, in W.
     """
     return external_wrench(jacobian(arm, q), np.diag(friction))
 
 
 def felt_in_air(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> float:
-    """The greatest force (N) or moment (N m) along `exerted` that the hand senses in free air."""
+    """Return the greatest force (N) or moment (N m) along `exerted` that the hand senses in free air."""
     vector = np.array(exerted.vector)
     wrenches = external_wrench(jacobian(arm, q), np.eye(len(q)))
     along = vector @ (wrenches[3:] if exerted.turning else wrenches[:3]) / np.linalg.norm(vector)
@@ -58,8 +59,8 @@ def felt_in_air(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> 
 
 
 def faint(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> float | None:
-    """The greatest force or moment sensed in free air (N, N m), if it exceeds `exerted`, so that a guard at
-    `exerted` may trip without contact; else None.
+    """Return the greatest force (N) or moment (N m) sensed in free air if it exceeds `exerted`, because a guard at
+    `exerted` may then trip without contact. Returns None if it does not.
     """
     most = felt_in_air(arm, q, friction, exerted)
     return most if float(np.linalg.norm(np.array(exerted.vector))) < most else None

@@ -12,36 +12,39 @@ from handeye.core.record import Record
 
 MAX_TURN_GAP: Final = 0.0063
 MAX_SLIDE_GAP: Final = 0.0011
-"""Difference, rad and m, that the waviness of a potentiometer can cause: twice its largest stated amplitude (.09
-degrees, .011 in), with the doubled errors of worlds of the high level.
+"""Difference between the two sensors of a joint (rad or m) that the waviness of a potentiometer can cause: twice
+its largest stated amplitude (.09 degrees, .011 in), with the errors of worlds of the high level, which are doubled.
 """
 READING_STEPS: Final = 1.5
 """Tolerance for two readings of one position, in converter steps: half a step for each, and their noise."""
 PATH_SHARE: Final = 0.013
-"""Tolerance as a fraction of the path: three standard deviations of a potentiometer's scale error (.22 %), doubled.
-
+"""Tolerance as a fraction of the path: three standard deviations of the scale error of a potentiometer (.22 %),
+doubled.
 """
 JUMP_STEPS: Final = 4.0
-"""Tolerance for the change of a reading within one servo period that the tachometer does not show, in converter
-steps.
+"""Tolerance, in converter steps, for a change of the potentiometer reading within one servo period that the
+tachometer does not show.
 
 One step for rounding, and five standard deviations of the noise (.2 steps per reading, .4 at the high level).
 """
 STRUCK: Final = 3.0
-"""Factor by which a joint that is struck may move farther in a servo period than half the change of its rate
+"""A joint that is struck may move in one servo period by this factor farther than half the change of its rate
 explains. Chosen.
 """
 
 
 REST_STEPS: Final = 4
-"""Tolerance for the change of a potentiometer with brakes set while its tachometer reads zero, in converter steps.
+"""Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
+tachometer reads zero.
 
 Two steps are for the noise at the high level, the others for an arm that creeps.
 """
 
 
 class Disagreement(Record, frozen=True, kw_only=True):
-    """Displacement of a joint (rad or m) by each of its two sensors, since a motion began or the brakes were set."""
+    """Displacement of a joint (rad or m) according to each of its two sensors, since a motion began or the brakes
+    were set.
+    """
 
     joint: int
     potentiometer: float
@@ -50,8 +53,8 @@ class Disagreement(Record, frozen=True, kw_only=True):
 
 
 def crept(arm: ArmModel, change: Array) -> Disagreement | None:
-    """The joint that moved most under set brakes, by the change of its potentiometer, (n,), if it moved more than
-    is tolerated; else None.
+    """Find the joint whose potentiometer changed most while the brakes were set; `change` has shape (n,). Returns
+    None if the change is tolerable.
     """
     excess = np.abs(change) / (REST_STEPS * position_step(arm))
     if (excess <= 1).all():
@@ -87,7 +90,7 @@ class JointAgreement:
         )
 
     def begin_anew(self, q: Array, qd: Array) -> None:
-        """Start the comparison again from these readings. For a tool that chatters in step with the servo and
+        """Start the comparison again from these readings. Used for a tool that chatters in step with the servo and
         shakes the arm.
 
         Tachometers that are read once per period then show a steady rate although the joint does not move on
@@ -97,11 +100,12 @@ class JointAgreement:
         self._clear()
 
     def step(self, q: Array, qd: Array) -> Disagreement | None:
-        """Compare the readings of the next servo period; returns the joint that disagrees most, if any.
+        """Compare the readings of the next servo period. Returns the joint whose sensors disagree most, or None if
+        all agree.
 
-        The mean of two successive rates is the mean rate in between as long as the rate changes evenly. Where it
-        does not, for example when a casting breaks loose and strikes the joint, the motion in between is unknown.
-        The unknown parts of different periods are independent, so their squares are added.
+        While the rate changes evenly, the mean of two successive rates is the mean rate in between. While it does
+        not, for example when a casting breaks loose and strikes the joint, the motion in between is unknown. The
+        unknown parts of different periods are independent, so their squares are added.
         """
         period, step = self.arm.servo.period, rate_step(self.arm)
         gone, gain = (self.rate + qd) / 2 * period, qd - self.rate
@@ -121,12 +125,13 @@ class JointAgreement:
 
 
 def _unsteady(change: Array, step: Array) -> Array:
-    """The part of a change of rate that exceeds two converter steps."""
+    """Return the part of a change of rate that exceeds two converter steps."""
     return np.maximum(np.abs(change) - 2 * step, 0.0)
 
 
 def jumped(arm: ArmModel, by_pot: Array, before: Array, after: Array) -> Disagreement | None:
-    """The joint, if any, whose potentiometer disagrees with the rates before and after a servo period.
+    """Find the joint whose potentiometer disagrees with its rates before and after a servo period. Returns None if
+    all agree.
 
     A reading that jumps is detected at once, whatever the arm does. All arrays have shape (n,).
     """

@@ -1,5 +1,5 @@
-"""Torques that joints take beyond weight, inertia and load: decides whether one joint or a force at the hand
-explains them.
+"""Decides whether a single joint, or a force on the hand, explains the joint torques that remain beyond weight,
+inertia and load.
 
 In free air the remaining torque is friction. Friction has the sign of the rate, so a joint's friction is half the
 difference between its torques in the two directions, even if the model of its weight is wrong (as in
@@ -29,7 +29,7 @@ LEAST_PERIODS: Final = (
     15  # servo periods of sliding that an average needs; chosen: a torque step wavers less by 4
 )
 MAX_DRAG_RATIO: Final = 2.0
-"""Greatest plausible ratio of a joint's friction to the first measurement; half a converter step is allowed in
+"""Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in
 addition.
 
 Measured friction is right within a quarter of a step and 2 %, and so is the torque measured in a motion: at twice
@@ -38,19 +38,19 @@ directions. Sound joints of twelve worlds reach 1.4.
 """
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
-"""Possible relative error of weight and inertia torques if a joint moved in one direction only: masses, mass
-centres and drives at three times twice their stated spreads.
+"""Possible relative error of weight and inertia torques if a joint moved in one direction only. It allows for
+errors of masses, mass centres and drives of three times twice their stated spreads.
 """
 AT_HAND: Final = 0.15
-"""Longest lever arm about the tool centre point (m) of a force on the hand or on what it holds. Chosen: beyond the
-palm, but short of the wrist centre.
+"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Chosen: beyond
+the palm, but short of the wrist centre.
 """
 ALONE: Final = 0.9  # share of the squares of all unexplained torques that one joint must have; chosen
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stiffness:
-    """A joint that is too stiff, and the torque (N m, or N if prismatic) by which it resists motion beyond the
+    """A joint that is too stiff, and the torque (N m, or N if prismatic) with which it resists motion beyond the
     model.
     """
 
@@ -61,9 +61,10 @@ class Stiffness:
 
 
 def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:
-    """The joint, if any, that resists a motion with much more than its measured `friction`, (n,).
+    """Find the joint that resists a motion with much more than its measured `friction`, shape (n,). Returns None if
+    there is none.
 
-    Torques are averaged for each direction of sliding of each joint; arrays of shape (2, n).
+    Torques are averaged over each direction of sliding of each joint, in arrays of shape (2, n).
     """
     _, spare, modelled, rates = columns(taken)
     least = SLIDING_STEPS * rate_step(arm)
@@ -91,8 +92,8 @@ def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffnes
 
 
 def alone(arm: ArmModel, J: Array, spare: Array) -> int | None:
-    """The joint that alone takes the torques `spare`, (n,); None if a force on the hand explains them (see the
-    module).
+    """Find the joint that alone takes the torques `spare`, shape (n,). Returns None if a force on the hand explains
+    the torques (see the module).
     """
     wrench = external_wrench(J, spare)
     if float(np.linalg.norm(wrench[3:])) <= AT_HAND * float(np.linalg.norm(wrench[:3])):

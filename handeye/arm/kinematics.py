@@ -1,7 +1,8 @@
-"""Kinematics of a chain of frames: forward kinematics, Jacobians, and accelerations of points along it.
+"""Kinematics of a chain of frames: forward kinematics, Jacobians, and accelerations of points on the chain.
 
 The chain has revolute and prismatic joints and no common-normal offsets (a = 0 in every row). Functions are
-vectorised over leading dimensions, so that a whole motion costs little more than one set-point.
+vectorised over leading dimensions, so that computing a whole motion takes little more time than computing one
+set-point.
 """
 
 import numpy as np
@@ -12,8 +13,8 @@ from handeye.core.pose import Array, Pose
 
 
 def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """DH frames 0 (base) to n (tool) in W at joint positions `q`, (..., n): rotations (..., n + 1, 3, 3) and
-    origins (..., n + 1, 3), m.
+    """Compute the DH frames 0 (base) to n (tool) in W at joint positions `q`, shape (..., n). Returns rotations,
+    shape (..., n + 1, 3, 3), and origins, shape (..., n + 1, 3), m.
     """
     k = constants(arm)
     q = np.asarray(q, dtype=np.float64)
@@ -28,7 +29,9 @@ def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
 
 
 def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
-    """Rotations by joint angles about z, then by alpha about x; angles of shape (...) give (..., 3, 3)."""
+    """Return rotations by joint angles about z, followed by alpha about x. Angles of shape (...) give shape (...,
+    3, 3).
+    """
     c, s = np.cos(angle), np.sin(angle)
     step = np.zeros((*angle.shape, 3, 3))
     step[..., 0, 0], step[..., 0, 1], step[..., 0, 2] = c, -s * cos_alpha, s * sin_alpha
@@ -38,11 +41,11 @@ def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
 
 
 def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Array, Array]:
-    """Jacobians of points, shape (..., m, 3), in W, that move with the hand: beyond all joints of the chain `R`,
-    `p`.
+    """Compute the Jacobians of points in W, shape (..., m, 3), that move with the hand, beyond all joints of the
+    chain `R`, `p`.
 
-    Returns the velocity of each point per joint rate, (..., m, n, 3), and the angular velocity per joint rate,
-    (..., n, 3).
+    Returns the velocity of each point per joint rate, shape (..., m, n, 3), and the angular velocity per joint
+    rate, shape (..., n, 3).
     """
     prismatic = constants(arm).prismatic[:, None]
     axes = R[..., :-1, :, 2]
@@ -52,7 +55,9 @@ def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Ar
 
 
 def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
-    """Jacobian of the tool frame, the last frame of the chain: linear rows, then angular, shape (..., 6, n)."""
+    """Return the Jacobian of the tool frame, the last frame of the chain: linear rows, then angular rows, shape
+    (..., 6, n).
+    """
     linear, angular = point_jacobian(arm, R, p, p[..., -1:, :])
     return np.concatenate(
         [np.swapaxes(linear[..., 0, :, :], -1, -2), np.swapaxes(angular, -1, -2)], axis=-2
@@ -62,10 +67,11 @@ def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
 def centripetal(
     arm: ArmModel, R: Array, p: Array, points: Array, links: NDArray[np.int_], qd: Array
 ) -> tuple[Array, Array]:
-    """Accelerations of points, (..., m, 3), and of their links at joint rates `qd` and zero joint accelerations.
+    """Compute the accelerations of points, shape (..., m, 3), and of their links at joint rates `qd` and zero joint
+    accelerations.
 
-    Point k is fixed in link `links[k]`, counted from 0. Returns linear accelerations, (..., m, 3), and angular
-    ones, (..., m, 3).
+    Point k is fixed in link `links[k]`, counted from 0. Returns linear accelerations and angular accelerations,
+    each of shape (..., m, 3).
     """
     k = constants(arm)
     prismatic = k.prismatic[:, None]
@@ -94,14 +100,14 @@ def centripetal(
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Cross product over the last axis; several times faster than `numpy.cross` on small arrays."""
+    """Return the cross product over the last axis. On small arrays this is several times faster than `numpy.cross`."""
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
 
 
 def forward(arm: ArmModel, q: Array) -> Pose:
-    """Forward kinematics: the hand pose `X_WT` at joint positions `q`; (..., n) gives (..., 4, 4)."""
+    """Return the hand pose `X_WT` at joint positions `q`. Shape (..., n) gives shape (..., 4, 4)."""
     R, p = chain(arm, q)
     X = np.zeros((*R.shape[:-3], 4, 4))
     X[..., :3, :3], X[..., :3, 3], X[..., 3, 3] = R[..., -1, :, :], p[..., -1, :], 1.0
@@ -109,12 +115,14 @@ def forward(arm: ArmModel, q: Array) -> Pose:
 
 
 def jacobian(arm: ArmModel, q: Array) -> Array:
-    """Geometric Jacobian at T in world axes: linear rows, then angular; q of shape (..., n) gives (..., 6, n)."""
+    """Return the geometric Jacobian at T in world axes: linear rows, then angular rows. `q` of shape (..., n) gives
+    shape (..., 6, n).
+    """
     return tool_jacobian(arm, *chain(arm, q))
 
 
 def drift(arm: ArmModel, q: Array, qd: Array) -> Array:
-    """Acceleration of T at joint rates `qd` and zero joint accelerations (dJ/dt qd), shape (..., 6)."""
+    """Return the acceleration of T at joint rates `qd` and zero joint accelerations (dJ/dt qd), shape (..., 6)."""
     R, p = chain(arm, q)
     linear, angular = centripetal(arm, R, p, p[..., -1:, :], np.full(1, len(arm.joints) - 1), qd)
     return np.concatenate([linear[..., 0, :], angular[..., 0, :]], axis=-1)

@@ -1,5 +1,5 @@
-"""Motions of the hand on lines and arcs, and of single joints; joint positions and rates are solved exactly at
-every set-point.
+"""Motions of the hand on lines and arcs, and motions of single joints. Joint positions and rates are solved exactly
+at every set-point.
 """
 
 import math
@@ -21,11 +21,11 @@ RAMP = 0.1  # s to reach and to leave cruising speed; chosen: six servo periods 
 def straight(
     arm: ArmModel, q_start: Array, displacement: Array, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Set-points of a straight motion of the tool point with constant orientation, or the reason why it is
-    impossible.
+    """Plan a straight motion of the tool point with constant orientation. Returns its set-points, or the reason why
+    it is impossible.
 
-    The motion covers `displacement` (m, W, shape (3,)) and cruises at up to `speed` (m/s); a short motion stays
-    slower.
+    The motion covers `displacement` (m, in W, shape (3,)) and cruises at `speed` (m/s). A motion too short for this
+    speed stays slower.
     """
     displacement = np.asarray(displacement, dtype=np.float64)
     distance = float(np.linalg.norm(displacement))
@@ -40,10 +40,10 @@ def straight(
 def arc(
     arm: ArmModel, q_start: Array, centre_xy: Array, angle: float, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Set-points of a turn of the hand about a vertical axis through `centre_xy` (m, shape (2,)), or the reason why
-    it is impossible.
+    """Plan a turn of the hand about a vertical axis through `centre_xy` (m, shape (2,)). Returns its set-points, or
+    the reason why it is impossible.
 
-    The motion covers `angle` (rad, counter-clockwise from above) and cruises at up to `speed` (rad/s).
+    The motion covers `angle` (rad, counter-clockwise seen from above) and cruises at up to `speed` (rad/s).
     """
     s, sd, sdd = _profile(abs(angle), speed, ramp, arm.servo.period)
     s, sd, sdd = (math.copysign(1.0, angle) * x for x in (s, sd, sdd))
@@ -62,9 +62,9 @@ def arc(
 
 
 def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float = RAMP) -> Samples | IKResult:
-    """Set-points of a turn of the hand about its tool point, or the reason why it is impossible.
+    """Plan a turn of the hand about its tool point. Returns its set-points, or the reason why it is impossible.
 
-    The motion covers the rotation vector `turn` (rad, W, shape (3,)) and cruises at up to `speed` (rad/s).
+    The motion covers the rotation vector `turn` (rad, in W, shape (3,)) and cruises at up to `speed` (rad/s).
     """
     angle = float(np.linalg.norm(turn))
     s, sd, sdd = _profile(angle, speed, ramp, arm.servo.period)
@@ -76,10 +76,10 @@ def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float 
 
 
 def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple[Array, Array, Array]:
-    """Distance, speed and acceleration at ticks 1 to N: a cruise between two ramps with smooth ends.
+    """Return the distance, speed and acceleration at ticks 1 to N of a cruise between two ramps with smooth ends.
 
-    On a ramp the speed is v (3 r2 - 2 r3), with r the elapsed fraction of the ramp and r2, r3 its powers, so that a
-    ramp covers half the distance of cruising.
+    On a ramp the speed is v (3 r2 - 2 r3), where r is the elapsed fraction of the ramp, and r2 and r3 are its
+    square and cube. A ramp therefore covers half the distance that cruising covers in the same time.
     """
     if distance == 0.0:
         return np.zeros(0), np.zeros(0), np.zeros(0)
@@ -96,7 +96,9 @@ def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple
 
 
 def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Samples | IKResult:
-    """Joint positions, rates and accelerations for hand poses (N, 4, 4), twists (N, 6) and rates of twists (N, 6)."""
+    """Find the joint positions, rates and accelerations for hand poses, shape (N, 4, 4), twists, shape (N, 6), and
+    rates of twists, shape (N, 6). Returns the reason if that is impossible.
+    """
     if len(X) == 0:
         none = np.zeros((0, len(q_start)))
         return Samples(q=none, qd=none, qdd=none)
@@ -125,14 +127,14 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
 
 
 def _shortest(step: Array, turn: Array) -> Array:
-    """`step` without whole turns, in the shorter direction."""
+    """Remove whole turns from `step`, so that it goes in the shorter direction."""
     whole = np.round(step / turn)
     return np.asarray(step - np.where(whole == 0, 0.0, whole * np.where(np.isinf(turn), 0.0, turn)))
 
 
 def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Samples | IKResult:
-    """Set-points of a smooth motion of one joint, given by its index from 0, to a goal (rad or m), or the reason
-    why it is impossible.
+    """Plan a smooth motion of one joint, given by its index from 0, to a goal (rad or m). Returns its set-points,
+    or the reason why it is impossible.
 
     `speed` is a fraction of the joint's rate limit; the acceleration is scaled by its square.
     """

@@ -1,4 +1,4 @@
-"""The model of an arm, as a value: a chain of joints with limits, masses and drives, and a two-finger hand."""
+"""The model of an arm as a value: a chain of joints with limits, masses and drives, and a two-finger hand."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
@@ -24,7 +24,9 @@ class GraspModel:
     give: float = 0.004  # m by which the fingers must be held up to press with all the force allowed; chosen
 
     def lag(self, force: float, grip: float) -> float:
-        """Lead of the gap's set-point over the fingers when they press with `force` of at most `grip` (N), m."""
+        """Return how far (m) the set-point of the gap leads the fingers when they press with `force`, of at most
+        `grip` (both N).
+        """
         return self.give * force / grip
 
 
@@ -47,7 +49,7 @@ class HandModel:
     lamp: tuple[float, float, float] | None = None  # in T; shows the camera the hand
 
     def boxes(self, gap: float) -> tuple[Box, ...]:
-        """Boxes of both fingers at an opening `gap` (m), of the palm and of the wrist."""
+        """Return the boxes of both fingers at an opening `gap` (m), of the palm and of the wrist."""
         x, inner, outer = self.finger_width / 2, gap / 2, gap / 2 + self.finger_thickness
         return (
             (-x, inner, -self.finger_length, x, outer, 0.0),
@@ -58,15 +60,15 @@ class HandModel:
 
 
 Structure = Literal["spherical wrist", "gantry", "cartesian"]
-"""Kinematic structure of an arm, for inverse kinematics; `handeye.arm.ik` has a solver for each."""
+"""Kinematic structure of an arm. `handeye.arm.ik` has a solver for each structure."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Joint:
     """A joint and the link that it moves, in standard Denavit-Hartenberg form with a = 0.
 
-    From DH frame i-1, frame i is reached by a turn of `theta` about z, a shift of `d` along z and a turn of `alpha`
-    about x. A revolute joint varies theta, a prismatic joint varies d; positions, rates and limits are in rad or m.
+    Frame i is reached from DH frame i-1 by a turn of `theta` about z, a shift of `d` along z and a turn of `alpha`
+    about x. A revolute joint varies theta, a prismatic joint varies d. Positions, rates and limits are in rad or m.
     """
 
     name: str
@@ -89,7 +91,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServoModel:
-    """Parameters of the servo, and following errors beyond which a motion has failed."""
+    """Parameters of the servo, and the following errors beyond which a motion has failed."""
 
     period: float  # s between torque updates
     frequency: tuple[float, ...]  # of each joint's error, rad/s, critically damped
@@ -101,9 +103,7 @@ class ServoModel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComplianceModel:
-    """Parameters of compliant motions, in which the speed of the hand follows the sensed force (admittance
-    control).
-    """
+    """Parameters of compliant motions, in which the sensed force sets the speed of the hand (admittance control)."""
 
     gain: float  # m/s/N
     speed: float  # m/s by force alone, at most
@@ -112,8 +112,8 @@ class ComplianceModel:
     turn_limit: float  # rad, at most
     ramp: int  # servo periods to full speed of a motion that does not press
     friction: tuple[float, ...]
-    """Expected Coulomb friction of each joint, N m or N. Used for checks before a run; during a run, measured
-    friction is used.
+    """Expected Coulomb friction of each joint, N m or N. It is used for checks before a run; during a run, the
+    measured friction is used.
     """
 
 
@@ -133,7 +133,7 @@ class ArmModel(Brief):
     servo: ServoModel
     compliance: ComplianceModel
     held: Mapping[str, float] = field(default_factory=dict)
-    """Positions, rad or m, of the joints that inverse kinematics leaves fixed, by joint name."""
+    """Position (rad or m), by joint name, of each joint that inverse kinematics leaves fixed."""
 
     def __post_init__(self) -> None:
         """Raise ValueError if the figures contradict each other."""
@@ -167,19 +167,21 @@ _WORKING: Final = (ComplianceModel, GraspModel)  # parts that no plan depends on
 
 
 def digest(arm: ArmModel) -> str:
-    """A digest (12 hexadecimal digits) of all figures on which a plan may depend; names of fields do not count."""
+    """Compute a digest (12 hexadecimal digits) of all values on which a plan may depend. Names of fields do not
+    affect the digest.
+    """
     import hashlib
 
     return hashlib.sha256(repr(_figures(arm, _WORKING)).encode()).hexdigest()[:12]
 
 
 def same_arm(one: ArmModel, other: ArmModel) -> bool:
-    """True if all figures of two models are equal, including those used only in the working phase."""
+    """Return True if all values of two arm models are equal, including values used only in the working phase."""
     return _figures(one, ()) == _figures(other, ())
 
 
 def _figures(value: object, left_out: tuple[type, ...]) -> object:
-    """Figures of a model as nested lists, without values of the types `left_out`."""
+    """Convert the values of a model to nested lists, without values of the types `left_out`."""
     if is_dataclass(value):
         parts = [getattr(value, each.name) for each in fields(value)]
         return [_figures(part, left_out) for part in parts if not isinstance(part, left_out)]
@@ -192,7 +194,7 @@ def _figures(value: object, left_out: tuple[type, ...]) -> object:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Constants:
-    """The figures of an arm model as arrays, computed once; they must not be modified.
+    """The values of an arm model as arrays, computed once. The arrays must not be modified.
 
     The fields from `prismatic` to `frequency` have shape (n,).
     """
@@ -221,7 +223,7 @@ class Constants:
 
 @lru_cache(maxsize=16)
 def constants(arm: ArmModel) -> Constants:
-    """The figures of an arm as arrays."""
+    """Convert the values of an arm to arrays."""
     names = (
         "d",
         "theta",

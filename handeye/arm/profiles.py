@@ -12,8 +12,8 @@ PEAK_ACCELERATION = 5.774  # over distance / duration2
 
 
 def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period: float) -> Iterator[Array]:
-    """Set-points of a fast quintic motion of n axes from rest to rest, one per period (s); all axes arrive
-    together.
+    """Yield the set-points of a fast quintic motion of n axes from rest to rest, one per period (s). All axes
+    arrive together.
     """
     distance = np.abs(goal - start)
     longest = max(
@@ -27,8 +27,8 @@ def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period
 
 
 def slow_line(start: Array, goal: Array, speed: Array, period: float) -> Iterator[Array]:
-    """Set-points of a slow motion of n axes at constant speed, one per period (s); the motion may be stopped at any
-    of them.
+    """Yield the set-points of a slow motion of n axes at constant speed, one per period (s). The motion may be
+    stopped at any set-point.
     """
     steps = max(1, math.ceil(float(np.max(np.abs(goal - start) / speed)) / period))
     for step in range(1, steps + 1):

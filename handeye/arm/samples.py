@@ -1,4 +1,4 @@
-"""Set-points of a motion, one per servo period, and their check against the limits of the arm."""
+"""Set-points of a motion, one per servo period, and a check of them against the limits of the arm."""
 
 from dataclasses import dataclass
 
@@ -14,8 +14,8 @@ from handeye.program.diagnosis.reach import BelowTable
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Samples:
-    """Set-points at the ends of servo periods 1 to N: joint positions, rates and accelerations, each of shape (N,
-    n), in rad and m.
+    """Set-points at the ends of servo periods 1 to N: joint positions, rates and accelerations. Each array has
+    shape (N, n), in rad and m.
     """
 
     q: Array
@@ -27,15 +27,15 @@ class Samples:
 
 
 def length(X_WT: Pose) -> float:
-    """Length of the hand's path along poses (N, 4, 4), m."""
+    """Return the length (m) of the path of the hand along poses, shape (N, 4, 4)."""
     return float(np.linalg.norm(np.diff(X_WT[:, :3, 3], axis=0), axis=1).sum())
 
 
 def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None) -> IKResult | None:
-    """Check samples against the joint limits, and the hand against `floor` (m).
+    """Check set-points against the joint limits, and the height of the hand against `floor` (m).
 
-    Returns None if all set-points are within the limits, else the first joint beyond its limit, the extreme
-    position, and where along the path it occurs.
+    Returns None if all set-points are within the limits. If not, returns the first joint that is beyond its limit,
+    its extreme position, and where on the path that occurs.
     """
     excess = np.maximum(samples.q - arm.upper, arm.lower - samples.q)
     bad = excess > SLACK

@@ -1,13 +1,14 @@
-"""Detects a drive that does not give its commanded torque, from the torques that carry the arm's weight in
-successive motions.
+"""Detects a drive that does not give its commanded torque. The evidence is the torques that carry the weight of the
+arm in successive motions.
 
 In a motion through free air from rest to rest, the mean torque of a joint is its weight torque plus the measured
 friction. The remainder is due to errors of masses, mass centres and drives. These errors are constant, so each
-motion refines their estimate (recursive least squares with a prior, Gauss; the prior is the uncertainty after the
-arm has weighed itself, for errors of twice their stated size), until a motion at a new posture leaves almost no
-remainder. A remainder that appears then means that a drive has changed. Measured in three worlds, one of them at
-the high level: the weight torque of joint 2 of the Stanford arm is known to .27 N m of the 18 N m that it carries
-over the table, that of joint 3 to .6 N of 5 to 20 N. A joint that carries no weight gives no information.
+motion refines their estimate, until a motion at a new posture leaves almost no remainder. The method is recursive
+least squares with a prior (Gauss); the prior is the uncertainty after the arm has weighed itself, for errors of
+twice their stated size. A remainder that appears then means that a drive has changed. Measured in three worlds, one
+of them at the high level: the weight torque of joint 2 of the Stanford arm is known to .27 N m of the 18 N m that
+it carries over the table, that of joint 3 to .6 N of 5 to 20 N. A joint that carries no weight gives no
+information.
 """
 
 from collections.abc import Sequence
@@ -30,18 +31,18 @@ DAMPING: Final = 0.6  # of viscous friction
 COULOMB: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
 BEARS: Final = 4.0  # times its friction: the least weight that a joint must bear to be looked at; chosen
 LIMIT: Final = 5.0
-"""Limit of a joint's remainder, in multiples of its uncertainty; the uncertainty is one sigma for errors of twice
-their stated size.
+"""Limit of the remainder of a joint, in multiples of its uncertainty: one sigma, for errors of twice their stated
+size.
 
-A pump takes about 350 motions, in which two joints are checked. A limit of 4 would stop one of 20 sound pumps, a
-limit of 5 stops one of 2,500.
+A pump takes about 350 motions, in which two joints are checked. A limit of 4 would stop one sound pump in 20; a
+limit of 5 stops one in 2,500.
 """
 OFF: Final = 0.4  # of LIMIT: from there on other joints are reported beside the worst
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unbalanced:
-    """Joints whose torques do not balance; `factors` is the torque of each drive as a multiple of the commanded
+    """Joints whose torques do not balance. `factors` gives the torque of each drive as a multiple of the commanded
     torque.
     """
 
@@ -52,11 +53,11 @@ class Unbalanced:
 def balanced(
     arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None, borne: Array
 ) -> tuple[Array, Unbalanced | None]:
-    """Compare a motion with the estimate before it; returns the estimate after it, and the joints that do not balance,
-    if any.
+    """Compare the torques of a motion with the estimate made before it. Returns the new estimate, and the joints
+    that do not balance, or None if all balance.
 
-    `arm` is as it has been weighed, `friction` as it was measured. `belief` is the estimate, None if the arm has only
-    been weighed at its first posture; `borne` are the torques that carry a declared load.
+    `arm` is the model with the weighed masses, and `friction` the measured friction. `belief` is the estimate, or
+    None if the arm has only been weighed at its first posture. `borne` are the torques that carry a declared load.
     """
     postures, spares, _, rates = columns(taken)
     slides = sliding(arm, rates)
@@ -81,25 +82,33 @@ def balanced(
 
 
 def _doubt(arm: ArmModel) -> Array:
-    """Least uncertainty of a mean torque: a quarter of a converter step, both in the torque and in the friction."""
+    """Return the least uncertainty of a mean torque: a quarter of a converter step, in the torque as well as in the
+    friction.
+    """
     return np.asarray(torque_step(arm) * np.sqrt(2) / 4)
 
 
 def _prior(arm: ArmModel) -> Array:
-    """Prior of the errors of masses, mass centres and drives, (3n, 1 + 3n): expected values, then covariances."""
+    """Return the prior of the errors of masses, mass centres and drives, shape (3n, 1 + 3n): expected values, then
+    covariances.
+    """
     spread = np.repeat([MASS, CENTRE, GAIN], len(arm.joints))
     return np.column_stack((np.zeros(len(spread)), np.diag(spread**2)))
 
 
 def _model(arm: ArmModel, postures: Array) -> tuple[Array, Array]:
-    """Contribution of each of these errors to the mean joint torques, (n, 3n), and the mean weight torques, (n,)."""
+    """Return the contribution of each error to the mean joint torques, shape (n, 3n), and the mean weight torques,
+    shape (n,).
+    """
     masses, centres = (each.mean(axis=0).T for each in link_weights(arm, postures))
     weight = masses.sum(axis=1)
     return np.hstack((masses, centres, -np.diag(weight))), weight
 
 
 def _learnt(belief: Array, H: Array, weight: Array, noise: Array, spare: Array | None = None) -> Array:
-    """Update an estimate with joint torques beyond the model (zero by default), each with a noise variance."""
+    """Update an estimate with the joint torques beyond the model (zero by default). Each torque has a noise
+    variance.
+    """
     mean, spread = belief[:, 0], belief[:, 1:]
     for j, h in enumerate(H):
         if not weight[j]:

@@ -1,8 +1,8 @@
 """Planned free motions: one polynomial trajectory of degrees 4-3-4 per joint (Paul 1972).
 
 The hand lifts off upwards, moves to a set-down point above the goal, and descends. Via points in between are knots
-of a cubic spline. All joints share the segment times, so a linear relation between joints that holds at all knots
-holds throughout the motion: a hand that points straight down at all knots never tilts.
+of a cubic spline. All joints share the segment times. A linear relation between joints that holds at all knots
+therefore holds throughout the motion: a hand that points straight down at all knots never tilts.
 """
 
 import math
@@ -22,9 +22,9 @@ from handeye.core.units import INCH
 from handeye.program.diagnosis.reach import BelowTable
 
 DIRECT_KNOT: Final = 1 / 9
-"""Fraction of the path at which a motion without departure or approach has its first and last inner knots.
+"""Fraction of the path at which the first and last inner knots lie in a motion without departure or approach.
 
-5 degrees of 45, as in the worked example of Paul 1972.
+The worked example of Paul (1972) has 5 degrees of 45.
 """
 _HEIGHT_SHARES: Final = (1.0, 0.75, 0.5, 0.25)  # of departure and approach, tried in turn
 _END_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)  # durations of the end segments over the middle one's
@@ -45,7 +45,7 @@ class Trajectory:
         return float(self.times.sum())
 
     def at(self, time: Array) -> Samples:
-        """Joint positions, rates and accelerations at times (s) from the start, shape (N,)."""
+        """Return the joint positions, rates and accelerations at times (s) from the start, shape (N,)."""
         ends = np.cumsum(self.times)
         segment = np.minimum(np.searchsorted(ends, time, side="left"), len(ends) - 1)
         t = np.clip(time - (ends - self.times)[segment], 0.0, self.times[segment])
@@ -53,7 +53,7 @@ class Trajectory:
         return Samples(q=q[:, 0], qd=qd[:, 0], qdd=qdd[:, 0])
 
     def sample(self, period: float) -> Samples:
-        """Set-points at ticks 1 to N; the last is exactly at the goal, at rest."""
+        """Return the set-points at ticks 1 to N. The last set-point is exactly at the goal, at rest."""
         count = max(1, math.ceil(self.duration / period - 1e-6))
         samples = self.at(np.arange(1.0, count + 1.0) * period)
         samples.q[-1], samples.qd[-1], samples.qdd[-1] = self.knots[-1], 0.0, 0.0
@@ -61,8 +61,8 @@ class Trajectory:
 
 
 def four_three_four(knots: Array, times: Array) -> Trajectory:
-    """The trajectory from rest to rest through all knots, with continuous second derivative; arrays as in
-    `Trajectory`.
+    """Compute the trajectory from rest to rest through all knots with continuous second derivatives. Arrays are as
+    in `Trajectory`.
     """
     knots, times = np.array(knots, dtype=np.float64), np.array(times, dtype=np.float64)
     return Trajectory(knots=knots, times=times, coefficients=_coefficients(knots, times))
@@ -72,12 +72,13 @@ def move(
     arm: ArmModel, q_start: Array, X_WT_goal: Pose, *,
     via: Sequence[Array] = (), departure: float = 3 * INCH, approach: float = 3 * INCH, speed: float = 1.0,
 ) -> Trajectory | IKResult:  # fmt: skip
-    """The free motion to a hand pose on the nearest branch, in whole servo periods, or the reason why it is
-    impossible.
+    """Plan the free motion to a hand pose on the nearest branch, lasting a whole number of servo periods. Returns
+    the trajectory, or the reason why the motion is impossible.
 
     The motion passes the configurations `via` without stopping. `departure` and `approach` are the heights (m) of
-    the lift-off and set-down points above start and goal, 0 for none; a point out of reach is lowered by quarters.
-    `speed` is a fraction of the joints' rate limits; accelerations are scaled by its square.
+    the lift-off point above the start and of the set-down point above the goal; a height of 0 leaves the point out.
+    A point out of reach is lowered by quarters of its height. `speed` is a fraction of the joints' rate limits;
+    accelerations are scaled by its square.
     """
     height = float(X_WT_goal[2, 3])
     if height < -SLACK:
@@ -98,7 +99,9 @@ def move(
 
 
 def _raised(arm: ArmModel, X_WT: Pose, q: Array, height: float) -> Array | None:
-    """Joint positions with the hand raised by `height` (m), or as far as the arm reaches; None if `height` is 0."""
+    """Find joint positions with the hand raised by `height` (m), or as far as the arm reaches. Returns None if
+    `height` is 0.
+    """
     if height == 0.0:
         return None
     tried = (solve(arm, translated(X_WT, [0.0, 0.0, share * height]), q).q for share in _HEIGHT_SHARES)
@@ -106,7 +109,7 @@ def _raised(arm: ArmModel, X_WT: Pose, q: Array, height: float) -> Array | None:
 
 
 def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, q3: Array) -> Array:
-    """All knots, with substitutes in joint space for missing lift-off and set-down points."""
+    """Return all knots. Missing lift-off and set-down points are replaced by knots in joint space."""
     ahead = via[0] if via else q3 if q2 is None else q2
     behind = via[-1] if via else q0 if q1 is None else q1
     leave, reach = q0 + DIRECT_KNOT * (ahead - q0), q3 + DIRECT_KNOT * (behind - q3)
@@ -114,7 +117,9 @@ def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, 
 
 
 def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
-    """The fastest trajectory within limits among the tried segment times, in whole servo periods."""
+    """Return the fastest trajectory within the limits among the segment times tried. It lasts a whole number of
+    servo periods.
+    """
     k, period = constants(arm), arm.servo.period
     distances = np.abs(np.diff(knots, axis=0))
     least = np.max(np.maximum(distances / k.speed, np.sqrt(distances / k.acceleration)), axis=1)
@@ -130,7 +135,9 @@ def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
 
 
 def _stretch(arm: ArmModel, knots: Array, times: Array) -> Array:
-    """Factors on segment times (..., 3) that bring speeds and accelerations just within the limits; shape (...)."""
+    """Return the factors on segment times (..., 3) that bring speeds and accelerations just within the limits,
+    shape (...).
+    """
     k = constants(arm)
     coefficients = _coefficients(knots, times)
     at = times[..., None] * _PLACES
@@ -141,7 +148,7 @@ def _stretch(arm: ArmModel, knots: Array, times: Array) -> Array:
 
 
 def _powers(t: Array, order: int) -> Array:
-    """Derivatives of 1, t, ..., t^4 of a given order; times of shape (...) give (..., 5)."""
+    """Return the derivatives of the given order of 1, t, ..., t^4. Times of shape (...) give shape (..., 5)."""
     t = t[..., None]
     n = np.arange(5.0)
     factor = np.ones(5)
@@ -151,7 +158,7 @@ def _powers(t: Array, order: int) -> Array:
 
 
 def _coefficients(knots: Array, times: Array) -> Array:
-    """Polynomial coefficients (..., N, 5, n) for segment times (..., N)."""
+    """Return the polynomial coefficients, shape (..., N, 5, n), for segment times of shape (..., N)."""
     count = times.shape[-1]
     A = np.zeros((*times.shape[:-1], 5 * count, 5 * count))
     b = np.zeros((5 * count, knots.shape[-1]))

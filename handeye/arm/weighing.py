@@ -19,22 +19,22 @@ from handeye.core.pose import Array
 
 MASS_DOUBT: Final = 0.05  # of a link's mass; chosen
 PLAUSIBLE: Final = 6 * MASS_DOUBT
-"""Plausible error of a link's weight. Chosen: errors of 9 % occur in nominal worlds, 17 % in worlds with twice the
-errors.
+"""Plausible relative error of the weight of a link. Chosen: errors of 9 % occur in nominal worlds, and of 17 % in
+worlds with twice the errors.
 """
 TORQUE_DOUBT: Final = 0.002  # of a drive's greatest torque: half a step of 8 bits
 
 
 @lru_cache(maxsize=64)
 def weighed(arm: ArmModel, factors: tuple[float, ...]) -> ArmModel:
-    """The arm with its link masses multiplied by `factors`."""
+    """Return the arm with its link masses multiplied by `factors`."""
     joints = zip(arm.joints, factors, strict=True)
     return replace(arm, joints=tuple(replace(joint, mass=joint.mass * factor) for joint, factor in joints))
 
 
 def mass_factors(arm: ArmModel, q: Array, unexplained: Array) -> Array:
-    """Factors on the link masses, shape (n,), that explain the torques (N m, N) that hold the arm up beyond
-    `gravity`.
+    """Find the factors on the link masses, shape (n,), that explain the holding torques `unexplained` (N m or
+    N), which the model's `gravity` does not give.
     """
     doubt = TORQUE_DOUBT * constants(arm).effort
     alone = [gravity(weighed(arm, tuple(one)), q) for one in np.eye(len(arm.joints)).tolist()]  # of each link

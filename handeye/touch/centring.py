@@ -1,9 +1,9 @@
 """CENTER: closes the fingers around an object without pushing it.
 
 Plain closing would drag the object to the middle of the hand. In centring, once a finger touches, the hand moves
-towards that finger's side, while the fingers close slowly enough that this finger comes off the object and the
-other finger touches it. If a finger still touches after that, its switch or the wrong finger reported the touch, or
-the object is held against the finger.
+towards the side of that finger, while the fingers close slowly enough that the finger comes off the object until
+the other finger touches it. If a finger still touches after that, its switch is stuck, the wrong finger reported
+the touch, or the object is held against the finger.
 """
 
 from dataclasses import dataclass, field
@@ -14,20 +14,20 @@ from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m driven beyond the opening before the fingers count as stalled; placeholder
 SLOWER: Final = 0.5
-"""Fraction of their speed at which the fingers close when one touches; it falls to 0 while the finger touches.
-Chosen: an object between both fingers is still pressed, so that the switch that needs more force fires too. If the
-fingers were slower from the beginning, a touching finger would come off at once, and push a loose object a little
-each time it touches again.
+"""Fraction of their speed at which the fingers close when one of them touches; the speed falls to 0 while the
+finger touches. Chosen so that an object between the fingers is still pressed, and the switch that needs more force
+fires too. If the fingers were slower from the beginning, a touching finger would come off at once, and would push a
+loose object a little each time it touched again.
 """
 EASING: Final = 0.0015
-"""Greatest movement of the hand towards a finger, m, until the finger no longer touches: the deflection of the arm
+"""Greatest movement (m) of the hand towards a finger until the finger no longer touches: the deflection of the arm
 under 18 N.
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CentringStep:
-    """Changes of set-points in one servo period: finger gap (m), and hand along its y axis (m)."""
+    """Changes of set-points in one servo period: of the finger gap (m), and of the hand along its y axis (m)."""
 
     gap: float = 0.0
     hand: float = 0.0
@@ -35,8 +35,8 @@ class CentringStep:
 
 @dataclass(slots=True, kw_only=True)
 class Centring:
-    """The state of one centring: call `step` in each period until `done`. If a finger loses the object, both
-    fingers close again.
+    """The state of one centring motion. Call `step` in each servo period until `done`. If a finger loses the
+    object, both fingers close again.
     """
 
     minimum: float = 0.0  # m; a smaller gap holds nothing, or something too thin; 0: anything
@@ -49,8 +49,8 @@ class Centring:
     _left: float | None = field(default=None, init=False)
 
     def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:
-        """The changes of set-points in the next period (s), from the switches (that of the +y finger first) and the
-        gap (m).
+        """Return the changes of set-points in the next period (s). `touch` holds the switches, that of the +y
+        finger first; `gap` is in m.
         """
         left = gap + OVERDRIVE if self._left is None else self._left
         if all(touch):

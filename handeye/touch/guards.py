@@ -1,4 +1,4 @@
-"""Monitors: each watches for one guard of a motion, and ends the motion when the guard trips."""
+"""Monitors: each watches one guard of a motion, and ends the motion when the guard trips."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ HOLD_PERIODS: Final = 4  # servo periods that a torque must last; placeholder: t
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reading:
-    """Sensor readings of a servo period; vectors have shape (3,) and world axes."""
+    """Sensor readings of one servo period. Vectors have shape (3,) and are given in world axes."""
 
     force: Array  # that the hand exerts on the world, N
     direction: Array  # unit vector of the motion, or zero
@@ -26,7 +26,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trip:
-    """A guard that has ended a motion, with the measured value and the limit (N, N m, or a mask of finger
+    """A guard that has ended a motion, with the measured value and the limit (N or N m, or a mask of finger
     switches).
     """
 
@@ -37,7 +37,7 @@ class Trip:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActiveGuard:
-    """An active guard; `axis` is the unit vector of the watched force or moment, shape (3,), W, or None."""
+    """An active guard; `axis` is the unit vector of the force or moment that it watches, shape (3,), in W, or None."""
 
     guard: GuardKind
     limit: float
@@ -45,21 +45,21 @@ class ActiveGuard:
 
 
 class Monitor(Protocol):
-    """Watches for one guard; each motion has new monitors."""
+    """Watches one guard. Each motion has new monitors."""
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        """The guards that are active while the motion goes along the unit vector `direction`, shape (3,)."""
+        """Return the guards that are active while the motion goes along the unit vector `direction`, shape (3,)."""
         ...
 
     def check(self, reading: Reading) -> Trip | None:
-        """The tripped guard, or None; called once per servo period."""
+        """Return the guard that has tripped, or None. Called once in each servo period."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class VectorMonitor:
     """Trips when the force (N) that the hand exerts along `vector`, or the moment (N m) about it, exceeds the
-    length of `vector`; shape (3,), world axes.
+    length of `vector`, shape (3,), in world axes.
     """
 
     guard: GuardKind
@@ -92,7 +92,7 @@ class AgainstMonitor:
 
 @dataclass(slots=True, kw_only=True)
 class TorqueMonitor:
-    """Trips when the motor holds a torque (N m) in either direction for some time; the peak at the start does not
+    """Trips when the motor holds a torque (N m) in either direction for some time. The peak at the start does not
     count as a tight screw.
     """
 
@@ -114,7 +114,9 @@ class TorqueMonitor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TouchMonitor:
-    """Trips when a finger touches; `mask` 1 is the first of `Sensed.touch`, 2 the second, 3 either."""
+    """Trips when a finger touches. With `mask` 1 it watches the first switch of `Sensed.touch`, with 2 the second,
+    with 3 both (either one trips it).
+    """
 
     mask: int
 
@@ -152,6 +154,6 @@ _MONITORS: Final[dict[type[g.Guard], Callable[[Any], Monitor]]] = {
 
 
 def monitor(guards: Guards) -> Monitor | None:
-    """One monitor for all guards of a motion; None if there are no guards."""
+    """Make one monitor for all guards of a motion. Returns None if there are no guards."""
     found = tuple(_MONITORS[type(guard)](guard) for guard in guards)
     return found[0] if len(found) == 1 else FirstOf(monitors=found) if found else None

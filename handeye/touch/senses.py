@@ -1,7 +1,7 @@
 """Limits of plausible sensor readings, and models of the gap between closed fingers.
 
-The limits allow for twice the stated errors of the devices (the variation tables of the tasks), as in worlds of the
-high level.
+The limits allow for twice the stated errors of the devices (see the variation tables of the tasks), as in worlds of
+the high level.
 """
 
 from typing import Final
@@ -12,12 +12,12 @@ from handeye.core.pose import Array
 from handeye.core.units import INCH, OUNCE_FORCE
 
 FREE_OPENING: Final = 0.12 * INCH
-"""Opening after which a finger is clear of an object that it touched, m.
+"""Opening (m) after which a finger is clear of an object that it touched.
 
-Half of it belongs to each finger: the arm deflects by that much (1.5 mm) only under about 18 N.
+Half of the opening belongs to each finger. The arm deflects by that much (1.5 mm) only under about 18 N.
 """
 GAP_ERROR: Final = 0.1 * INCH
-"""Permitted difference between gap and goal, m; the finger servo stops within some hundredths of an inch.
+"""Permitted difference (m) between the gap and its goal. The finger servo stops within some hundredths of an inch.
 Placeholder.
 """
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
@@ -25,117 +25,124 @@ FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force sensed in free air, N: 12.5.
 
 By calculation, the errors of link masses, mass centres, drive gains and joint friction, which may act upwards or
-downwards, are sensed as at most 6.1 N in 400 nominal worlds, at 15 places on the table, and as 8.9 N at the high
-level; there the weight of the base beyond its declared load adds 2 N.
+downwards, are sensed as at most 6.1 N in 400 nominal worlds, at 15 places on the table, and as at most 8.9 N at the
+high level. At the high level, the weight of the base beyond its declared load adds 2 N.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
-"""Force with which fingers press after centring, N; it closes both switches.
+"""Force (N) with which the fingers press after centring. It closes both switches.
 
-The switches close at 2 ounces, at most at 4.4 (three times twice their stated spread of .4). One finger may carry 3
-ounces less than the other, because the arm holds the difference, and the gap is known to one step of its converter.
+The switches close at 2 ounces, and at 4.4 ounces at most (three times twice their stated spread of .4). One finger
+may carry 3 ounces less than the other, because the arm holds the difference, and the gap is known only to one step
+of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
 )  # m by which the gap may be off, as GAP_SCALE: three times twice its stated errors
 GAP_SCALE: Final = 0.03  # of the gap
 STARTING_TORQUE: Final = 0.05
-"""Torque of a starting motor, N m: 7 ounce-inches, until the spindle has reached its speed."""
+"""Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
 STALLED_TORQUE: Final = 0.37  # N m, at most: that of the clutch, and of the spindle beside it
 STARTING_PERIODS: Final = (
     4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
 )
 PLATEAU: Final = 1.0
-"""Duration, s, for which a torque must last to show that the motor is held fast: three turns at driving speed.
-Chosen.
+"""Time (s) for which a torque must last to show that the motor is held fast: three turns at driving speed. Chosen.
 """
 HELD_FAST: Final = 0.3
-"""Fraction of the requested torque that shows a motor held fast while the hand does not advance.
+"""Fraction of the requested torque that shows that the motor is held fast, while the hand does not advance.
 
-Of 42 ounce-inches it is .09 N m. A screw that turns takes .02 N m, a bit that slips under 22 ounces at most .025 N
-m (all of that force as friction, at the edge of a head), and five times the noise of the current adds .04 N m.
+For 42 ounce-inches this is .09 N m. A turning screw takes .02 N m. A bit that slips under 22 ounces takes at most
+.025 N m, if all of that force acts as friction at the edge of a head. Five times the noise of the current adds .04
+N m.
 """
 CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
 
 def off_zero(force: Array) -> bool:
-    """True if a force (N, shape (3,)) is too large for free air."""
+    """Return True if a force (N, shape (3,)) is too large for a hand in free air."""
     return bool(np.linalg.norm(force) > FREE_FORCE)
 
 
 def followed(gap: float, goal: float) -> bool:
-    """True if the gap of the fingers agrees with the goal, both in m."""
+    """Return True if the gap of the fingers agrees with its goal (both in m)."""
     return abs(gap - goal) <= GAP_ERROR
 
 
 def leapt(change: float, reach: float) -> bool:
-    """True if the gap has changed by more (m) than the motor can drive the fingers in that time."""
+    """Return True if the gap changed by more (m) than the motor can drive the fingers in that time."""
     return abs(change) > reach + GAP_NOISE
 
 
 def thick(gap: float, thickness: float) -> bool:
-    """True if `gap` is possible for fingers that hold an object of known thickness (m), gripped fully or lightly,
-    straight or askew.
+    """Return True if `gap` (m) is possible for fingers that hold an object of known thickness (m). The object may
+    be gripped fully or lightly, straight or askew.
     """
     return abs(gap - thickness) <= GAP_OFFSET + GAP_SCALE * thickness + SKEW
 
 
 def kept_apart(gap: float, goal: float) -> bool:
-    """True if an object keeps the fingers apart at a gap (m) while they are driven together, even with a grip too
-    light to close a switch.
+    """Return True if an object keeps the fingers apart at a gap (m) while they are driven together, even if the
+    grip is too light to close a switch.
     """
     return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 
 
 def stood_still(change: float, driven: float) -> bool:
-    """True if the gap has not changed although the fingers were driven together by more than the gap's error, m."""
+    """Return True if the gap has not changed although the fingers were driven together by more than the error of
+    the gap (all in m).
+    """
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
 
 
 EMPTY_GAP: Final = 0.05 * INCH
-"""Greatest reading of the gap of empty closed fingers, m: the potentiometer is off by up to .02 in, by .04 in at
-the high level.
+"""Greatest reading (m) of the gap when the fingers are closed and empty. The potentiometer is off by up to .02 in,
+and by up to .04 in at the high level.
 """
 SAME_HOLD: Final = 5e-4  # m that the gap may differ on the same hold
 SKEW: Final = 1e-3
-"""Permitted change of the gap, m, on an object that has turned between the fingers: a turn of 2 degrees on an inch
+"""Permitted change (m) of the gap on an object that has turned between the fingers. A turn of 2 degrees on an inch
 gives .9 mm.
 
-An object that is grasped again lies straighter, and CENTER holds it only lightly; after being pushed against blocks
-it lies more askew. Measured: on pins the gap closed by .5 mm; on the pump's base it closed by .8 mm and widened by
-.44 mm in seeds 1 to 6, and by more than .5 mm in seed 1001.
+An object that is grasped again lies straighter, and CENTER holds it only lightly. After being pushed against blocks
+it lies more askew. Measured: on pins the gap closed by .5 mm; on the base of the pump it closed by .8 mm and
+widened by .44 mm in the worlds of seeds 1 to 6, and widened by more than .5 mm in the world of seed 1001.
 """
 OFF_MIDDLE: Final = 3e-3
-"""Permitted distance, m, of an object from the middle of fingers that close on it again, along the line of the
+"""Permitted distance (m) of an object from the middle of the fingers that close on it again, along the line of the
 fingers.
 
-An object that was carried and set down has slid in the grip by SKEW and turned by 2 degrees, which is 2 mm at a
-grasp 57 mm from that grip, as on the walls of the pump base. Measured over eight pumps: at most 1.8 mm there, and
-1.0 mm elsewhere (play in a hole or rack, compliance of the arm while it held the object).
+An object that was carried and set down has slid in the grip by SKEW and turned by 2 degrees. At a grasp 57 mm from
+that grip, as on the walls of the pump base, the turn is 2 mm. Measured over eight pumps: at most 1.8 mm on these
+walls, and 1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
 """
 
 
 def least_gap(minimum: float) -> float:
-    """Least gap (m) that shows an object as thick as `minimum` (m); for 0, any object."""
+    """Return the least gap (m) that shows an object at least as thick as `minimum` (m). If `minimum` is 0, any
+    object counts.
+    """
     return minimum or EMPTY_GAP
 
 
 def at_least(gap: float, thickness: float) -> bool:
-    """True if the fingers hold an object of at least this thickness (m)."""
+    """Return True if the fingers hold an object of at least this thickness (m)."""
     return gap >= thickness
 
 
 def at_most(gap: float, thickness: float) -> bool:
-    """True if the fingers hold nothing thicker than this (m)."""
+    """Return True if the fingers hold no object thicker than this (m)."""
     return gap <= thickness
 
 
 def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME_HOLD) -> bool:
-    """True if the gap agrees with that of an earlier hold: at most `closer` less and `wider` more (m)."""
+    """Return True if the gap (m) agrees with the gap of an earlier hold: at most `closer` less and at most `wider`
+    more (m).
+    """
     return -closer <= gap - kept <= wider
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """True if closing fingers touch at a much wider gap (m) than in the earlier hold, so that the object lies off
-    the middle.
+    """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold, which means that the
+    object does not lie in the middle.
     """
     return gap - kept > 2 * OFF_MIDDLE

@@ -4,11 +4,14 @@ import math
 from collections.abc import Callable
 
 SearchPattern = Callable[[int], tuple[float, float] | None]
-"""Offset of place k, from 0, in search steps along table x and y; None after the last place."""
+"""Function that returns the offset of place k, from 0, in search steps along x and y of the table, or None after
+the last place.
+"""
 
 
 def spiral(k: int) -> tuple[int, int]:
-    """Grid place `k`, from 0: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1) (1,-1) (2,-1) ...
+    """Return place `k`, from 0, of the square spiral: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1) (1,-1)
+    (2,-1) ...
 
     The straight runs are 1, 1, 2, 2, 3, 3, ... steps long, with left turns between them. With a search step s,
     every point of the plane is within s / sqrt(2) of a place.
@@ -28,6 +31,6 @@ def spiral(k: int) -> tuple[int, int]:
 
 
 def line(k: int, direction: float) -> tuple[float, float]:
-    """Place `k`, from 0, on a line in a direction (rad from x): at 0, 1, -1, 2, -2 ... steps from the start."""
+    """Return place `k`, from 0, on a line in a direction (rad from x): at 0, 1, -1, 2, -2 ... steps from the start."""
     along = (k + 1) // 2 * (1 if k % 2 else -1)
     return along * math.cos(direction), along * math.sin(direction)

@@ -1,7 +1,7 @@
-"""Aligns two pictures of one view, and finds a lamp that is lit in only one of them.
+"""Aligns two pictures with the same view, and finds a lamp that is lit in only one of them.
 
-A vidicon displaces each picture slightly. Alignment is our addition: in the picture differences of the paper, a
-slight shift leaves a trace of every edge.
+A vidicon displaces each picture slightly. If two pictures are not aligned, their difference shows a trace of every
+edge, as in the picture differences of the paper. Alignment is our addition.
 """
 
 from typing import Final
@@ -27,18 +27,19 @@ Points = NDArray[np.bool_]  # mask, (256, 333)
 
 
 def aligned(picture: Picture, to: Picture) -> Levels:
-    """Shift a picture so that its unchanged parts coincide with the picture `to`; border points are repeated
-    outwards.
+    """Shift a picture so that its unchanged parts coincide with those of the picture `to`. Points on the border are
+    repeated outwards.
     """
     return moved(picture.astype(np.float32), -shift(to, picture))
 
 
 def shift(first: Picture, second: Picture, where: Points | None = None) -> Array:
-    """Shift (columns, rows), shape (2,), of the second of two pictures of one view relative to the first.
+    """Measure the shift (columns, rows), shape (2,), of the second of two pictures relative to the first. Both
+    pictures have the same view.
 
-    The shift is found first in whole points, as the one in which most points agree; then in fractions of a point,
-    from the slopes of the points that agree. Only points of the first picture in the mask `where` count, by default
-    all.
+    First the shift in whole points is found at which most points agree. Then its fraction is computed from the
+    slopes at the points that agree. Only points of the first picture in the mask `where` count; by default all
+    points.
     """
     a, b = smooth(first), smooth(second)
     counts = np.ones(first.shape, dtype=np.bool_) if where is None else where
@@ -51,18 +52,18 @@ def shift(first: Picture, second: Picture, where: Points | None = None) -> Array
 
 
 def changed(a: Levels, b: Levels) -> Points:
-    """Mask of the points around which two smoothed pictures differ by more than noise."""
+    """Return a mask of the points around which two smoothed pictures differ by more than noise."""
     return np.asarray(cv2.blur(np.abs(b - a), (AREA, AREA)) > QUIET)
 
 
 def smooth(picture: Picture) -> Levels:
-    """The picture smoothed against noise."""
+    """Smooth a picture to reduce its noise."""
     return cv2.GaussianBlur(picture.astype(np.float32), (0, 0), BLUR).astype(np.float32)
 
 
 def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float:
-    """Mean difference, capped per point, with the second picture shifted back by (u, v). Every other point is
-    enough, because the pictures are smoothed.
+    """Return the mean difference of two pictures, capped at each point, with the second picture shifted back by (u,
+    v). Every other point is enough, because the pictures are smoothed.
     """
     rows, columns = a.shape
     here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
@@ -72,8 +73,8 @@ def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float
 
 
 def _step(a: Levels, b: Levels, counts: Points) -> Array:
-    """Remaining shift of the second picture in fractions of a point, shape (2,), from the slopes where both
-    pictures agree.
+    """Estimate the remaining shift of the second picture in fractions of a point, shape (2,), from the slopes where
+    the pictures agree.
     """
     mean = (a + b) / 2
     inside = np.s_[MARGIN:-MARGIN, MARGIN:-MARGIN]
@@ -86,7 +87,7 @@ def _step(a: Levels, b: Levels, counts: Points) -> Array:
 
 
 def moved(picture: Levels, by: Array) -> Levels:
-    """The picture shifted by (columns, rows)."""
+    """Shift a picture by (columns, rows)."""
     matrix = np.array([[1.0, 0.0, by[0]], [0.0, 1.0, by[1]]])
     rows, columns = picture.shape
     return np.asarray(
@@ -101,8 +102,8 @@ RADIUS: Final = 10  # points about the peak that count to its centre: the lamp s
 
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:
-    """Centre (u, v) of the only bright spot that the lit picture has and the dark picture lacks; None unless there
-    is exactly one.
+    """Find the bright spot that the lit picture has and the dark picture lacks. Returns its centre (u, v), or None
+    unless there is exactly one such spot.
     """
     difference = lit_picture.astype(np.float32) - aligned(dark_picture, to=lit_picture)
     smooth = cv2.blur(difference, (3, 3))

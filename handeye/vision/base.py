@@ -1,7 +1,7 @@
 """Locates a part with large round holes in two stages: general location by its outline, then specific location by
 its holes.
 
-The part lies upright in a stated region, on a darker background, turned by at most 50 degrees from its planned
+The part stands upright in a given region, on a darker background, turned by at most 50 degrees from its planned
 orientation. Its height is known, so one picture is enough: rays through the holes are intersected with the plane of
 the upper face.
 """
@@ -42,7 +42,7 @@ Rectangle = tuple[float, float, float, float]  # x, y from, x, y to, part coordi
 
 
 def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:
-    """Make a test of whether a box can be that of the part's outline."""
+    """Make a function that returns True if a box can be the box around the part's outline."""
     sizes = np.ptp(silhouettes(view, part, part.at[:2], TURNS), axis=1)
     smallest = sizes.min(axis=0) * (WIDTHS[0], HEIGHTS[0])
     largest = sizes.max(axis=0) * (WIDTHS[1], HEIGHTS[1])
@@ -55,7 +55,9 @@ def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:
 
 
 def window(view: View, part: Part, shrink: float = 0.0) -> Array:
-    """Corners (u, v) of the region where the part may be, shape (4, 2), reduced on each side by `shrink` (m)."""
+    """Return the corners (u, v) of the region where the part may be, shape (4, 2). Each side is moved inwards by
+    `shrink` (m).
+    """
     assert part.region is not None
     assert part.outline is not None
     x, y, z, yaw = part.at
@@ -67,7 +69,7 @@ def window(view: View, part: Part, shrink: float = 0.0) -> Array:
 
 
 def _rotated(outline: Rectangle, yaws: Array) -> Array:
-    """Corners of an outline turned about the reference point by `yaws`, shape (n,), rad; returns shape (n, 4, 2),
+    """Turn an outline about the reference point by `yaws` (rad), shape (n,). Returns its corners, shape (n, 4, 2),
     m.
     """
     x0, y0, x1, y1 = outline
@@ -77,7 +79,7 @@ def _rotated(outline: Rectangle, yaws: Array) -> Array:
 
 
 def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turns: Array) -> Array:
-    """Picture points of the outline's bottom and top corners for each turn, shape (n, 8, 2)."""
+    """Return the picture points of the bottom and top corners of the outline for each turn, shape (n, 8, 2)."""
     assert part.outline is not None
     corners = _rotated(part.outline, part.at[3] + turns) + np.asarray(place)
     solid = np.empty((len(corners), 2, 4, 3))
@@ -88,8 +90,8 @@ def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turn
 
 OUTLINE_STEP: Final = 2.0  # levels, from background to part
 SHRINK: Final = (0.0, 0.6 * INCH, 1.2 * INCH)
-"""Amounts (m) by which the window is reduced, tried in turn: neighbouring parts may reach into it if the camera is
-off.
+"""Distances (m) by which the sides of the window are moved inwards, tried one after another. If the camera is off,
+neighbouring parts may reach into the window.
 """
 SCREW_HOLES: Final = 2 / 3  # fraction that must be seen where the two large holes imply them
 
@@ -98,15 +100,15 @@ SCREW_HOLES: Final = 2 / 3  # fraction that must be seen where the two large hol
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failure:
-    """A failure of location, with its cause."""
+    """A part could not be located, with the cause."""
 
     cause: SightCause
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Rough position of a part, within an inch or two: its reference point (m in W), with x and y as seen and the
-    rest as planned.
+    """Rough position of a part, within an inch or two: its reference point (m in W). The x and y are measured in
+    the picture, and the rest is as planned.
     """
 
     box: BoundingBox  # around it in the picture
@@ -142,8 +144,8 @@ class SpecificLocation:
 
 
 def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation | Failure:
-    """Find a part's outline in a picture of the region where the part may be; raises BadArgument if the part has no
-    outline or no region.
+    """Find the outline of a part in a picture of the region where the part may be. Raises BadArgument if the part
+    has no outline or no region.
     """
     if part.region is None or part.outline is None:
         raise BadArgument("vision needs the region and the outline of a part")
@@ -179,8 +181,8 @@ def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLoc
 def locate_specific(
     picture: Picture, view: View, part: Part, general: GeneralLocation
 ) -> SpecificLocation | Failure:
-    """Find a part's two largest holes in a close-up picture and compute its pose from them; the part must have two
-    holes.
+    """Find the two largest holes of a part in a close-up picture, and compute the pose of the part from them. The
+    part must have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("locating a part needs two holes; the program gives fewer")
@@ -205,7 +207,9 @@ def locate_specific(
 def _found(
     finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
 ) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
-    """Hole candidates: first where the holes are expected, then all over the box with each search, then in shadow."""
+    """Yield candidates for the holes: first near the expected holes, then anywhere in the box with each search, and
+    last in shadow.
+    """
     yield finders[0], finders[0].expected(place)
     for finder in finders:
         yield finder, finder.all_over(box)
@@ -213,7 +217,7 @@ def _found(
 
 
 def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
-    """The box of a general location as it appears in this view; None if it is not in the picture."""
+    """Return the box of a general location as this view shows it, or None if the box is not in the picture."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))
     right, bottom = (int(n) for n in np.ceil(uv.max(axis=0)))
@@ -224,7 +228,9 @@ def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
 def _confirm(
     scan: Scan, view: View, part: Part, pair: Pair, finder: HoleFinder, levels: Levels
 ) -> SpecificLocation | None:
-    """The location, unless the borders are not round or the screw holes are missing; else None."""
+    """Return the location found from a pair of holes. Returns None if the borders are not round or the screw holes
+    are missing.
+    """
     centres = finder.refined(pair)
     if centres is None:
         return None
@@ -259,5 +265,5 @@ class PartMatch:
 
     @property
     def ok(self) -> bool:
-        """True if the part stands where it stood before."""
+        """True if the part stands where it stood in the earlier picture."""
         return self.cause is None

@@ -1,5 +1,5 @@
-"""Beams: find the first discontinuity of intensity (edge) along a ray; all other primitives are built of beams and
-walks.
+"""Beams: each finds the first discontinuity of intensity (edge) along a ray. All other primitives are built from
+beams and walks.
 
 A beam ends at its edge and reads no points beyond it.
 """
@@ -13,7 +13,9 @@ from handeye.core.pose import Array
 from handeye.vision.scan import Scan
 
 SPAN: Final = 3
-"""Number of points averaged on either side of an edge; averages of 2 are too noisy if the noise is one level."""
+"""Number of points averaged on either side of an edge. Averages of 2 points are too noisy if the noise is one
+level.
+"""
 
 BRIGHTER: Final = 1
 DARKER: Final = -1
@@ -22,7 +24,7 @@ Polarity = Literal[1, -1]
 
 class Edge(NamedTuple):
     """An edge: its position (u, v), the intensities before and after it on the beam, and its distance from the
-    start, points.
+    start of the beam (points).
     """
 
     u: float
@@ -44,7 +46,7 @@ class Edges(NamedTuple):
     length: Array
 
     def edge(self, n: int) -> Edge | None:
-        """The edge of beam `n`, or None if the beam found none."""
+        """Return the edge that beam `n` found, or None if it found none."""
         if not self.met[n]:
             return None
         (u, v), before, after = self.uv[n].tolist(), float(self.before[n]), float(self.after[n])
@@ -62,7 +64,7 @@ def beams(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edges:
-    """Like `door.beams`, for arguments that are known to be valid."""
+    """Find edges as `door.beams` does. The arguments must already be known to be valid."""
     starts, directions = np.rint(starts), np.asarray(directions, dtype=float)
     scan.beams += len(starts)
     back, ahead = scan.runs(starts, directions)
@@ -98,8 +100,8 @@ _BLOCKED: Final = -1e6  # the rise where a beam may not look
 
 
 def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) -> Array:
-    """Sums of intensity over SPAN points along each beam, and optionally over three across, shape (n, points - SPAN
-    + 1).
+    """Sum the intensities over SPAN points at each place along each beam, and optionally over three points across
+    the beam. Returns shape (n, points - SPAN + 1).
     """
     line = scan.levels(where if across is None else where - across).astype(float)
     if across is not None:
@@ -115,8 +117,8 @@ def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) 
 def _steepest(
     rise: Array, step: float, ahead: Array, beyond: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp], NDArray[np.intp]]:
-    """For each line: whether its intensity rises by `step` to at least `beyond`, where it first does, and where
-    near there the rise is steepest.
+    """Find, for each line, whether the intensity rises by `step` to at least `beyond`, where it first does, and
+    where the rise is steepest near that place.
     """
     n, last = np.arange(len(rise)), rise.shape[1] - 1
     strong = rise >= step
@@ -149,8 +151,8 @@ def _account(
 
 
 def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
-    """Positions of the vertices of parabolas through three values about index `i` in each line, from -.5 to .5,
-    shape (n,).
+    """Return the positions of the vertices of parabolas through three values about index `i` in each line, from -.5
+    to .5, shape (n,).
     """
     n, last = np.arange(len(y)), y.shape[1] - 1
     left, top, right = y[n, np.maximum(i - 1, 0)], y[n, i], y[n, np.minimum(i + 1, last)]

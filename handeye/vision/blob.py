@@ -33,10 +33,10 @@ class BoundingBox(NamedTuple):
         return self.bottom - self.top + 1
 
     def with_piece(self, other: "BoundingBox") -> "BoundingBox | None":
-        """The box around this box and another, if the two can be pieces of one blob; else None.
+        """Return the box around this box and another, or None unless the two can be pieces of one blob.
 
-        A face in the shade may divide a lit blob. The pieces are then beside each other, separated by no more than
-        the length of the smaller, and the larger is most of the blob.
+        A face in the shade may divide a lit blob into pieces. The pieces are then beside each other, separated by
+        no more than the length of the smaller piece, and the larger piece is most of the blob.
         """
         around = BoundingBox(
             *np.minimum(self[:2], other[:2]).tolist(), *np.maximum(self[2:], other[2:]).tolist()
@@ -48,7 +48,7 @@ class BoundingBox(NamedTuple):
         return around if most and beside else None
 
     def corners(self) -> Array:
-        """The four corners (u, v) in order, shape (4, 2)."""
+        """Return the four corners (u, v) in order, shape (4, 2)."""
         left, top, right, bottom = self
         return np.array([[left, top], [right, top], [right, bottom], [left, bottom]], dtype=np.float64)
 
@@ -65,9 +65,9 @@ def localise(
     *,
     whole: bool = True,
 ) -> BoundingBox | None:
-    """Like `door.localise`, but the window stays in force.
+    """Find a blob as `door.localise` does. The window stays set after the call.
 
-    Without `whole`, a blob also counts if the window cuts it off, or if a shadow divides it in two.
+    If `whole` is False, a blob is also accepted if the window cuts it off or a shadow divides it in two.
     """
     window = np.asarray(window, dtype=float)
     scan.limit(window)
@@ -105,7 +105,7 @@ Rays = tuple[Array, Array]  # starts (u, v) and unit vectors (du, dv), (n, 2) ea
 
 
 def _inwards(scan: Scan, window: Array) -> list[Rays]:
-    """Rays across the window from each of its four sides."""
+    """Return rays across the window from each of its four sides."""
     sides = np.roll(window, -1, axis=0) - window
     lengths = [math.hypot(*side) for side in sides.tolist()]
     along = sides / np.array(lengths)[:, None]
@@ -119,7 +119,7 @@ def _inwards(scan: Scan, window: Array) -> list[Rays]:
 
 
 def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
-    """Rays from all sides: first a few from each, then those in between."""
+    """Yield rays from all sides: first a few from each side, then the rays between them."""
     for starts, inwards in sides:
         yield starts[COARSE // 2 :: COARSE], inwards[COARSE // 2 :: COARSE]
     for starts, inwards in sides:
@@ -128,7 +128,7 @@ def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
 
 
 def _is_cut(scan: Scan, box: BoundingBox, threshold: float) -> bool:
-    """True if a bright part of the box touches the border of the window."""
+    """Return True if a bright part of the box touches the border of the window."""
     v, u = np.mgrid[box.top : box.bottom + 1, box.left : box.right + 1]
     places = np.column_stack([u.ravel(), v.ravel()]).astype(float)
     border = places[scan.border(places, SPAN)]
@@ -136,7 +136,7 @@ def _is_cut(scan: Scan, box: BoundingBox, threshold: float) -> bool:
 
 
 def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
-    """Grow a box around a bright point: a side moves outwards as long as a line slightly farther out crosses the
+    """Grow a box around a bright point. A side moves outwards as long as a line slightly farther out crosses the
     blob.
     """
     box = [u - SPAN, v - SPAN, u + SPAN, v + SPAN]  # left, top, right, bottom
@@ -147,20 +147,22 @@ def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
 
 
 class _Side:
-    """One side of a growing box. The side sees the picture turned so that outwards is towards greater line numbers."""
+    """One side of a growing box. The side works on the picture turned so that outwards is the direction of greater
+    line numbers.
+    """
 
     def __init__(self, scan: Scan, side: int) -> None:
-        """`side` is the index of the side in a box."""
+        """`side` is the index of the side among the four numbers of a box."""
         self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
         self._clear: tuple[int, int, int] | None = None
-        """Line and range beyond which only background was found."""
+        """Line, and range on it, beyond which only background was found."""
         self._image, self._read = self._turned(scan.image), self._turned(scan.read)
         across, along, offset = scan.sides.T
         self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
 
     def moves(self, box: list[int], threshold: float) -> bool:
-        """Move the side to a line ahead that crosses the blob, then to the end of the blob there; return False if
-        no line does.
+        """Move the side to a line ahead that crosses the blob, then to the end of the blob there. Returns False if
+        no line ahead crosses the blob.
         """
         line = self._line(box[self.number])
         low, high = (box[1], box[3]) if self.upright else (box[0], box[2])
@@ -185,20 +187,24 @@ class _Side:
         return turned[::-1] if self.backwards else turned
 
     def _line(self, place: int) -> int:
-        """Convert a picture row or column to a line of this side, or back."""
+        """Convert the number of a picture row or column to a line number of this side, or back."""
         return len(self._image) - 1 - place if self.backwards else place
 
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """The sides of the window: increments per line outwards and per point along it, and offset."""
+        """Return the sides of the window as this side sees them: increments per line outwards and per point along
+        the line, and offset.
+        """
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:
             offset, outwards = offset + outwards * (len(self._image) - 1), -outwards
         return outwards.tolist(), along.tolist(), offset.tolist()
 
     def _in_window(self, first: int, last: int, low: int, high: int) -> tuple[int, int]:
-        """The part of the range `low` to `high` that lies within the window on all lines from `first` to `last`."""
+        """Return the part of the range `low` to `high` that lies within the window on all lines from `first` to
+        `last`.
+        """
         for outwards, along, offset in self._window:
             least = offset + outwards * (last if outwards < 0 else first)
             if along > 0:
@@ -210,7 +216,9 @@ class _Side:
         return low, high
 
     def _means(self, first: int, last: int, low: int, high: int) -> NDArray[np.float32]:
-        """Mean intensities of squares of SPAN points about lines `first` to `last`, shape (lines, places)."""
+        """Return the mean intensities of squares of SPAN points about lines `first` to `last`, shape (lines,
+        places).
+        """
         slab = self._image[first - 1 : last + 2, low : high + 1]
         wide = slab[:-2] + slab[1:-1]
         wide += slab[2:]
@@ -220,7 +228,7 @@ class _Side:
         return means
 
     def _end(self, line: int, middle: int, threshold: float) -> int:
-        """The last bright line, straight outwards from a line through the blob."""
+        """Find the last bright line, going straight outwards from a line that crosses the blob."""
         far = len(self._image) - 1 - MARGIN
         for outwards, along, offset in self._window:
             if outwards < 0:

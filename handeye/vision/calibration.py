@@ -1,9 +1,9 @@
-"""Calibrates the camera to the arm: fits the camera model to spots that the arm has carried through the camera's
-view.
+"""Calibrates the camera to the arm: the arm carries a lamp through the view of the camera, and the camera model is
+fitted to the spots in the pictures.
 
-The arm holds a lamp at known places, and the camera sees the lamp through both lenses. The model is fitted to these
-sightings, with priors from the accuracy of a careful mechanic. The error of the arm, about a tenth of an inch,
-limits the accuracy; the residual shows it.
+The arm holds the lamp at known places, and the camera sees the lamp through both lenses. The fit uses these
+sightings and priors that correspond to the accuracy of a careful mechanic. It is limited by the error of the arm,
+about a tenth of an inch, which shows in the residual.
 """
 
 from collections.abc import Sequence
@@ -22,12 +22,12 @@ from handeye.vision.camera_model import CameraModel, View
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalibrationLook:
-    """A camera setting, and the places where the lamp is shown to it; m, in W."""
+    """A camera setting, and the places (m, in W) at which the arm shows the lamp to the camera in this setting."""
 
     lens: float  # focal length, m
     at: Vector3  # aim
     sharp: Vector3
-    """The point in focus; neighbouring looks share it, because refocusing takes three times as long as aiming."""
+    """The point in focus. Neighbouring looks share it, because refocusing takes three times as long as aiming."""
     places: tuple[Vector3, ...]
     hand_angle: float  # angle O of the hand, pointing down, rad
 
@@ -36,14 +36,14 @@ PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets
 TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll
 SCALE_PRIOR: Final = 0.01  # sigma, of the focal lengths
 SIGHT_ERROR: Final = 0.13 * INCH  # sigma: .1 in of the arm and .07 deg of the pots at 65 in
-"""One sigma of a sighting, m. The three constants above are weak priors (vision study, section 3)."""
+"""Standard deviation of a sighting, m. The three constants above are weak priors (vision study, section 3)."""
 MIN_SIGHTINGS: Final = 6
-"""Least number of sightings per lens. With fewer, the priors dominate; 12 to 20 are good."""
+"""Least number of sightings for each lens. With fewer, the priors dominate; 12 to 20 are good."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sighting:
-    """A sighting: the lamp at a known place, seen in a picture at (u, v)."""
+    """A picture of the lamp at a known place, in which it appears at (u, v)."""
 
     lens: float  # focal length, m
     pan: float  # potentiometer reading, rad, as tilt
@@ -55,7 +55,7 @@ class Sighting:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration:
-    """A fitted camera model, and the RMS residuals of the sightings."""
+    """A fitted camera model, and the root mean square (RMS) residuals of the sightings."""
 
     model: CameraModel
     residual_px: dict[float, float]  # in the picture, by focal length (m)
@@ -63,7 +63,7 @@ class Calibration:
 
 
 def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibration:
-    """Fit the camera model to the sightings, starting from the design. Lenses without sightings keep their design
+    """Fit the camera model to the sightings, starting from the design. A lens without sightings keeps its design
     values.
     """
     from scipy.optimize import least_squares
@@ -104,7 +104,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
 
 
 def moved(drawing: CameraModel, x: Array) -> CameraModel:
-    """The design with changed parameters; changes `x` are in units of the priors."""
+    """Change the parameters of the design by `x`, given in units of the priors."""
     mount = np.array(drawing.mount) + x[:3] * PLACE_PRIOR
     lenses = tuple(
         replace(

@@ -23,14 +23,14 @@ MAX_FOCAL_LENGTH: Final = 1.0
 
 
 def in_picture(points: Array) -> bool:
-    """True if all points (u, v), shape (n, 2), lie within the picture."""
+    """Return True if all points (u, v), shape (n, 2), lie within the picture."""
     return bool(np.all((points >= 0) & (points <= (COLUMNS - 1, ROWS - 1))))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LensModel:
-    """A lens of the turret, with the offsets (m) of its centre of projection from the crossing of the pan and tilt
-    axes.
+    """A lens of the turret, with the offsets (m) of its centre of projection from the point where the pan and tilt
+    axes cross.
     """
 
     focal_length: float  # as engraved, m; names the lens
@@ -38,22 +38,24 @@ class LensModel:
     forward: float  # along the line of sight
     up: float  # in the picture
     side: float = 0.0
-    """Offset to the right in the picture. Calibration keeps its design value, because it has the same effect as an
-    error of pan.
+    """Offset to the right in the picture. Calibration keeps the design value of this offset, because it has the
+    same effect as an error of pan.
     """
 
     def __post_init__(self) -> None:
-        """Raise ValueError for a focal length outside the possible range, for which rendering would take forever."""
+        """Raise ValueError if the focal length is outside the possible range, in which case rendering would take
+        forever.
+        """
         if not MIN_FOCAL_LENGTH <= self.focal_length * self.scale <= MAX_FOCAL_LENGTH:
             raise ValueError(f"no lens has a focal length of {self.focal_length * self.scale:g} m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraModel:
-    """Position and geometry of the camera; together with two potentiometer readings they determine its view.
+    """Position and geometry of the camera. Together with two potentiometer readings they determine its view.
 
-    The parameters (mount, two zero errors, roll, focal scale and offset per lens) are those of the research on this
-    cell. Unlike a 3x4 collineation, they stay valid for other aims and lenses.
+    The parameters (mount, two zero errors, roll, focal scale and offset of each lens) are those of the research on
+    this cell. Unlike a 3x4 collineation matrix, they stay valid for other aims and lenses.
     """
 
     mount: tuple[float, float, float]  # crossing of pan and tilt axes in W, m
@@ -63,7 +65,7 @@ class CameraModel:
     lenses: tuple[LensModel, ...]
 
     def lens(self, focal_length: float) -> LensModel:
-        """The lens with an engraved focal length (m); raises NoSuchName if there is none."""
+        """Return the lens with the engraved focal length `focal_length` (m). Raises NoSuchName if there is none."""
         for lens in self.lenses:
             if math.isclose(lens.focal_length, focal_length, rel_tol=1e-6):
                 return lens
@@ -71,11 +73,13 @@ class CameraModel:
         raise BadArgument(f"no lens of {focal_length * 1000:.0f} mm in the turret; it has {known}")
 
     def view(self, focal_length: float, pan: float, tilt: float) -> "View":
-        """The view through the lens with this focal length (m) at these potentiometer readings (rad)."""
+        """Return the view through the lens with this focal length (m) at these potentiometer readings (rad)."""
         return View(model=self, lens=self.lens(focal_length), pan=pan, tilt=tilt)
 
     def aim(self, point_W: Array | tuple[float, float, float], focal_length: float) -> tuple[float, float]:
-        """Potentiometer readings (pan, tilt), rad, that bring a point, shape (3,), m, to the centre of the picture."""
+        """Return the potentiometer readings (pan, tilt), rad, that bring a point, shape (3,), m, to the centre of
+        the picture.
+        """
         pan, tilt = 0.0, 0.0
         for _ in range(6):  # the offset of the lens from the axes makes the solution slightly implicit
             X_WC = self.view(focal_length, pan, tilt).X_WC
@@ -87,7 +91,7 @@ class CameraModel:
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """The camera at one setting; projects points of the world into the picture, and back."""
+    """The view of the camera at one setting. It projects points of the world into the picture, and back."""
 
     model: CameraModel
     lens: LensModel
@@ -114,20 +118,22 @@ class View:
         return pose(np.column_stack([right, down, forward]), centre)
 
     def project(self, points_W: Array) -> Array:
-        """Picture points (u, v), shape (n, 2), of points in W, shape (n, 3), m, in front of the camera."""
+        """Project points in W, shape (n, 3), m, to picture points (u, v), shape (n, 2). The points must be in front
+        of the camera.
+        """
         X_WC, focal = self.X_WC, self.focal
         p = (np.atleast_2d(points_W) - X_WC[:3, 3]) @ X_WC[:3, :3]
         return np.asarray(p[:, :2] / p[:, 2:] * focal + CENTRE)
 
     def back_project(self, uv: Array, z: float) -> Array:
-        """Points in W, shape (n, 3), m, at height `z` that appear at `uv`, shape (n, 2)."""
+        """Return the points in W, shape (n, 3), m, at height `z` (m) that appear at `uv`, shape (n, 2)."""
         X_WC = self.X_WC
         rays = self.rays(uv)
         return np.asarray(X_WC[:3, 3] + rays * ((z - X_WC[2, 3]) / rays[:, 2:]))
 
     def rays(self, uv: Array) -> Array:
-        """Directions in W, shape (n, 3), of the rays through picture points (u, v), shape (n, 2); their component
-        along the optical axis is 1.
+        """Return the directions in W, shape (n, 3), of the rays through picture points (u, v), shape (n, 2). The
+        component of each direction along the optical axis is 1.
         """
         slopes = (np.atleast_2d(uv) - CENTRE) / self.focal
         in_camera = np.ones((len(slopes), 3))
@@ -135,7 +141,9 @@ class View:
         return np.asarray(in_camera @ self.X_WC[:3, :3].T)
 
     def resolution(self, point_W: Array) -> tuple[float, float]:
-        """Picture points per metre of a horizontal plane through `point_W`, along the lines and across them."""
+        """Return the picture points per metre of a horizontal plane through `point_W`, along the picture lines and
+        across them.
+        """
         uv = self.project(point_W) + np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
         around = self.back_project(uv, float(np.ravel(point_W)[2]))
         across, down = np.linalg.norm(around[1:] - around[0], axis=1)

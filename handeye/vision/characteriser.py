@@ -1,7 +1,8 @@
-"""The convex blob characteriser: finds centre, width and height of a convex blob by beams that bounce inside it.
+"""The convex blob characteriser: finds the centre, width and height of a convex blob with beams that bounce inside
+it.
 
-`fit_circle` is our addition to the primitives of 1973 and uses the same beams: bouncing uses four points of the
-border, the fit up to 24.
+`fit_circle` is our addition to the primitives of 1973 and uses the same beams. The bouncing beams use four points
+of the border, the fit up to 24.
 """
 
 import math
@@ -27,7 +28,9 @@ def walk(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edge | None:
-    """The first edge along a line or column, or None; arguments as for `beams`, but faster for a single beam."""
+    """Find the first edge along a picture line or column, or return None if there is none. The arguments are those
+    of `beams`; for a single beam this is faster.
+    """
     scan.beams += 1
     u, v, (du, dv) = round(start[0]), round(start[1]), direction
     back, ahead = scan.run(u, v, du, dv)
@@ -50,8 +53,8 @@ def walk(
 
 
 def _first(line: list[float], polarity: Polarity, step: float, beyond: float) -> tuple[int, int | None]:
-    """Index at which a line first rises by `step` to at least `beyond`, and index of the steepest rise near it;
-    (end, None) if it never does.
+    """Find the index at which a line first rises by `step` to at least `beyond`, and the index of the steepest rise
+    near it. Returns (end, None) if the line never rises that far.
     """
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
     entering = [*line[2 * SPAN :], 0.0]  # none enters behind the last place
@@ -66,12 +69,12 @@ def _first(line: list[float], polarity: Polarity, step: float, beyond: float) ->
 
 
 def _rise(line: list[float], i: int) -> float:
-    """Sum of SPAN points minus the sum of the SPAN points before them, from index `i`."""
+    """Return the sum of SPAN points from index `i` on minus the sum of the SPAN points before them."""
     return sum(line[i + SPAN : i + 2 * SPAN]) - sum(line[i : i + SPAN])
 
 
 def _vertex(line: list[float], polarity: Polarity, i: int) -> float:
-    """Position of the vertex of the parabola through the rises about index `i`, from -.5 to .5."""
+    """Return the position of the vertex of the parabola through the rises about index `i`, from -.5 to .5."""
     if not 0 < i < len(line) - 2 * SPAN:
         return 0.0
     left, top, right = (polarity * _rise(line, k) for k in (i - 1, i, i + 1))
@@ -104,7 +107,7 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Like `door.characterise`, for arguments that are known to be valid."""
+    """Characterise a blob as `door.characterise` does. The arguments must already be known to be valid."""
     u, v = seed
     for bounce in range(1, BOUNCES + 1):
         level = _chord(scan, (u, v), (1, 0), polarity, step, reach, wide, beyond)
@@ -133,7 +136,9 @@ def _chord(
     wide: bool,
     beyond: float,
 ) -> tuple[Edge, Edge] | None:
-    """The edges that two opposite beams from one start find; None if one of them finds none."""
+    """Find the edges at both ends of a chord, with two opposite beams from one start. Returns None if a beam finds
+    no edge.
+    """
     du, dv = direction
     back = walk(scan, start, (-du, -dv), polarity, step, reach, wide=wide, beyond=beyond)
     ahead = walk(scan, start, (du, dv), polarity, step, reach, wide=wide, beyond=beyond) if back else None
@@ -143,8 +148,8 @@ def _chord(
 def rim(
     scan: Scan, centre: tuple[float, float], step: float, reach: float, *, rays: int = RAYS, beyond: float = 0.0
 ) -> Array:  # fmt: skip
-    """Border points (u, v) around a centre, shape (`rays`, 2), in order of angle, found by wide beams; NaN for a
-    beam that finds no edge.
+    """Find border points (u, v) around a centre with wide beams. Returns shape (`rays`, 2), in order of angle, with
+    NaN for a beam that finds no edge.
     """
     borders = rims(
         scan, np.array([centre]), step, np.array([reach]), rays=rays, inner=np.zeros(1), wide=True, beyond=beyond
@@ -163,8 +168,8 @@ def rims(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Array:
-    """Border points around several centres, (n, 2); returns shape (n, `rays`, 2). Faster than one centre at a time;
-    `reach` and `inner` have shape (n,).
+    """Find border points around several centres, shape (n, 2). Returns shape (n, `rays`, 2). This is faster than
+    one centre at a time. `reach` and `inner` have shape (n,).
     """
     spokes = _spokes(rays)
     starts = centres[:, None] + inner[:, None, None] * spokes
@@ -178,7 +183,7 @@ def rims(
 
 @cache
 def _spokes(rays: int) -> Array:
-    """Unit vectors in all directions, shape (`rays`, 2)."""
+    """Return unit vectors in all directions, shape (`rays`, 2)."""
     angles = np.arange(rays) * (2 * math.pi / rays)
     spokes = np.column_stack([np.cos(angles), np.sin(angles)])
     spokes.flags.writeable = False
@@ -186,10 +191,11 @@ def _spokes(rays: int) -> Array:
 
 
 def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[float, float] | None:
-    """Centre (x, y), m, of a circle of known diameter (m) at height `z`, fitted to its border points, shape (n, 2).
+    """Fit a circle of known diameter (m) at height `z` (m) to its border points, shape (n, 2). Returns its centre
+    (x, y), m, or None if too few points remain.
 
-    Points that are NaN or disagree with the others (shadows, noise) are dropped; None if fewer than half the points
-    remain.
+    Points that are NaN or that disagree with the others (shadows, noise) are dropped. At least half of the points
+    must remain.
     """
     met = points[~np.isnan(points[:, 0])]
     if len(met) < RAYS // 2:
@@ -212,13 +218,13 @@ def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[fl
 
 
 def _median(values: Array) -> float:
-    """The median; `np.median` takes thirty times as long for such short arrays."""
+    """Return the median. For such short arrays, `np.median` takes thirty times as long."""
     ordered, half = sorted(values.tolist()), len(values) // 2
     return float(ordered[half] + ordered[-1 - half]) / 2
 
 
 def _least_squares(a: Array, b: Array, c: Array) -> tuple[float, float] | None:
-    """Least-squares solution p, q of a p + b q = c; None if the equations are singular."""
+    """Return the least-squares solution p, q of a p + b q = c, or None if the equations are singular."""
     aa, ab, bb = float(a @ a), float(a @ b), float(b @ b)
     ac, bc = float(a @ c), float(b @ c)
     determinant = aa * bb - ab * ab

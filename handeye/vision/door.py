@@ -1,4 +1,4 @@
-"""The vision primitives for Python programs: arguments are checked, and a window applies to one call only."""
+"""The vision primitives for Python programs. Arguments are checked, and a window applies only to one call."""
 
 from collections.abc import Callable
 from typing import Final
@@ -29,7 +29,7 @@ def beams(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edges:
-    """The first discontinuity along each of several rays.
+    """Find the first discontinuity of intensity along each of several rays.
 
     Positions are in picture points: column u to the right and row v downwards; (0, 0) is the centre of the first
     point. Intensities are in the units of the picture.
@@ -72,7 +72,8 @@ def localise(
     fits: Callable[[BoundingBox], bool] = lambda box: True,
     tries: int = 12,
 ) -> BoundingBox | None:
-    """Find the box around the first blob that lies completely within a window and fits; None if there is none.
+    """Find the box around the first blob that lies completely within a window and that `fits` accepts. Returns None
+    if there is none.
 
     Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box
     grows from there until all its sides are in the background. A blob that reaches the border of the window or of
@@ -111,12 +112,12 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Find centre, width and height of a convex blob: beams bounce inside it from a seed until the centre no longer
-    moves. None if a beam finds no edge.
+    """Find the centre, width and height of a convex blob. Beams bounce inside the blob from a seed until the centre
+    no longer moves. Returns None if a beam finds no edge.
 
     The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
-    sweet, ends a beam too early and gives too small a blob. `beyond` and `wide` help, and so does a second seed,
-    whose result should agree.
+    sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help, and so does a
+    second seed, whose result should agree.
 
     Args:
         seed: a position (u, v) inside the blob, points.
@@ -154,7 +155,7 @@ def _kind(given: object) -> str:
 
 
 def _settings(polarity: object, step: object, beyond: object) -> None:
-    """Raises BadArgument unless the arguments are a polarity and differences of intensity."""
+    """Raise BadArgument unless the arguments are a polarity and differences of intensity."""
     known = isinstance(polarity, int | np.integer) and not isinstance(polarity, bool)
     if not known or polarity not in (BRIGHTER, DARKER):
         raise BadArgument(f"the polarity is BRIGHTER ({BRIGHTER}) or DARKER ({DARKER}), not {polarity!r:.40}")

@@ -17,7 +17,7 @@ MAX_COORDINATE: Final = 10_000.0  # limit on coordinates of marks, in picture po
 
 
 def annotate(picture: Picture, marks: Sequence[Mark], scale: int = SCALE) -> Image:
-    """Enlarge a picture and draw marks into it; raises ValueError for a mark too far outside the picture."""
+    """Enlarge a picture and draw marks into it. Raises ValueError if a mark is too far outside the picture."""
     grey = np.clip(picture * 17, 0, 255).astype(np.uint8)
     large = np.repeat(np.repeat(grey, scale, axis=0), scale, axis=1)
     image: Image = np.repeat(large[:, :, None], 3, axis=2)
@@ -40,7 +40,7 @@ def _draw(image: Image, mark: Mark, scale: int) -> None:
 
 
 def _pixel(point: Point, scale: int) -> tuple[int, int]:
-    """The pixel of the enlarged picture at the centre of a picture point."""
+    """Return the pixel of the enlarged picture at the centre of a picture point."""
     u, v = point
     if not max(abs(u), abs(v)) <= MAX_COORDINATE:
         raise ValueError(f"a mark at ({u:g}, {v:g}) belongs to no picture")

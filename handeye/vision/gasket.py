@@ -1,9 +1,9 @@
-"""Inspects a gasket by comparing pictures taken before and after it was laid on.
+"""Inspects a gasket by comparing pictures taken before and after the gasket was laid on.
 
-In the difference of the pictures the gasket is a bright blob with two dark holes. Wherever base or gasket has a
-hole there is little difference, so a displaced gasket shows the *union* of both holes: the centre of the union
-moves by only half the displacement, but its border on one side moves by all of it. Therefore both centre and rim
-are tested.
+In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference
+wherever the base or the gasket has a hole, so a displaced gasket shows the *union* of the two holes. The centre of
+the union moves by only half the displacement, but its border moves on one side by all of the displacement.
+Therefore both the centre and the rim are tested.
 """
 
 import math
@@ -36,31 +36,32 @@ ABSENT: Final = 2.2  # mean difference, levels, below which there is no gasket
 STEP: Final = (1.8, 0.3)  # least step across a border of the gasket: levels, and fraction of its difference
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
-"""Greatest permitted error of centre and rim, m. This and the three values below are from the vision study, section
-4.
+"""Greatest permitted error of the centre and of the rim, m. This value and the three values below are from the
+vision study, section 4.
 """
 BESIDE: Final = 0.3 * INCH  # from a hole's border to where the difference is measured, m
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""Two fractions for the picture before: of the contrast, to find a border; of the intensity of the face, to
-recognise the face.
+"""Two fractions for the picture before: of the contrast, above which a step is a border, and of the intensity of
+the face, above which a point belongs to the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
 WINDOW: Final = 9
-"""Number of neighbouring rays over which the median is taken: a quarter of the rim, wider than the part that an
-aligning pin hides.
+"""Number of neighbouring rays over which the median is taken: a quarter of the rim, which is wider than the part
+that an aligning pin hides.
 """
 CLEAR: Final = 0.06 * INCH
-"""Border points of the base must lie within this distance (m) of the hole's apparent circle to count.
+"""A border point of the base counts only if it lies within this distance (m) of the apparent circle of the hole.
 
-The apparent size depends on the scale of the camera, which may be off by 5 % (level high, seed 54010).
+The apparent size depends on the scale of the camera, which may be off by 5 % (in the world of seed 54010 at the
+high level).
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GasketInspection:
-    """Result of an inspection. Centres are (u, v) in the picture, that of the largest hole first."""
+    """Result of an inspection. Centres are (u, v) in the picture, with the centre of the largest hole first."""
 
     cause: InspectionCause | None  # None: it is on properly
     expected: tuple[tuple[float, float], ...]  # by the base's pose, corrected by its largest hole
@@ -69,12 +70,14 @@ class GasketInspection:
 
     @property
     def ok(self) -> bool:
-        """True if the gasket is on properly."""
+        """True if the gasket lies in its place."""
         return self.cause is None
 
 
 def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
-    """|after - before| at every point of the first picture, with the unchanged parts of both pictures aligned."""
+    """Return |after - before| at every point of the first picture, with the unchanged parts of the two pictures
+    aligned.
+    """
     from handeye.vision.alignment import aligned  # takes OpenCV, without which plans are made
 
     return np.abs(aligned(after, to=before) - before.astype(np.float32))
@@ -83,7 +86,7 @@ def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
 def inspect(
     before: Picture, after: Picture, view: View, part: Part, pose: tuple[float, float, float]
 ) -> GasketInspection:
-    """Compare pictures of a part at `pose` (x, y m, yaw rad) from before and after a gasket was laid on it.
+    """Compare pictures of a part at `pose` (x, y in m, yaw in rad), taken before and after a gasket was laid on it.
 
     Both pictures must be taken with the same aim, target voltage and arm position, because the shadow of the arm
     disturbs most. The second picture is aligned with the first by the parts that have not changed. The part must
@@ -122,11 +125,11 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
-    """Positions of the base's holes, shape (2, 3), m, corrected by the error of the largest hole in the picture
-    before.
+    """Return the positions of the base's holes, shape (2, 3), m, corrected by the error of the largest hole in the
+    picture taken before.
 
-    The mount may be off its potentiometers by more than the width of a hole's border, while the arm knows the
-    base's position more precisely. If the hole is not found, the positions are unchanged.
+    The aim of the mount may differ from its potentiometers by more than the width of a hole's border, while the arm
+    knows the position of the base more precisely. If the hole is not found, the positions are not corrected.
     """
     for _ in range(ROUNDS):
         steps = _base_steps(old, view, places[0], part.holes[0])
@@ -138,15 +141,15 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
 
 
 class _BaseSteps(NamedTuple):
-    """Thresholds: the least step across a border in the picture before, and the intensity of the face there."""
+    """Thresholds for the picture taken before: the least step across a border, and the intensity of the face."""
 
     before: float
     face: float
 
 
 class _Steps(NamedTuple):
-    """Thresholds: the least steps across a border in the difference and in the picture before, and the intensity of
-    the face.
+    """Thresholds: the least steps across a border in the difference and in the picture taken before, and the
+    intensity of the face.
     """
 
     after: float
@@ -156,7 +159,7 @@ class _Steps(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Check:
-    """Result for one hole; `fault` is None if the hole is right."""
+    """Result for one hole; `fault` is None if the gasket lies right at this hole."""
 
     fault: BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | None = None
     found: tuple[float, float] | None = None
@@ -184,7 +187,7 @@ def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole
 
 
 def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
-    """Thresholds for one hole in the picture before."""
+    """Return the thresholds for one hole in the picture taken before."""
     face = float(np.percentile(_around(old, view, place, hole), 25))
     u, v = view.project(place)[0]
     inside = float(np.median(old.patches(np.array([[u, v]]), 3)))
@@ -192,12 +195,14 @@ def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
 
 
 def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
-    """Intensities on a ring around a hole, which shows almost only the face or the gasket, shape (24,)."""
+    """Return the intensities on a ring around a hole, shape (24,). The ring shows almost only the face or the
+    gasket.
+    """
     return np.asarray(scan.patches(_ring(view, place, hole), 1).mean(axis=(1, 2)))
 
 
 def _ring(view: View, place: Array, hole: Hole) -> Array:
-    """Points (u, v) of a ring around a hole, shape (24, 2)."""
+    """Return the points (u, v) of a ring around a hole, shape (24, 2)."""
     angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
     ring = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(24)])
     return view.project(place + ring * (hole.diameter / 2 + BESIDE))
@@ -206,7 +211,7 @@ def _ring(view: View, place: Array, hole: Hole) -> Array:
 def _centre(
     scan: Scan, view: View, place: Array, hole: Hole, step: float, beyond: float = 0.0
 ) -> tuple[float, float] | None:
-    """Centre (x, y), m, of the hole expected at `place`, shape (3,), m.
+    """Find the centre (x, y), m, of the hole expected at `place`, shape (3,), m.
 
     The characteriser finds the hole, as for the base, and a circle is fitted around the result. If an aligning pin
     blocks one of the characteriser's four beams, the circle is fitted around the expected place.
@@ -219,17 +224,17 @@ def _centre(
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
-    """A place as a picture point, and the greatest distance from there of its hole's border, points."""
+    """Return a place as a picture point, and the greatest distance (points) of the border of its hole from there."""
     u, v = view.project(place)[0].tolist()
     return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """Bulge (m) of the border in the difference, about the base's hole at `centre`, shape (3,), m.
+    """Measure the bulge (m) of the border in the difference, about the base's hole at `centre`, shape (3,), m.
 
-    The bulge is relative to the border's median radius, because half of the border of a union of two discs is
-    nearly undisturbed. Only those rays count on which the base's border is visible in the picture before, because
-    an aligning pin may hide it.
+    The bulge is measured from the median radius of the border, because half of the border of a union of two discs
+    is nearly undisturbed. A ray counts only if the border of the base is visible on it in the picture taken before,
+    because an aligning pin may hide the border.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

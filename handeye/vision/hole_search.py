@@ -25,7 +25,7 @@ TURN: Final = 50 * DEGREE  # of the line of centres against plan, rad
 
 
 class Candidate(NamedTuple):
-    """A blob that may be a hole, with its centre (m) and mean diameter (m)."""
+    """A blob that may be a hole, with its centre (m) and its mean diameter (m)."""
 
     blob: Blob
     x: float
@@ -41,7 +41,9 @@ class Pair(NamedTuple):
 
 
 def classify(found: list[Candidate], part: Part) -> Pair | None:
-    """The two candidates whose sizes, distance and direction agree best with the part's largest holes."""
+    """Choose the two candidates whose sizes, distance and direction agree best with the two largest holes of the
+    part.
+    """
     large, small = part.holes[:2]
     distance = math.hypot(small.x - large.x, small.y - large.y)
     planned = part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
@@ -60,7 +62,9 @@ def classify(found: list[Candidate], part: Part) -> Pair | None:
 
 
 def placed(centres: Array, part: Part) -> tuple[float, float, float]:
-    """Pose (x, y, yaw) of the part's frame, m and rad, from the positions of its two holes' centres, shape (2, 2)."""
+    """Compute the pose (x, y, yaw) of the frame of the part, m and rad, from the centres of its two holes, shape
+    (2, 2), m.
+    """
     model = np.array([[hole.x, hole.y] for hole in part.holes[:2]])
     seen, drawn = centres[1] - centres[0], model[1] - model[0]
     yaw = wrapped(math.atan2(seen[1], seen[0]) - math.atan2(drawn[1], drawn[0]))
@@ -70,7 +74,9 @@ def placed(centres: Array, part: Part) -> tuple[float, float, float]:
 
 
 def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = False) -> Array:
-    """Centres of the large holes, or with `screws` of the screw holes, of a part at a pose, shape (n, 3), m in W."""
+    """Return the centres of the large holes of a part at a pose, or if `screws` is True, of its screw holes, shape
+    (n, 3), m in W.
+    """
     x, y, yaw = pose
     c, s = math.cos(yaw), math.sin(yaw)
     z = part.at[2] + part.face
@@ -83,7 +89,7 @@ def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = 
 def dark_screw_holes(
     scan: Scan, view: View, part: Part, pose: tuple[float, float, float], face: float
 ) -> int:
-    """Number of screw holes that are visible as dark spots in the bright face."""
+    """Count the screw holes that are visible as dark spots in the bright face."""
     places = view.project(hole_places(part, pose, screws=True))
     places = places[scan.inside(places)]
     around = np.sort(scan.patches(places, 6, 2).reshape(len(places), 49), axis=1)[:, 24]  # the median
@@ -94,7 +100,7 @@ def dark_screw_holes(
 
 
 def wrapped(angle: float) -> float:
-    """The angle, rad, in [-pi, pi)."""
+    """Return the angle (rad) in [-pi, pi)."""
     return (angle + math.pi) % (2 * math.pi) - math.pi
 
 
@@ -106,17 +112,17 @@ SEED: Final = 4  # points inside the border where bouncing starts
 
 INNER: Final = 0.25  # start of beams to a hole's border, over its smaller width: half-way to it
 ANGLES: Final = np.linspace(-TURN, TURN, 7)
-"""Angles of the beams from the largest hole to the second, relative to the planned direction; they are so close
-that the second hole cannot fit between two.
+"""Angles of the beams from the largest hole towards the second, relative to the planned direction. The beams are so
+close together that the second hole cannot lie between two of them.
 """
 BEFORE: Final = 0.35 * INCH
-"""Distance before the second hole's border at which these beams start, m: beyond the screw holes about the first
-hole.
+"""These beams start at this distance (m) before the border of the second hole, beyond the screw holes about the
+first hole.
 """
 
 
 class HoleSearch(NamedTuple):
-    """Parameters of a search for holes: spacing and width of the beams, and contrast of a border."""
+    """Parameters of a search for holes: the spacing and width of the beams, and the contrast of a border."""
 
     spacing: int  # points between beams
     wide: bool  # averages over three points across a beam
@@ -131,13 +137,13 @@ SEARCHES: Final = (
     HoleSearch(5, True, 0.20),
     HoleSearch(5, True, 0.20, face=0.4),
 )
-"""Searches in the order in which they are tried; starting with a small contrast would find more false holes. The
-last one is for the arm's shadow across the face, which did not occur in the vision study.
+"""Searches, in the order in which they are tried. Starting with a small contrast would find more false holes. The
+last search is for a shadow of the arm across the face, which did not occur in the vision study.
 """
 
 
 class Levels(NamedTuple):
-    """Intensities of face and dark holes in a box around the part."""
+    """Intensities of the face and of dark holes in a box around the part."""
 
     face: float
     dark: float
@@ -152,7 +158,7 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Least step of intensity at an edge; at least two levels, a few times the noise."""
+        """Return the least step of intensity at an edge: at least two levels, a few times the noise."""
         return max(2.0, search.contrast * (self.face - self.dark))
 
 
@@ -168,19 +174,21 @@ class HoleFinder:
         levels: Levels,
         search: HoleSearch,
     ) -> None:
-        """`resolution`: picture points per metre on the part's upper face, along the lines and across them."""
+        """`resolution` is the number of picture points per metre on the upper face of the part, along the picture
+        lines and across them.
+        """
         self._scan, self._view, self._part, self._search = scan, view, part, search
         self._z = part.at[2] + part.face
         self._across, self._down = resolution
         self._step, self._bright = levels.step(search), search.face * levels.face
 
     def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
-        """Candidates near the expected place: the largest hole, for a reference point of the part at `place` (x,
-        y), m, and holes around it.
+        """Find candidates near the expected place: the largest hole, for a reference point of the part at `place`
+        (x, y), m, and holes around it.
 
-        The second hole is found by beams from the first, at all angles by which the part may be turned. With
-        `shaded`, a circle of the first hole's size is fitted, because a shadow blocks one of the characteriser's
-        four beams.
+        The second hole is found by beams from the first, at all angles by which the part may be turned. If `shaded`
+        is True, a circle of the size of the first hole is fitted, because a shadow blocks one of the four beams of
+        the characteriser.
         """
         part = self._part
         seed = self._view.project(hole_places(part, (*place, part.at[3]))[0])[0]
@@ -194,8 +202,8 @@ class HoleFinder:
         return found
 
     def _circle(self, middle: Array) -> Candidate | None:
-        """The largest hole, from a circle fitted to the border found around a point (u, v), then around the fitted
-        centre.
+        """Find the largest hole by fitting a circle to the border around a point (u, v), and again around the
+        fitted centre.
         """
         diameter = self._part.holes[0].diameter
         width, height = diameter * self._across, diameter * self._down
@@ -211,7 +219,7 @@ class HoleFinder:
         return Candidate(Blob(u=u, v=v, width=width, height=height, bounces=0), x, y, diameter)
 
     def _around(self, first: Candidate) -> Array:
-        """Points (u, v) just beyond the edges that beams from the largest hole find, shape (n, 2)."""
+        """Return points (u, v), shape (n, 2), just beyond the edges that beams from the largest hole find."""
         large, small = self._part.holes[:2]
         planned = self._part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
         spokes = np.column_stack([np.cos(planned + ANGLES), np.sin(planned + ANGLES)])
@@ -226,8 +234,8 @@ class HoleFinder:
         return np.asarray((edges.uv + SEED * ahead)[edges.met & (edges.before >= self._bright)])
 
     def all_over(self, box: BoundingBox) -> list[Candidate]:
-        """Candidates in the whole box: beams go through the box, and the characteriser starts at every step from
-        the bright face to dark.
+        """Find candidates in the whole box. Beams go through the box, and the characteriser starts at every step
+        from the bright face to dark.
         """
         found: list[Candidate] = []
         for seed in self._dark_steps(box):
@@ -236,7 +244,7 @@ class HoleFinder:
         return found
 
     def _dark_steps(self, box: BoundingBox) -> Array:
-        """Points (u, v) just behind every step from bright to dark on beams through the box, shape (n, 2)."""
+        """Return points (u, v), shape (n, 2), just behind every step from bright to dark on beams through the box."""
         starts, ahead, lengths = _lines(box, self._search.spacing)
         gone, line = np.zeros(len(starts)), np.arange(len(starts))
         steps: list[tuple[int, float]] = []
@@ -253,7 +261,7 @@ class HoleFinder:
         return np.array([starts[n] + k * ahead[n] for n, k in steps]).reshape(-1, 2)
 
     def _tried(self, seed: Array) -> Candidate | None:
-        """The characteriser's result from a seed, if it may be a hole of the part; else None."""
+        """Characterise the blob around a seed. Returns None if it cannot be a hole of the part."""
         reach = 1.35 * self._part.holes[0].diameter * self._across
         at, wide, beyond = (float(seed[0]), float(seed[1])), self._search.wide, 0.9 * self._bright
         blob = characterise(self._scan, at, self._step, reach, wide=wide, beyond=beyond)
@@ -268,7 +276,9 @@ class HoleFinder:
         return Candidate(blob, x, y, size)
 
     def refined(self, pair: Pair) -> Array | None:
-        """Centres of both holes by fitted circles, shape (2, 2), m; None if a border is not seen well enough."""
+        """Find the centres of both holes by fitting circles, shape (2, 2), m. Returns None if a border is not seen
+        well enough.
+        """
         blobs = [candidate.blob for candidate in pair]
         middles = np.array([(blob.u, blob.v) for blob in blobs])
         reach = np.array([0.75 * blob.width + 3 for blob in blobs])
@@ -285,7 +295,7 @@ class HoleFinder:
 
 
 def _lines(box: BoundingBox, spacing: int) -> tuple[Array, Array, Array]:
-    """Starts, directions and lengths of beams along rows and, half as dense, along columns."""
+    """Return the starts, directions and lengths of beams along rows and, half as dense, along columns."""
     left, top, right, bottom = box
     rows = np.array([[left, v] for v in range(top + spacing, bottom, spacing)]).reshape(-1, 2)
     columns = np.array([[u, top] for u in range(left + spacing, right, 2 * spacing)]).reshape(-1, 2)

@@ -1,4 +1,6 @@
-"""Recognises a live camera by the noise of its pictures: two live pictures always differ, and the noise is limited."""
+"""Recognises a live camera by the noise of its pictures: two live pictures always differ, and their noise is
+limited.
+"""
 
 import math
 from typing import Final
@@ -8,8 +10,8 @@ import numpy as np
 from handeye.ports.camera import Picture
 
 MAX_NOISE: Final = 1.6
-"""Greatest plausible noise, standard deviation in intensity levels; the stated noise is 1. Chosen: sound pictures
-of two worlds have at most 1.06, pictures with hum and snow of 2 levels have 2.07 and more.
+"""Greatest plausible noise, as a standard deviation in intensity levels; the stated noise is 1. Chosen: sound
+pictures of two worlds have at most 1.06, and pictures with hum and snow of 2 levels have 2.07 or more.
 """
 _WHITE: Final = 15  # the highest level
 _MEDIAN: Final = 0.6745 * math.sqrt(6)  # median of second differences of noise of 1 level
@@ -17,20 +19,20 @@ _ENOUGH: Final = 1000  # points whose noise can be judged, at least
 
 
 def blank(picture: Picture) -> bool:
-    """True if all points have one intensity."""
+    """Return True if all points have the same intensity."""
     return bool(picture.min() == picture.max())
 
 
 def repeated(picture: Picture, earlier: Picture) -> bool:
-    """True if two pictures are equal in every point."""
+    """Return True if two pictures are equal at every point."""
     return np.array_equal(picture, earlier)
 
 
 def noise(picture: Picture) -> float:
-    """Noise of a picture, as standard deviation in intensity levels, from the deviation of points from the mean of
-    their neighbours on the line.
+    """Estimate the noise of a picture, as a standard deviation in intensity levels, from how far points deviate
+    from the mean of their neighbours on the line.
 
-    The median is used, because edges are few. Fully black and white points show no noise and do not count.
+    The median is used, because edges are few. Completely black and white points show no noise and do not count.
     """
     levels = picture.astype(np.int16)
     counts = (levels > 0) & (levels < _WHITE)

@@ -1,9 +1,9 @@
-"""Marks for the findings in a picture, in picture points.
+"""Marks in picture points that show the findings in a picture.
 
 The box of general location is white; holes have a red cross and a yellow box, with a line between their centres.
 The line of the first grasp is blue; picture 10 of the paper shows these two lines. Expected centres of a gasket's
-holes are red crosses, found centres are discs, green if the gasket is right. The outline of a part that is looked
-at again is green if the part stands as before, else red.
+holes are red crosses, found centres are discs, green if the gasket is right. If a part is checked again, its
+outline is green if the part stands as before, and red if not.
 """
 
 from dataclasses import dataclass
@@ -21,8 +21,8 @@ GraspLine = tuple[tuple[float, float], tuple[float, float]]  # two ends (u, v)
 
 
 def grasp_line(view: View, X_WT: Pose, gap: float, z: float) -> GraspLine | None:
-    """The line along which fingers `gap` (m) apart cross the height `z` (m) below a hand; None unless it lies
-    within the picture.
+    """Return the line on which fingers `gap` (m) apart cross the height `z` (m) below a hand. Returns None unless
+    the line lies within the picture.
     """
     ends = X_WT[:3, 3] + np.array([[-0.5], [0.5]]) * gap * X_WT[:3, 1]
     ends[:, 2] = z
@@ -47,7 +47,7 @@ ARM: Final = 4.0  # arm length of a cross, and diameter of a disc, in points
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loop:
-    """A closed line through points; `width` in picture points."""
+    """A closed line through points; `width` is in picture points."""
 
     points: tuple[Point, ...]
     colour: Colour
@@ -56,7 +56,7 @@ class Loop:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """A line; `width` in picture points."""
+    """A line; `width` is in picture points."""
 
     ends: tuple[Point, Point]
     colour: Colour
@@ -65,7 +65,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Disc:
-    """A filled circle; `diameter` in picture points."""
+    """A filled circle; `diameter` is in picture points."""
 
     centre: Point
     colour: Colour
@@ -83,7 +83,7 @@ def marks(
     inspection: GasketInspection | None = None,
     match: PartMatch | None = None,
 ) -> list[Mark]:
-    """Marks for the findings in a picture, in the order in which they are drawn."""
+    """Return the marks for the findings in a picture, in the order in which they are drawn."""
     drawn: list[Mark] = []
     if general:
         left, top, right, bottom = general.box

@@ -1,4 +1,4 @@
-"""Decides whether a part stands in a picture as in an earlier one.
+"""Decides whether a part stands in a picture as it stood in an earlier picture.
 
 Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each
 picture slightly, so the part is compared with its surroundings. Its shift relative to them is measured in fractions
@@ -20,10 +20,11 @@ from handeye.vision.base import Failure, PartMatch, silhouettes
 from handeye.vision.camera_model import View, in_picture
 
 MOVED: Final = 0.03 * INCH
-"""Greatest apparent movement of a part that still counts as none, m.
+"""Greatest apparent movement (m) of a part that still counts as no movement.
 
-Two pictures of a pump at rest show .02 to .07 mm; if the pump is pushed against its blocks in between, they show
-.13 to .16 mm (nominal level, seeds 3 and 15). A base that is .05 in off its place is wrong (reference test 59).
+Two pictures of a pump at rest show .02 to .07 mm. If the pump is pushed against its blocks between the two
+pictures, they show .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). A base that is .05 in off its
+place is wrong (reference test 59).
 """
 SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6
@@ -36,18 +37,18 @@ gives .8 to 2.0, so most such screws are missed; a screw behind the crank is not
 driven again between the two pictures, one sound pump of five exceeded the limit (nominal level, seed 15).
 """
 BESIDE: Final = 12
-"""Width of a strip around the part, in points, that counts neither as part nor as surroundings.
+"""Width (points) of a strip around the part that counts neither as part nor as surroundings.
 
-The aim of the mount is not exactly as its potentiometers say, and the part casts a shadow.
+The aim of the mount differs slightly from the readings of its potentiometers, and the part casts a shadow.
 """
 
 
 def match(
     before: Picture, after: Picture, view: View, part: Part, pose: tuple[float, float, float]
 ) -> PartMatch | Failure:
-    """Compare two pictures of a part at `pose` (x, y m, yaw rad).
+    """Compare two pictures of a part at `pose` (x, y in m, yaw in rad).
 
-    Both must be taken with the same aim, target voltage and arm position. The part must have an outline.
+    Both pictures must be taken with the same aim, target voltage and arm position. The part must have an outline.
     """
     if part.outline is None:
         raise BadArgument("matching pictures of a part needs its outline, which the program does not give")

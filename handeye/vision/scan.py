@@ -1,4 +1,4 @@
-"""A picture as the primitives read it, with a record of the points read."""
+"""A picture as the primitives read it, with a record of the points that were read."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -17,9 +17,7 @@ MARGIN: Final = 1  # border points that no beam enters, so that it can be three 
 
 
 def numbers(given: object, said: str) -> Array:
-    """An argument as an array of finite numbers; raises BadArgument, whose sentence `said` says what the argument
-    must be.
-    """
+    """Convert an argument to an array of finite numbers. Raises BadArgument, whose sentence begins with `said`."""
     try:
         found = np.asarray(given)
         sound = found.dtype.kind in "uif" and bool(np.isfinite(found).all())
@@ -31,7 +29,9 @@ def numbers(given: object, said: str) -> Array:
 
 
 def places(given: object, said: str) -> Array:
-    """An argument as finite positions in or near the picture, points; raises BadArgument."""
+    """Convert an argument to finite positions in or near the picture, points. Raises BadArgument if that is
+    impossible.
+    """
     found = numbers(given, said)
     if (np.abs(found) > _FARTHEST).any():
         raise BadArgument(f"{said}, at most {_FARTHEST:g} pixels from the picture")
@@ -39,7 +39,9 @@ def places(given: object, said: str) -> Array:
 
 
 def quadrilateral(given: object) -> Array:
-    """An argument as the corners (u, v) of a convex quadrilateral, shape (4, 2); raises BadArgument."""
+    """Convert an argument to the corners (u, v) of a convex quadrilateral, shape (4, 2). Raises BadArgument if it
+    is not one.
+    """
     said = "a window has four corners (u, v) in order, shape (4, 2)"
     found = places(given, said)
     if found.shape != (4, 2):
@@ -55,7 +57,7 @@ def quadrilateral(given: object) -> Array:
 
 
 def _intensities(picture: object) -> NDArray[np.float32]:
-    """An argument as the intensities of a picture; raises BadArgument."""
+    """Convert an argument to the intensities of a picture. Raises BadArgument if that is impossible."""
     if not isinstance(picture, np.ndarray):
         raise BadArgument(
             f"a picture must be an array of intensities, shape (rows, columns), not {type(picture).__name__}"
@@ -75,12 +77,12 @@ def _intensities(picture: object) -> NDArray[np.float32]:
 
 
 class Scan:
-    """A picture for beams, with a window outside which they cannot go. It counts beams and points read, for timing
-    and display.
+    """A picture for beams, with a window that beams cannot leave. It counts the beams, and the points read, for
+    timing and display.
     """
 
     def __init__(self, picture: NDArray[np.generic]) -> None:
-        """`picture`: intensities, shape (rows, columns); raises BadArgument if it has another form."""
+        """`picture` holds intensities, shape (rows, columns). Raises BadArgument if it does not."""
         self.image: NDArray[np.float32] = _intensities(picture)
         self.rows, self.columns = self.image.shape
         self._levels = memoryview(self.image.ravel().data)
@@ -94,11 +96,11 @@ class Scan:
 
     @property
     def points(self) -> int:
-        """Number of points read, each point counted once."""
+        """Number of points read; each point counts once."""
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
-        """Remove the window: beams may go everywhere except on the margin, the outermost points."""
+        """Remove the window. Beams may then go everywhere except on the margin, which is the outermost points."""
         low, high = MARGIN - 0.5, MARGIN + 0.5
         self._look_within(
             np.array(
@@ -108,10 +110,10 @@ class Scan:
         )
 
     def limit(self, corners: ArrayLike) -> None:
-        """Set the window: a convex quadrilateral to which all beams are limited, in place of the previous window;
-        raises BadArgument.
+        """Set the window, a convex quadrilateral that limits all beams. It replaces the previous window. Raises
+        BadArgument if `corners` form no such quadrilateral.
 
-        `corners` are (u, v), points, in order, shape (4, 2).
+        `corners` are (u, v), points, in order around the window, shape (4, 2).
         """
         found = quadrilateral(corners)
         along = np.roll(found, -1, axis=0) - found
@@ -123,7 +125,7 @@ class Scan:
 
     @contextmanager
     def within(self, corners: ArrayLike) -> Iterator[None]:
-        """In this context, the window is a convex quadrilateral; afterwards it is the previous one."""
+        """Limit beams to a convex quadrilateral while the context is open, and then restore the previous window."""
         before = self.sides
         self.limit(corners)
         try:
@@ -133,23 +135,25 @@ class Scan:
 
     def _look_within(self, sides: Array) -> None:
         self.sides = sides
-        """The sides of the window, one per row, shape (n, 3): inside, a*u + b*v + c is positive."""
+        """The sides of the window, one per row, shape (n, 3). Inside the window, a*u + b*v + c is positive for
+        every side.
+        """
         self._lines = sides.tolist()
 
     def inside(self, places: Array) -> NDArray[np.bool_]:
-        """A mask, shape (n,), of the places (u, v), shape (n, 2), that lie within the window."""
+        """Return a mask, shape (n,), of the places (u, v), shape (n, 2), that lie within the window."""
         return np.asarray((self._heights(places) > 0).all(axis=1))
 
     def border(self, places: Array, width: float) -> NDArray[np.bool_]:
-        """A mask of the places within the window, shape (n, 2), that lie less than `width` (points) from its
-        border.
+        """Return a mask of those places within the window, shape (n, 2), that lie less than `width` (points) from
+        its border.
         """
         away = self._heights(places) / np.hypot(*self.sides[:, :2].T)
         nearest = away.min(axis=1)
         return np.asarray((nearest > 0) & (nearest < width))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
-        """Lengths of rays within the window, backwards and forwards, points, shape (n,) each."""
+        """Return the lengths (points) of rays within the window, backwards and forwards, shape (n,) each."""
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
         back, ahead = np.full((2, *heights.shape), np.inf)
         np.divide(heights, -slopes, out=ahead, where=slopes < -1e-9)
@@ -159,7 +163,9 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """Lengths of one ray within the window, backwards and forwards, points; (0, -1) if its start is outside."""
+        """Return the lengths (points) of one ray within the window, backwards and forwards, or (0, -1) if its start
+        is outside.
+        """
         back = ahead = math.inf
         for a, b, c in self._lines:
             height, slope = a * u + b * v + c, a * du + b * dv
@@ -172,11 +178,13 @@ class Scan:
         return math.floor(back), math.floor(ahead)
 
     def _heights(self, places: Array) -> Array:
-        """Signed distances of places from the window's sides, not normalised, shape (n, sides)."""
+        """Return the signed distances of places from the sides of the window, not normalised, shape (n, sides)."""
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:
-        """Intensities at places given by index in the picture; places outside are clipped."""
+        """Return the intensities at places given by index in the picture. Places outside the picture are clipped to
+        it.
+        """
         return self.image.take(places, mode="clip")
 
     def account(self, places: Places) -> None:
@@ -184,7 +192,7 @@ class Scan:
         self._read[places] = True
 
     def summed(self, starts: Sequence[int], length: int, stride: int) -> list[float]:
-        """Intensities along parallel lines that begin at `starts`, summed across the lines."""
+        """Return the intensities along parallel lines that begin at `starts`, summed across the lines."""
         ends = [slice(start, start + length * stride, stride) for start in starts]
         lines: list[Any] = [self._levels[each].tolist() for each in ends]
         return lines[0] if len(lines) == 1 else [sum(across) for across in zip(*lines, strict=True)]
@@ -195,7 +203,7 @@ class Scan:
             self._read[start : start + length * stride : stride] = True
 
     def patches(self, places: Array, radius: int, stride: int = 1) -> NDArray[np.float32]:
-        """Squares of points about places (u, v), shape (n, side, side), clipped to the picture."""
+        """Return squares of points about places (u, v), shape (n, side, side), clipped to the picture."""
         off = np.arange(-radius, radius + 1, stride)
         middle = np.rint(places).astype(np.intp)
         u = np.minimum(np.maximum(middle[:, 0, None] + off, 0), self.columns - 1)

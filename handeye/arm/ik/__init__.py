@@ -1,6 +1,6 @@
 """Inverse kinematics: joint positions for a hand pose, or the reason why there are none.
 
-There is one solver for each structure of arm; the functions here choose the solver of the given arm.
+Each kind of arm structure has its own solver. The functions here call the solver of the given arm.
 """
 
 from collections.abc import Mapping
@@ -20,7 +20,7 @@ __all__ = ["IKResult", "branches", "rates", "singular", "solve"]
 
 
 class Solver(Protocol):
-    """Inverse kinematics of one structure; each function raises ValueError for an arm of another structure."""
+    """Inverse kinematics of one arm structure. Each function raises ValueError for an arm of another structure."""
 
     def solve(self, arm: ArmModel, X_WT: Pose, near: Array, /) -> IKResult: ...
 
@@ -41,11 +41,11 @@ _SOLVERS: Final[Mapping[Structure, Solver]] = {
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Joint positions for the hand at `X_WT`: the branch within the joint limits that is nearest to `near`.
+    """Find joint positions for the hand at `X_WT`: within the joint limits, the branch nearest to `near`.
 
-    Distance is the sum of the joints' travel times. Joints that do not affect the pose stay as in `near`; held
-    joints stay at their fixed positions. If a pose is out of reach only by rounding, the solution is the nearest
-    one within the limits.
+    The distance between configurations is the sum of the travel times of the joints. Joints that do not affect the
+    pose stay as in `near`, and held joints stay at their fixed positions. If a pose is out of reach only because
+    its numbers are rounded, the solution is the nearest one within the limits.
     """
     found = _SOLVERS[arm.structure].solve(arm, X_WT, near)
     if found.q is not None:
@@ -56,26 +56,28 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Array, NDArray[np.bool_]]:
-    """All closed-form solutions for hand poses of shape (..., 4, 4), ignoring joint limits.
+    """Return all closed-form solutions for hand poses of shape (..., 4, 4), whether or not they are within the
+    joint limits.
 
-    Returns joint positions (..., k, n), revolute ones in (-pi, pi], and a mask of the branches that exist, (...,
-    k). Free joints, which do not affect the pose, and held joints stay as in `start`, where a motion along the
-    poses begins. Without `start`, free joints are 0 and held joints at their fixed positions.
+    The first result is joint positions, shape (..., k, n), with revolute joints in (-pi, pi]. The second is a mask
+    of the branches that exist, shape (..., k). Free joints, which do not affect the pose, and held joints stay as
+    in `start`, the configuration in which a motion along the poses begins. Without `start`, free joints are 0 and
+    held joints are at their fixed positions.
     """
     return _SOLVERS[arm.structure].branches(arm, X_WT, start)
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """The first of N configurations of a branch that is singular for the wanted twist of the hand, with the reason;
-    None if there is none.
+    """Find the first of N configurations on a branch that is singular for the wanted twist of the hand. Returns its
+    index and the reason, or None if no configuration is singular.
 
-    `V` are twists at T in world axes, shape (N, 6), of a motion that begins at `q_start`.
+    `V` are the twists at T in world axes, shape (N, 6), of a motion that begins at `q_start`.
     """
     return _SOLVERS[arm.structure].singular(arm, q_start, q, V)
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """Joint rates, (N, n), for twists `V` at T in world axes, (N, 6), at configurations that are not singular; `J`
-    is the Jacobian at `q`.
+    """Return the joint rates, shape (N, n), for twists `V` at T in world axes, shape (N, 6). The configurations `q`
+    must not be singular. `J` is the Jacobian at `q`.
     """
     return _SOLVERS[arm.structure].rates(arm, q, J, V)

@@ -1,5 +1,5 @@
-"""Inverse kinematics of one to three sliding axes: the hand moves on a line, in a plane or in space, and never
-turns.
+"""Inverse kinematics of an arm with one to three sliding axes. The hand moves on a line, in a plane or in space,
+and never turns.
 """
 
 import math
@@ -18,7 +18,7 @@ from handeye.program.diagnosis.reach import FixedDirection, FixedOrientation, In
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """Constants of an arm for the solution."""
+    """Constants of an arm that the solver needs."""
 
     slides: list[int]
     held: list[int]
@@ -30,7 +30,7 @@ class _Build:
 
 @lru_cache(maxsize=16)
 def _build(arm: ArmModel) -> _Build:
-    """Compute the constants of an arm; raises ValueError if the arm is not cartesian."""
+    """Compute the constants of an arm. Raises ValueError if the arm is not cartesian."""
     held = [i for i, joint in enumerate(arm.joints) if joint.name in arm.held]
     slides = [i for i in range(len(arm.joints)) if i not in held]
     R, _ = chain(arm, np.zeros(len(arm.joints)))
@@ -46,7 +46,9 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """The only branch, which exists unless the hand would have to turn or leave the directions of the slides."""
+    """Return the only branch. It exists unless the hand would have to turn or to leave the directions of the
+    slides.
+    """
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q, off = _nearest_position(arm, b, X, b.held_at if start is None else start[b.held])
     exists = (np.linalg.norm(off, axis=-1) <= WRITTEN[0]) & (_turn_angle(b, X) <= WRITTEN[1])
@@ -54,7 +56,9 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> tuple[Array, Array]:
-    """Joint positions that bring the hand nearest to poses, (..., n), and the remaining displacement, (..., 3), m."""
+    """Find joint positions that bring the hand nearest to poses. Returns the positions, shape (..., n), and the
+    remaining displacement, shape (..., 3), m.
+    """
     q = np.zeros((*X_WT.shape[:-2], len(arm.joints)))
     q[..., b.held] = held_at
     displacement = X_WT[..., :3, 3] - forward(arm, q)[..., :3, 3]
@@ -63,13 +67,13 @@ def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> t
 
 
 def _turn_angle(b: _Build, X_WT: Pose) -> Array:
-    """Angle between the fixed orientation of the hand and the orientation of poses, rad."""
+    """Return the angle (rad) between the fixed orientation of the hand and the orientation of poses."""
     chord = np.linalg.norm(X_WT[..., :3, :3] - b.R_WT, axis=(-2, -1)) / (2 * math.sqrt(2))
     return np.asarray(2 * np.arcsin(np.minimum(chord, 1.0)))
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """The solution, or the turn, direction or joint limit that prevents it."""
+    """Find the solution, or else the turn, direction or joint limit that prevents one."""
     b = _build(arm)
     angle = float(_turn_angle(b, X_WT))
     if angle > WRITTEN[1]:
@@ -82,12 +86,12 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """None: a cartesian arm has no singular configurations."""
+    """Return None: a cartesian arm has no singular configurations."""
     return None
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """Rates of the slides; held joints do not move."""
+    """Return the rates of the slides. Held joints do not move."""
     b, qd = _build(arm), np.zeros(q.shape)
     qd[:, b.slides] = V[:, :3] @ b.inverse.T
     return qd

@@ -5,9 +5,9 @@ The slides do not turn the hand. The wrist joints therefore follow from the orie
 slides from the remaining position; the wrist axes need not meet in a point. Further slides are rails, held at a
 fixed position.
 
-There are two branches: wrist flipped or not. Where the first and last wrist axes are in line, only the sum of the
-two joints matters; the first joint stays where it was if the last can do the rest. There the hand can still move in
-any direction, and turn about that line.
+There are two branches: with and without a flipped wrist. Where the first and last wrist axes are in line, only the
+sum of the two joint angles matters. The first joint then keeps its angle if the last joint can do the rest of the
+turn. In this configuration the hand can still move in any direction, and turn about the common line.
 """
 
 import math
@@ -30,7 +30,7 @@ _EXACT: Final = 1e-6  # round-off of a twist, m/s or rad/s
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """Constants of an arm for the solution."""
+    """Constants of an arm that the solver needs."""
 
     slides: list[int]
     held: list[int]
@@ -42,7 +42,7 @@ class _Build:
 
 @lru_cache(maxsize=16)
 def _build(arm: ArmModel) -> _Build:
-    """Compute the constants of an arm; raises ValueError if the arm is not a gantry with a wrist."""
+    """Compute the constants of an arm. Raises ValueError if the arm is not a gantry with a wrist."""
     wrist = len(arm.joints) - 3
     held = [i for i, joint in enumerate(arm.joints) if joint.name in arm.held]
     slides = [i for i in range(wrist) if i not in held]
@@ -58,7 +58,7 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Two branches, wrist not flipped and flipped; both always exist."""
+    """Return two branches: wrist not flipped, then flipped. Both always exist."""
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q = np.zeros((*X.shape[:-2], 2, len(arm.joints)))
     q[..., b.held] = b.held_at if start is None else start[b.held]
@@ -73,7 +73,9 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Array:
-    """Wrist joints, shape (..., 3), for orientations `M` relative to the base of the wrist, shape (..., 3, 3)."""
+    """Find the wrist joints, shape (..., 3), for orientations `M` relative to the base of the wrist, shape (..., 3,
+    3).
+    """
     k, i = constants(arm), b.wrist
     x, y, z = M[..., 0, 2], M[..., 1, 2], M[..., 2, 2]
     roll = np.where(np.hypot(x, y) < _COLLINEAR, left, np.atan2(flip * y, flip * x))
@@ -85,7 +87,7 @@ def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Arra
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """The best branch; or the failure of the joint farthest beyond its limits."""
+    """Find the best branch, or else the failure of the joint that is farthest beyond its limits."""
     b, start = _build(arm), near.copy()
     start[b.held] = b.held_at
     here = near.tolist()
@@ -98,7 +100,9 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
-    """The given configuration; if both roll axes are in line, all ways to share their turn within limits."""
+    """Return the given configuration. If both roll axes are in line, return all ways within the limits to share
+    their common turn.
+    """
     if abs(math.sin(q[-2])) >= _COLLINEAR:
         return [q]
     first, middle, last = arm.joints[-3:]
@@ -108,8 +112,8 @@ def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """The first configuration where the wrist would have to swing round, or cannot turn the hand as wanted; None if
-    there is none.
+    """Find the first configuration where the wrist would have to swing round, or cannot turn the hand as wanted.
+    Returns its index and the reason, or None if there is no such configuration.
     """
     i = _build(arm).wrist
     J = jacobian(arm, q)
@@ -121,7 +125,7 @@ def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, In
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """Rates of wrist and slides; held joints do not move."""
+    """Return the rates of wrist and slides. Held joints do not move."""
     b = _build(arm)
     in_line = np.abs(np.sin(q[:, b.wrist + 1])) < _COLLINEAR
     turning = J[:, 3:, b.wrist :].copy()

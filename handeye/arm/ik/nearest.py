@@ -1,8 +1,9 @@
-"""Finds the nearest configuration within limits for a pose that is out of reach only because its numbers are
-rounded.
+"""For a pose that is out of reach only because its numbers are rounded, finds the nearest configuration within the
+joint limits.
 
-A pose at the edge of reach need not have an exact solution if it is written with a few digits, or computed from
-joints at their limits. This search finds a solution with the hand as near to the pose as the digits determine it.
+If a pose at the edge of reach is written with few digits, or computed from joints at their limits, it may have no
+exact solution. This search finds a configuration whose hand pose agrees with the given pose to within the rounding
+of its digits.
 """
 
 from collections.abc import Iterable
@@ -23,11 +24,11 @@ _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to join
 
 
 def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
-    """Joint positions within limits that bring the hand within `WRITTEN` of a pose, or None; the search begins at
-    the solutions `starts`.
+    """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if
+    there are none. The search begins at the solutions `starts`.
 
-    It also begins a little beside these solutions: where joints are in line, no first step leads to some of the
-    neighbouring poses.
+    The search also begins a little beside these solutions: where joint axes are in line, some neighbouring poses
+    cannot be reached by any first step.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]
@@ -41,8 +42,8 @@ def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array 
 
 
 def _nearest(arm: ArmModel, X_WT: Pose, q: Array) -> tuple[float, Array]:
-    """The least distance of the hand from the pose, in multiples of `WRITTEN`, and its configuration, from
-    Gauss-Newton steps within limits.
+    """Bring the hand towards the pose by Gauss-Newton steps within the joint limits. Returns the least distance
+    from the pose, in multiples of `WRITTEN`, and the configuration.
     """
     best = (np.inf, q)
     for _ in range(_STEPS):
@@ -57,15 +58,15 @@ def _nearest(arm: ArmModel, X_WT: Pose, q: Array) -> tuple[float, Array]:
 
 
 def _miss(X_WT: Pose, X: Pose) -> Array:
-    """Displacement and turn from pose `X` to the wanted pose, in multiples of `WRITTEN`; shape (6,)."""
+    """Return the displacement and turn from pose `X` to the wanted pose, in multiples of `WRITTEN`, shape (6,)."""
     R = X_WT[:3, :3] @ X[:3, :3].T
     turn = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
     return np.concatenate([(X_WT[:3, 3] - X[:3, 3]) / WRITTEN[0], turn / WRITTEN[1]])
 
 
 def _stepped(arm: ArmModel, q: Array, miss: Array) -> Array:
-    """The configuration after the step that comes nearest; a joint that would pass its limit stops at it, and the
-    others compensate.
+    """Return the configuration after the step that comes nearest to the pose. A joint that would pass its limit
+    stops at the limit, and the other joints compensate.
     """
     J = jacobian(arm, q) / np.repeat(WRITTEN, 3)[:, None]
     free: NDArray[np.bool_] = np.array([joint.name not in arm.held for joint in arm.joints])

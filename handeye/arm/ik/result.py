@@ -1,4 +1,6 @@
-"""Results of inverse kinematics, and the choice between solutions: within limits and soonest reached."""
+"""Results of inverse kinematics, and the choice between solutions: the solution within the limits that the arm
+reaches soonest.
+"""
 
 import math
 from dataclasses import dataclass
@@ -16,18 +18,20 @@ from handeye.program.diagnosis.reach import JointLimit, OutOfReach, ReachFailure
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class IKResult:
-    """Joint positions for a hand pose, or the reason why a pose or a motion is impossible."""
+    """Joint positions for a hand pose, or the reason why the pose or the motion is impossible."""
 
     q: Array | None = None  # shape (n,), rad and m
     reason: ReachFailure | None = None  # why there is no solution
     along: float | None = None  # of motions: m along the hand's path
 
     def message(self, arm: ArmModel) -> str:
-        """The reason as a sentence, or ""."""
+        """Write the reason as a sentence. Returns "" if there is a solution."""
         return "" if self.reason is None else reach_sentence(arm, self.reason)
 
     def cause(self, arm: ArmModel, goal: str = "") -> BeyondArm:
-        """The failure as the cause of an error; `goal` is the name of the position, if it has one."""
+        """Return the failure as the cause of an error. `goal` is the name of the goal position, or "" if it has
+        none.
+        """
         # solvers compute with the numbers of arrays, which do not go to disk
         plain = msgspec.to_builtins(self.reason, enc_hook=np.generic.item)
         return BeyondArm(goal=goal, reason=msgspec.convert(plain, ReachFailure), arm=ArmNames.of(arm))
@@ -35,15 +39,15 @@ class IKResult:
 
 SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
 WRITTEN: Final = (0.0025 * INCH, 0.0125 * DEGREE)
-"""Distance (m) and turn (rad) by which a pose may be off because it is written with few digits, combined as the
-root of the sum of squares. Half of .001 in and of .01 degrees in each coordinate gives at most .96 of it; the
-wrist, 10 in behind the finger tips, is then off by less than the distance.
+"""Greatest distance (m) and turn (rad) by which a pose may be off because it is written with few digits. Distance
+and turn are combined as the root of the sum of squares. Errors of .0005 in and of .005 degrees in each coordinate
+give at most .96 of the limit. The wrist, 10 in behind the finger tips, is then off by less than the distance.
 """
 
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
-    """The solution within limits that is reached soonest from `near`; if there is none, the failure of the solution
-    least beyond its limits.
+    """Choose the solution within the limits that the arm reaches soonest from `near`. If there is none, return the
+    failure of the solution that is least beyond its limits.
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
@@ -56,10 +60,11 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
 
 
 def shared(first: Joint, last: Joint, sense: float, one: float, other: float) -> list[tuple[float, float]]:
-    """Positions within limits of two joints with axes in line that turn the hand as `one` and `other` together do.
+    """Return all pairs of positions within the limits of two joints with axes in line that turn the hand as far as
+    `one` and `other` do together.
 
-    If `sense` is positive, both joints turn the hand the same way, else opposite ways. There is one solution for
-    each number of whole turns that is possible; the first joint stays at `one` if the last can do the rest.
+    If `sense` is positive, both joints turn the hand the same way, and otherwise opposite ways. There is one pair
+    for each possible number of whole turns. The first joint stays at `one` if the last joint can do the rest.
     """
     sign, ends, found = math.copysign(1.0, sense), (last.lower, last.upper), []
     turns = math.ceil((first.upper - first.lower + last.upper - last.lower) / (2 * math.pi))
@@ -78,8 +83,8 @@ def _inside(joint: Joint, x: float) -> bool:
 
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
-    """Travel time from the limit of the joint farthest beyond it, and that failure; prismatic joints come first,
-    because no other branch avoids their failures.
+    """Return the failure of the joint farthest beyond its limit, and the travel time of that joint from the limit.
+    Prismatic joints come first, because no other branch avoids their failures.
     """
     outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
     excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]
@@ -89,14 +94,14 @@ def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
 
 
 def beyond(joint: Joint, index: int, x: float) -> OutOfReach | JointLimit:
-    """The failure of a joint at position `x`, beyond its limits."""
+    """Return the failure of a joint whose position `x` is beyond its limits."""
     limit = joint.upper if x > joint.upper else joint.lower
     return OutOfReach(index, x, limit) if joint.kind == "prismatic" else JointLimit(index, x, limit)
 
 
 def nearest_turn(joint: Joint, x: float, near: float) -> float:
-    """`x` plus whole turns: the value within limits nearest to `near`; if there is none, the value nearest to the
-    limits.
+    """Add whole turns to `x`: return the value within the limits that is nearest to `near`, or if there is none,
+    the value nearest to the limits.
     """
     if joint.kind == "prismatic":
         return x

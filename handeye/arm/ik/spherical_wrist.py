@@ -1,8 +1,9 @@
 """Closed-form inverse kinematics of the Stanford arm (Paul 1981): a shoulder with offset d2, a sliding boom, a
 spherical wrist.
 
-There are four branches: the boom on either side of the column, the wrist flipped or not. Where the axes of joints 4
-and 6 are in line, only the sum of the two joints matters; joint 4 stays where it was if joint 6 can do the rest.
+There are four branches: the boom on either side of the column, each with and without a flipped wrist. Where the
+axes of joints 4 and 6 are in line, only the sum of the two joint angles matters. Joint 4 then keeps its angle if
+joint 6 can do the rest of the turn.
 """
 
 import math
@@ -39,8 +40,8 @@ def _check(arm: ArmModel) -> None:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Four branches: shoulder +, then -, each with the wrist not flipped and flipped. None exists where the wrist
-    would be nearer to axis 1 than the offset d2 allows.
+    """Return four branches: the shoulder on the positive side, then on the negative side, each with the wrist not
+    flipped and flipped. No branch exists where the wrist would be nearer to axis 1 than the offset d2 allows.
     """
     _check(arm)
     X_BT = inverse(arm.X_WB) @ np.asarray(X_WT, dtype=np.float64)
@@ -61,7 +62,9 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """The best branch; or the failure: the wrist is too near to axis 1, or the joint farthest beyond its limits."""
+    """Find the best branch, or else the failure: the wrist is too near to axis 1, or a joint is beyond its limits
+    (the farthest is given).
+    """
     _check(arm)
     rows = (constants(arm).X_BW @ X_WT)[:3].tolist()
     here = near.tolist()
@@ -77,18 +80,22 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """The first configuration where the axes of joints 4 and 6 are in line; None if there is none."""
+    """Find the first configuration where the axes of joints 4 and 6 are in line. Returns its index and the reason,
+    or None if there is no such configuration.
+    """
     in_line = np.abs(np.sin(q[:, 4])) < _SINGULAR
     return (int(np.argmax(in_line)), InLine((3, 5))) if in_line.any() else None
 
 
 def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
-    """Joint rates that solve J qd = V."""
+    """Find the joint rates `qd` that solve J qd = V."""
     return np.asarray(np.linalg.solve(J, V[..., None])[..., 0], dtype=np.float64)
 
 
 def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> list[list[float]]:
-    """`branches` for one pose, in Python floats; each joint in the turn nearest to `near` within limits."""
+    """Return the `branches` of one pose, in Python floats. Each joint is in the turn within its limits that is
+    nearest to `near`.
+    """
     found = []
     for side in (1.0, -1.0):
         q123 = _shoulder(math, arm, w, side)
@@ -109,14 +116,14 @@ def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> lis
 
 
 def _wrist_centre(arm: ArmModel, rows: Any) -> Any:
-    """Position of the wrist centre relative to the shoulder, in the base frame, m."""
+    """Return the position of the wrist centre relative to the shoulder, in the base frame, m."""
     (_, _, ax, px), (_, _, ay, py), (_, _, az, pz) = rows
     d = arm.hand.length
     return px - d * ax, py - d * ay, pz - d * az - arm.joints[0].d
 
 
 def _shoulder(m: ModuleType, arm: ArmModel, w: Any, side: float) -> Any:
-    """q1, q2 and q3 with the boom on one side of the column."""
+    """Return q1, q2 and q3 for the boom on the given side of the column."""
     x, y, z = w
     d2 = arm.joints[1].d
     u2 = x * x + y * y - d2 * d2
@@ -125,14 +132,14 @@ def _shoulder(m: ModuleType, arm: ArmModel, w: Any, side: float) -> Any:
 
 
 def _roll_direction(m: ModuleType, q123: Any, rows: Any) -> Any:
-    """Components of the approach direction perpendicular to the boom; they determine joint 4."""
+    """Return the components of the approach direction perpendicular to the boom, which determine joint 4."""
     (_, _, ax, _), (_, _, ay, _), (_, _, az, _) = rows
     c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
     return c2 * (c1 * ax + s1 * ay) - s2 * az, -s1 * ax + c1 * ay
 
 
 def _bend_and_roll(m: ModuleType, q123: Any, q4: Any, rows: Any) -> Any:
-    """q5 and q6 for a given q4."""
+    """Return q5 and q6 for a given q4."""
     (_, ox, ax, _), (_, oy, ay, _), (_, oz, az, _) = rows
     c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
     c4, s4 = m.cos(q4), m.sin(q4)

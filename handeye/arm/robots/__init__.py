@@ -1,4 +1,4 @@
-"""All arms by name, each defined as a value in a separate file."""
+"""All arms by name. Each arm is a value, defined in a separate file."""
 
 from typing import Final
 
@@ -11,12 +11,12 @@ _ROBOTS: Final = {STANFORD.name: STANFORD}
 
 
 def robot(name: str) -> ArmModel | None:
-    """The arm with a name, or None."""
+    """Return the arm called `name`, or None if there is none."""
     return _ROBOTS.get(name)
 
 
 def register(arm: ArmModel) -> None:
-    """Register an arm under its name; raises BadArgument if the name is taken by an arm with other figures."""
+    """Register an arm under its name. Raises BadArgument if the name belongs to an arm with other values."""
     if not isinstance(arm, ArmModel):
         raise BadArgument(f"an arm is an ArmModel, not {arm!r}")
     if not arm.name:

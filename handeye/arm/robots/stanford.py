@@ -19,11 +19,11 @@ Triple = tuple[float, float, float]
 
 
 def _moments_about_centre(about_origin: Triple, mass: float, centre: Triple) -> Triple:
-    """Moments of inertia about the mass centre, from the published tensors, which are about the link *origins*
-    (Steiner).
+    """Compute the moments of inertia about the mass centre from the published tensors, which are about the *origin*
+    of the link (Steiner).
 
     The tensors are published without products of inertia, so the products at the mass centre are set to zero as
-    well (the largest neglected one, of link 1, would be .018 kg m2).
+    well. The largest neglected product, of link 1, would be .018 kg m2.
     """
     x, y, z = centre
     a, b, c = about_origin
@@ -46,7 +46,9 @@ def _joint(
     brake: float,
     wrist: float = 0.0,
 ) -> Joint:
-    """Make a joint from published figures; `wrist` is the position of their frame's origin along z in our frame, m."""
+    """Make a joint from published values. `wrist` is the position, along z of our frame, of the origin of the
+    published frame, m.
+    """
     speed, acceleration, effort = drive
     x, y, z = centre
     return Joint(
