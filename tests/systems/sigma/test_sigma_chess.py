@@ -85,6 +85,17 @@ def test_the_result_of_a_board_has_the_fields_of_an_assembly_and_figures(command
     assert found["figures"]["computer_idle"] > 0.5
 
 
+def test_without_accelerometers_the_first_motion_trips_a_reflex_and_the_program_stops(
+    command: Command,
+) -> None:
+    words = "sigma chess --pieces 1 --seed 11 --set wrists.left=1 --no-keep --json"
+    code, out, _ = command(*words.split())
+    found = json.loads(out)
+    assert (code, found["assembled"], found["completed"], found["referee"]) == (1, False, False, {})
+    assert "FORCE" in found["message"]
+    assert found["stopped_at"] == "chess.mal"
+
+
 @pytest.mark.slow
 def test_a_kept_board_goes_on_to_the_same_events() -> None:
     whole = begun()

@@ -213,8 +213,8 @@ class RunningMal(RunningSystem):
 
     def finish(self) -> bool:
         completed = not self.vm.memory.tasks and self.vm.memory.fault is None
-        if not completed:
-            self._close("stopped")
+        if not completed and self._state.stage is not None:  # which stays: results name it
+            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status="stopped"))
         self._around.emit(RunFinished(time=self.time, completed=completed))
         return completed
 
