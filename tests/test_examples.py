@@ -17,7 +17,7 @@ LEAVES = {"force_against_time.py": "force.svg"}
 """A file that an example leaves."""
 SAYS = {
     "missing_pin.py": "by a person: at 0.0 s position PIN was set by the experimenter",
-    "referee_limit.py": "wrong: lean of a pin in its holder (at most 0.2 deg)",
+    "referee_limit.py": "wrong: greatest tilt of a pin in its holder (at most 0.2 deg)",
     "replay_a_moment.py": "line 7: CHANGE  [0 0 -1] 1 .2",
     "search_pattern.py": "row      5 places",
     "seventh_screw.py": "new: S7",

@@ -6,7 +6,7 @@ from handeye.api.state import State
 from handeye.core.markup import Markup, text
 from handeye.core.notebook import heading, inked, line, page, picture, table
 from handeye.results.page import cell_times, clock, period, told_faults, verdict
-from handeye.results.result import Check, Result
+from handeye.results.result import Check, Result, told_limits
 
 _INKS: Final = {
     "done": "good",
@@ -32,14 +32,13 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
     if result.referee:
         pieces.append(_findings(result))
     pieces += [line(inked(f"broken: {told}", "doubtful")) for told in told_faults(result)]
-    limits = (result.limits or {}).items()
     pieces += [
-        line(inked(f"limit of {name} set by the calling program: {limit:g}", "doubtful"))
-        for name, limit in limits
+        line(inked(f"limit set by the calling program: {limit}", "doubtful"))
+        for limit in told_limits(result)
     ]
     pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
     pieces += [
-        line(inked(f"{part}: the calling program's own, {code}", "doubtful"))
+        line(inked(f"{part} replaced by the calling program: {code}", "doubtful"))
         for part, code in (result.replaced or {}).items()
     ]
     if name is not None and webp is not None:

@@ -56,7 +56,7 @@ def at_most(value: float, limit: float, unit: str, subject: str, *, caution: boo
 def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
     """A finding that is right if the value is at least `limit`.
 
-    >>> handeye.at_least(70, 40, "N", "weakest clamp").ok
+    >>> handeye.at_least(70, 40, "N", "smallest clamping force").ok
     True
     """
     return _finding(value >= limit, value, "at least", limit, unit, subject)

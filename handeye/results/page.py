@@ -10,7 +10,7 @@ from rich.text import Text
 
 from handeye.core.diagnostics import visible
 from handeye.core.plain_text import counted
-from handeye.results.result import Check, Result
+from handeye.results.result import Check, Result, told_limits
 from handeye.tasks import known, known_any
 from handeye.tasks.interface import HistoricalTiming, Words
 
@@ -76,8 +76,8 @@ def _remarks(result: Result, *, short: bool = False) -> Iterator[RenderableType]
     """Yield sentences on faults, settings, warnings, and actions of the operator."""
     for told in told_faults(result):
         yield Text(f"broken: {told}", "yellow")
-    for name, limit in (result.limits or {}).items():
-        yield Text(f"limit of {name} set by the calling program: {limit:g}", "yellow")
+    for limit in told_limits(result):
+        yield Text(f"limit set by the calling program: {limit}", "yellow")
     first, *others = result.warnings or ("",)
     if short and others:
         yield Text(f"{first} (and {counted(len(others), 'more warning')}: --details)", "yellow")

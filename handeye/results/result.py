@@ -224,3 +224,14 @@ def restore_figures(findings: Any) -> None:
         for name in ("value", "limit"):
             if isinstance(check, dict) and name in check and check[name] is None:
                 check[name] = nan
+
+
+def told_limits(result: Result) -> tuple[str, ...]:
+    """The limits that the calling program set, each with its quantity and unit if the quantity was measured."""
+    checks = {**result.referee, **(result.built or {})}
+    return tuple(
+        f"{name}: {limit:g}"
+        if (check := checks.get(name)) is None
+        else f"{check.subject}: {check.relation} {limit:g} {check.unit}"
+        for name, limit in (result.limits or {}).items()
+    )

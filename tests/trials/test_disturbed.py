@@ -50,7 +50,7 @@ def test_a_pin_that_is_taken_out_of_the_hand_stops_the_arm() -> None:
 def test_what_nobody_notices_is_no_success() -> None:
     found = disturbed(plan_of(TAKE), WorldSpec(seed=0), "ray", "driver.removed")
     assert (found.built, found.stopped, found.harmless) == (True, False, False)
-    assert "distance of the screwdriver from its rack" in found.message
+    assert "distance of the screwdriver from its place in the rack" in found.message
 
 
 @pytest.mark.slow

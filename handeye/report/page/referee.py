@@ -7,7 +7,7 @@ from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads
 from handeye.core.units import UNITS
 from handeye.report.page.plots import bar, drawing, rule
 from handeye.report.recorded import RecordedRun
-from handeye.results.result import Check
+from handeye.results.result import Check, told_limits
 
 _WIDE: Final = 160.0
 _FULL: Final = 120.0  # Where a bar reaches its limit
@@ -33,11 +33,11 @@ def _content(run: RecordedRun) -> Iterator[Markup]:
     else:
         yield note(
             "The referee measured the finished work in the simulator; the program does not see these values. A "
-            "bar shows the used share of a limit; counts have no bar."
+            "bar shows what fraction of its limit a value uses; counts have no bar."
         )
         yield findings_table(run.result.referee.values())
-        for name, limit in (run.result.limits or {}).items():
-            yield note(f"The limit of {name} was set to {limit:g} for this run.")
+        for limit in told_limits(run.result):
+            yield note(f"Limit set by the calling program for this run: {limit}.")
 
 
 def findings_table(checks: Iterable[Check]) -> Markup:

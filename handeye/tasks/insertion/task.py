@@ -60,7 +60,7 @@ class Insertion(InsertionTask):
         from handeye.tasks.insertion.cell import SEATED, shoulder
 
         high = shoulder(truth.data) * 1e3
-        return {"seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder above the face")}
+        return {"seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder above the face of the plate")}
 
     def judge_apart(self, truth: Truth) -> Findings:
         from handeye.tasks.insertion.cell import off_holder
@@ -70,7 +70,7 @@ class Insertion(InsertionTask):
             "pin_place": at_most(
                 away * 1e3, HOLDER_PLACE, "mm", "distance of the pin from its place in the holder"
             ),
-            "pin_lean": at_most(degrees(leans), HOLDER_LEAN, "deg", "lean of the pin"),
+            "pin_lean": at_most(degrees(leans), HOLDER_LEAN, "deg", "tilt of the pin"),
         }
 
     def caught(self, clearance: float, chamfer: float) -> float:

@@ -54,12 +54,12 @@ class Chess(GantryTask):
         across = max(abs(body.xpos[1] / MILLIMETRE - piece.goal) for piece, body in bodies)
         wrong = max(_error(piece, heard.heights) for piece in heard.pieces)
         return {
-            "standing": at_most(degrees(lean), LEAN, "deg", "lean of the piece that leans most"),
+            "standing": at_most(degrees(lean), LEAN, "deg", "greatest tilt of a piece"),
             "on_the_board": at_most(
-                lifted / MILLIMETRE, STANDS, "mm", "height of the foot of a piece over the board"
+                lifted / MILLIMETRE, STANDS, "mm", "greatest height of a piece's foot above the board"
             ),
-            "sorted": at_most(across, PLACED, "mm", "distance of a piece from the line of its height"),
-            "heights": at_most(wrong, HEIGHT, "mm", "error of a height that the program has measured"),
+            "sorted": at_most(across, PLACED, "mm", "greatest distance of a piece from the line for its height"),
+            "heights": at_most(wrong, HEIGHT, "mm", "greatest error of a height measured by the program"),
         }
 
 

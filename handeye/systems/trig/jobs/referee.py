@@ -35,11 +35,11 @@ def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings
     high = [abs(float(X[2, 3]) - HEIGHT / 2) for X in there]
     return {
         "placed": at_most(
-            _most(off) * _MM, PLACED, "mm", "distance of the farthest block from its place on the taught grid"
+            _most(off) * _MM, PLACED, "mm", "greatest distance of a block from its place on the taught grid"
         ),
-        "on_the_pallet": at_most(_most(high) * _MM, ON, "mm", "height of a block above the pallet"),
+        "on_the_pallet": at_most(_most(high) * _MM, ON, "mm", "greatest height of a block above the pallet"),
         "flat": at_most(
-            degrees(_most([tilt(X) for X in there])), FLAT, "deg", "lean of a block on the pallet"
+            degrees(_most([tilt(X) for X in there])), FLAT, "deg", "greatest tilt of a block on the pallet"
         ),
         **_as_before(before, now, [name for name in before if name not in taken], "left in the stack"),
     }
@@ -62,7 +62,7 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
             float(np.hypot(*(other[:2, 3] - place))) * _MM,
             PLACED,
             "mm",
-            "distance of block B from where A was grasped",
+            "distance of block B from the place where block A was grasped",
         ),
         "lies": at_most(
             abs(float(other[2, 3]) - HEIGHT / 2) * _MM, ON, "mm", "height of block B above the platter"
@@ -81,8 +81,8 @@ def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Finding
     now, taught = pallet
     off = float(np.linalg.norm(np.array(now) - np.array(taught)))
     return {
-        "pallet": at_most(off * _MM, 0.0, "mm", "distance of PALLET from its taught place"),
-        "loops": at_most(max(counts, default=0), 0, "rounds", "count of a loop"),
+        "pallet": at_most(off * _MM, 0.0, "mm", "distance of the position PALLET from its taught place"),
+        "loops": at_most(max(counts, default=0), 0, "rounds", "greatest remaining count of a loop"),
     }
 
 
@@ -91,10 +91,10 @@ def _as_before(before: Poses, now: Poses, names: Sequence[str], what: str) -> Fi
     turns = [_turn(inverse(before[name]) @ now[name]) for name in names]
     return {
         "blocks": at_most(
-            _most(off) * _MM, BACK, "mm", f"distance of the farthest block, {what}, from where it was"
+            _most(off) * _MM, BACK, "mm", f"greatest distance of a block {what} from its place at the start of the run"
         ),
         "turned": at_most(
-            degrees(_most(turns)), TURNED, "deg", f"rotation of a block, {what}, from its first direction"
+            degrees(_most(turns)), TURNED, "deg", f"greatest rotation of a block {what} since the start of the run"
         ),
     }
 

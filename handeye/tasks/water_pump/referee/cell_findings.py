@@ -41,20 +41,20 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     arm = ~there
     there[[0, *(model.body(f"screw{screw}").id for screw in in_threads)]] = False
     return {
-        "pins_tilt": _upright(measured, PINS, limits.PIN_TILT, "lean of a pin in its holder"),
-        "rack_tilt": _upright(measured, ("driver",), limits.RACK_TILT, "lean of the screwdriver in its rack"),
+        "pins_tilt": _upright(measured, PINS, limits.PIN_TILT, "greatest tilt of a pin in its holder"),
+        "rack_tilt": _upright(measured, ("driver",), limits.RACK_TILT, "tilt of the screwdriver in its rack"),
         "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "height of the lowest part above the table top"),
         "tray": mm(
             max((measured.from_site(f"screw{k}", f"park{k}") for k in in_threads), default=0.0), limits.TRAY,
-             "distance of the body of a screw in its thread from the tray under the floor",
+            "greatest distance of a threaded screw's spare body from its tray in the simulator",
         ),
         "hand": _hand(measured, parts),
         "still": _speed(measured, np.flatnonzero(there), "part"),
         "arm_still": _speed(measured, np.flatnonzero(arm), "link of the arm"),
         "overlap_bores": mm(
-            bores.depth, limits.SOFT, f"deepest overlap of a shank or pin with a bore, of {bores.between}"
+            bores.depth, limits.SOFT, f"deepest overlap of a shank or pin with a bore: {bores.between}"
         ),
-        "overlap": mm(others.depth, limits.PENETRATION, f"deepest overlap, of {others.between}"),
+        "overlap": mm(others.depth, limits.PENETRATION, f"deepest overlap of two solids: {others.between}"),
     }  # fmt: skip
 
 
@@ -62,7 +62,7 @@ def resting(left: SettledState, settled: SettledState, holes: tuple[Thread, ...]
     """Judge whether every part stays where it was left."""
     away = np.linalg.norm(settled.data.xpos - left.data.xpos, axis=1)
     away[[left.model.body(f"screw{hole.screw}").id for hole in holes if hole.screw is not None]] = 0.0
-    subject = "farthest motion of a part until the cell has settled"
+    subject = "greatest distance that a part moves while the cell settles"
     return {"rest": _greatest(left, 1e3 * away, limits.REST, "mm", subject)}
 
 
@@ -75,13 +75,13 @@ def made(left: SettledState, truth: Truth) -> Findings:
             len(differing), limits.ALTERED, "parts",
             "parts that are not as drawn" + (f": {told(differing)}" if differing else ""),
         ),
-        "bonds": at_most(_bonds(left, truth), 0, "bonds", "bonds in a wrong state: open, closed or strained"),
-        "held": at_most(max(forces), limits.FORCE, "N", "greatest force from outside on a part or the arm"),
+        "bonds": at_most(_bonds(left, truth), 0, "bonds", "bonds of the simulated cell that are wrongly open, closed or strained"),
+        "held": at_most(max(forces), limits.FORCE, "N", "greatest external force on a part or the arm"),
         "motor": at_most(
             len(driven), 0, "motors",
             "motors with a command still set" + (f": {', '.join(driven)}" if driven else ""),
         ),
-        "numbers": at_most(_not_finite(truth), 0, "numbers", "numbers of the state that are not finite"),
+        "numbers": at_most(_not_finite(truth), 0, "numbers", "values of the simulated state that are not finite"),
     }  # fmt: skip
 
 

@@ -58,7 +58,7 @@ def _base(measured: SettledState) -> Findings:
             f"base_{side}": mm(gap, limits.BLOCK_GAP, f"gap between the base and the {side} block")
             for side, gap in gaps.items()
         },
-        "base_yaw": at_most(abs(turn), limits.BASE_YAW, "deg", "turn of the base against the blocks"),
+        "base_yaw": at_most(abs(turn), limits.BASE_YAW, "deg", "yaw of the base relative to the blocks"),
         "base_height": mm(abs(X_WB[2, 3]), limits.BASE_HEIGHT, "height of the base above the table"),
         "base_tilt": deg(tilt(X_WB), limits.BASE_TILT, "tilt of the base"),
     }  # fmt: skip
@@ -75,11 +75,11 @@ def _layer(measured: SettledState, layer: str, holes: tuple[Thread, ...]) -> Fin
     return {
         f"{layer}_height": mm(
             off, limits.LAYER_HEIGHT,
-            f"farthest corner of the {layer} off its nominal {measure.under(layer) / INCH:.2f} in",
+            f"greatest deviation of the {layer}'s corners from their height of {measure.under(layer) / INCH:.2f} in",
         ),
         f"{layer}_place": mm(
             apart[hole], round(margin[hole] * 1e3 + limits.SOFT, 3),
-            f"axis of screw hole {hole + 1} of the base from that of the {layer}",
+            f"offset between the axes of screw hole {hole + 1} in the base and in the {layer}",
         ),
     }  # fmt: skip
 
@@ -108,14 +108,14 @@ def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         ),
         "screws_depth": mm(gap, limits.SCREW_GAP, "greatest gap under a screw's head"),
         "screws_thread": at_least(
-            length * 1e3, limits.SCREW_THREAD, "mm", "shortest thread of a screw in the base"
+            length * 1e3, limits.SCREW_THREAD, "mm", "shortest thread engagement of a screw in the base"
         ),
-        "screws_place": mm(aside, limits.SCREW_PLACE, "farthest axis of a screw from that of its tapped hole"),
-        "screws_size": mm(size_off, limits.SCREW_SIZE, "length or radius of a screw off the drawing"),
-        "screws_lean": deg(lean, limits.SCREW_LEAN, "greatest lean of a screw"),
+        "screws_place": mm(aside, limits.SCREW_PLACE, "greatest offset between the axes of a screw and its tapped hole"),
+        "screws_size": mm(size_off, limits.SCREW_SIZE, "greatest deviation of a screw's length or radius from the drawing"),
+        "screws_lean": deg(lean, limits.SCREW_LEAN, "greatest tilt of a screw"),
         "screws_crossed": at_most(crossed, 0, "screws", "cross-threaded screws"),
         "threads_scarred": at_most(
-            scarred, limits.SCARS, "threads", "threads that a crossed screw has scarred", caution=True
+            scarred, limits.SCARS, "threads", "threads damaged by a cross-threaded screw", caution=True
         ),
     }  # fmt: skip
 
@@ -128,16 +128,16 @@ def _pressing(settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
     held = [measure.loosening_torque(settled, k) for k in filled]
     return {
         "screws_clamp": at_least(
-            min(forces, default=0.0), limits.SCREW_CLAMP, "N", "weakest clamp of a screw"
+            min(forces, default=0.0), limits.SCREW_CLAMP, "N", "smallest clamping force of a screw"
         ),
         "screws_strain": at_most(
-            max(forces, default=0.0), limits.SCREW_STRAIN, "N", "strongest clamp of a screw"
+            max(forces, default=0.0), limits.SCREW_STRAIN, "N", "greatest clamping force of a screw"
         ),
         "screws_turned": at_most(
-            max(turned, default=0.0), limits.SCREW_TURNED, "N", "clamp to which a screw was turned home"
+            max(turned, default=0.0), limits.SCREW_TURNED, "N", "greatest clamping force reached while a screw was tightened"
         ),
         "screws_hold": at_least(
-            min(held, default=0.0), limits.SCREW_HOLD, "N m", "torque that turns a screw back"
+            min(held, default=0.0), limits.SCREW_HOLD, "N m", "smallest torque that loosens a screw"
         ),
     }
 
@@ -149,20 +149,20 @@ def _cell(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         "pins": mm(
             measured.strayed(PINS, PINS),
             limits.PIN_PLACE,
-            "distance of the farther pin from its hole in the holder",
+            "greatest distance of a pin from its hole in the holder",
         ),
-        "rack": mm(rack, limits.RACK_PLACE, "distance of the screwdriver from its rack"),
-        "dispenser": mm(dispenser, limits.PIN_PLACE, "distance of a loose screw from the dispenser"),
+        "rack": mm(rack, limits.RACK_PLACE, "distance of the screwdriver from its place in the rack"),
+        "dispenser": mm(dispenser, limits.PIN_PLACE, "greatest distance of a loose screw from its place in the dispenser"),
     }
 
 
 def _rotor(measured: SettledState) -> Findings:
     return {
         "rotor_place": mm(
-            measure.rotor_deviation(measured), limits.ROTOR_PLACE, "rotor or its crank pin from its place"
+            measure.rotor_deviation(measured), limits.ROTOR_PLACE, "greatest distance of the rotor or its crank pin from its nominal place"
         ),
         "rotor_lean": deg(
-            measure.rotor_lean(measured), limits.ROTOR_LEAN, "lean of the rotor against the top"
+            measure.rotor_lean(measured), limits.ROTOR_LEAN, "tilt of the rotor relative to the top"
         ),
     }
 
@@ -174,7 +174,7 @@ def _turning(settled: SettledState) -> Finding:
         value,
         limits.ROTOR_TORQUE,
         "N m",
-        "torque that turns the rotor all the way round, either way and back",
+        "greatest torque to turn the rotor a full turn, in both directions",
     )
 
 
@@ -199,18 +199,18 @@ def _apart(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     apart = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}
     return {
         **{
-            f"{name}_back": mm(measured.strayed((name,), (name,)), limit, f"{name} from where the run found it")
+            f"{name}_back": mm(measured.strayed((name,), (name,)), limit, f"distance of the {name} from its place at the start of the run")
             for name, limit in apart.items()
         },
         "parts_turn": deg(
-            turned, limits.APART_TURN, "turn of base, gasket or top against how the run found it"
+            turned, limits.APART_TURN, "greatest rotation of base, gasket or top since the start of the run"
         ),
         **{
             name: mm(measured.strayed(things, things), limits.APART, what)
             for name, things, what in (
-                ("pins", PINS, "distance of the farther pin from its hole in the holder"),
-                ("dispenser", screws, "distance of the farthest screw from its place in the dispenser"),
-                ("rack", ("driver",), "distance of the screwdriver from its rack"),
+                ("pins", PINS, "greatest distance of a pin from its hole in the holder"),
+                ("dispenser", screws, "greatest distance of a screw from its place in the dispenser"),
+                ("rack", ("driver",), "distance of the screwdriver from its place in the rack"),
             )
         },
         **_rotor(measured),
