@@ -33,8 +33,7 @@ def run_page(result: Result, state: State, name: str | None, webp: bytes | None)
         pieces.append(_findings(result))
     pieces += [line(inked(f"broken: {told}", "doubtful")) for told in told_faults(result)]
     pieces += [
-        line(inked(f"limit set by the calling program: {limit}", "doubtful"))
-        for limit in told_limits(result)
+        line(inked(f"limit set by the calling program: {limit}", "doubtful")) for limit in told_limits(result)
     ]
     pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
     pieces += [

@@ -99,7 +99,7 @@ JOINT_STIFF: Final = 57
 
 ERRORS: Final[dict[int, str]] = {
     JOINT_LIMIT: "a joint would move beyond its limit",
-    NOTHING_HELD: "the fingers closed beyond the minimum gap: there is nothing between them, or something too thin",
+    NOTHING_HELD: "the fingers closed beyond the minimum gap: there is nothing between them, or the object is too thin",
     NO_SOLUTION: "the position is out of the arm's reach",
     SERVO_LAG: "the arm did not follow its set-points: something is in the way, or a joint is stiff, weak or late",
     WATCHDOG: "the computer missed a servo period: drives cut, brakes set",

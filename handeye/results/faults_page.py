@@ -81,7 +81,7 @@ def _must(expected: ExpectedDetection) -> str:
     ways = [
         *(["before the first stage"] if expected.at_setup else []),
         *([f"by error {errors}"] if errors else []),
-        *(f"with “{call}”" for call in expected.calls),
+        *(f"with “{call.replace('{what}', '…')}”" for call in expected.calls),
     ]
     stops = f"stops {', or '.join(ways)}" if ways else ""
     if stops and expected.stages:

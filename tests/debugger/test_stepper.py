@@ -47,8 +47,8 @@ from handeye.vision.blob import BoundingBox
 pytestmark = pytest.mark.slow
 
 CALLED = (
-    "the fingers closed beyond the minimum gap: there is nothing between them, or something too thin "
-    "(the gap is 0.00 in, the minimum 0.40 in)"
+    "the fingers closed beyond the minimum gap: there is nothing between them, or the object is too thin "
+    "(gap 0.00 in, minimum 0.40 in)"
 )
 Say = Callable[..., list[Reply]]
 

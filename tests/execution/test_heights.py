@@ -45,7 +45,7 @@ def test_a_height_outside_its_range_raises_error_9(layer: float) -> None:
 def test_a_height_over_what_was_never_saved_raises_error_9() -> None:
     run = touched_twice(0.06, "HEIGHT OTHER .04 .08")
     assert run.errors == [WRONG_HEIGHT]
-    assert run.told.endswith("(OTHER was not saved)")
+    assert run.told.endswith("(no place was saved as OTHER)")
 
 
 @pytest.mark.parametrize("layer", [0.05, 0.06, 0.07])

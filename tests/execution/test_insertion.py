@@ -135,7 +135,7 @@ def test_row_17_a_pin_that_fell_over_in_the_large_hole_is_missed_by_the_closing_
     run.executor.step()
     run.flick("pin0", (-0.05, 0.0, 0.0)).go()
     assert run.called.error == NOTHING_HELD
-    assert "there is nothing between them, or something too thin" in run.told
+    assert "there is nothing between them, or the object is too thin" in run.told
 
 
 @pytest.mark.row(18, drawn=1)

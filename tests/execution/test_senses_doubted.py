@@ -97,8 +97,8 @@ def test_a_switch_that_stays_open_on_something_is_told() -> None:
 def test_a_finger_that_the_hand_does_not_come_off_has_no_switch_of_its_own() -> None:
     run = gripping("OPEN 2\nCENTER .1", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
     assert run.errors == [errors.SWITCH_WRONG]
-    assert "the switch of the +y finger is still closed after the hand moved 0.06 in to that side" in run.told
-    assert run.told.endswith("the switches are exchanged, or the other one stays open)")
+    assert "the switch of the +y finger is still closed after the hand moved 0.06 in towards it" in run.told
+    assert run.told.endswith("the two switches are swapped, or the switch of the other finger stays open)")
 
 
 def test_a_switch_that_takes_far_too_much_force_is_told_when_the_fingers_press_lightly() -> None:
@@ -110,8 +110,8 @@ def test_a_switch_that_takes_far_too_much_force_is_told_when_the_fingers_press_l
     hand.read = lambda: replace(right(), touch=(right().touch[0], hand.goal < hand.gap - 2e-4))  # type: ignore[method-assign]
     assert run.go().errors == [errors.SWITCH_WRONG]
     assert (
-        "the switch of the -y finger is open although the fingers are pressed together with 10 oz: it is numb, or"
-        in run.told
+        "the switch of the -y finger is open although the fingers are pressed together with 10 oz: the "
+        "switch has failed, or" in run.told
     )
 
 
@@ -163,7 +163,7 @@ def test_a_gap_that_jumps_while_something_is_held_may_be_that_of_the_fingers(
         right(), gap=(to if clock.now > begun else 1.0) * INCH, touch=(touching, touching)
     )
     assert run.go().errors == [errors.GAP_WRONG]
-    assert f"it jumped from 1.00 in to {to:.2f} in: {why}" in run.told
+    assert f"the gap reading jumped from 1.00 in to {to:.2f} in: {why}" in run.told
 
 
 @pytest.mark.parametrize(("factor", "wrong"), [(0.85, True), (0.98, False), (1.05, False), (1.15, True)])
@@ -173,7 +173,9 @@ def test_a_gap_that_is_not_that_of_what_is_held_is_told(factor: float, wrong: bo
     run.cell.hand.thickness = lambda _: factor * INCH  # as it is read
     assert run.go().errors == [errors.GAP_WRONG] * wrong
     if wrong:
-        assert run.told.endswith(f"in on PIN, which is 1.00 in thick there: {factor:.2f} times as much)")
+        assert run.told.endswith(
+            f"in on PIN, which is 1.00 in thick there: {factor:.2f} times the thickness)"
+        )
 
 
 def test_what_is_too_thick_is_another_object_until_it_reads_the_same_again() -> None:
@@ -295,13 +297,13 @@ STARTS = [0.05] * 4 + [0.0] * 20
     [
         (
             [0.5 * each for each in STARTS] + [0.185] * 999,
-            "it shows 3.5 oz-in, but the motor takes 7.1 oz-in",
+            "the sensor shows 3.5 oz-in, but the motor takes 7.1 oz-in",
         ),
         (
             [2 * each for each in STARTS] + [0.74] * 999,
-            "it shows 104.8 oz-in, but the motor takes 52.4 oz-in: 2.0 times",
+            "the sensor shows 104.8 oz-in, but the motor takes 52.4 oz-in: 2.0 times",
         ),
-        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "it turns too slowly"),
+        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "the motor turns too slowly"),
     ],
 )
 def test_a_current_that_is_not_that_of_a_known_torque_is_told(torques: list[float], told: str) -> None:
@@ -336,7 +338,7 @@ def test_a_current_that_ends_below_the_torque_stop_is_told_of_a_motor_that_is_he
     run.cell.arm.walls = [Wall(point=(0.0, 0.0, (5.8 if stands else 0) * INCH))]
     assert run.go().errors == [error]
     if error == errors.CURRENT_WRONG:
-        assert "it shows 30.0 oz-in of the commanded 42.0 oz-in" in run.told
+        assert "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in" in run.told
 
 
 # -- the camera -----------------------------------------------------------------------------------------

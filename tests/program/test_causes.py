@@ -34,13 +34,12 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.JointBehind(joint="boom"), "boom lags behind its set-point"),
     (
         c.JointBehind(joint="boom", swings=True, of="PUMP"),
-        "boom swings about its set-point: its drive or the computer is late, or its tachometer fails; or PUMP has "
-        "moved",
+        "boom swings about its set-point: its drive or the computer is late, or its tachometer fails",
     ),
     (c.HandAstray(distance=0.2 * INCH), "the hand is 0.20 in from its set-point"),
     (
         c.HandAstray(distance=0.2 * INCH, joint="boom", of="BASE"),
-        "the hand is 0.20 in from its set-point; boom lags most; or BASE has moved",
+        "the hand is 0.20 in from its set-point; boom lags most",
     ),
     (c.PictureNoisy(picture="A", noise=2.23, most=1.6), "picture A has noise of 2.2 levels; allowed: 1.6"),
     (c.HandStuck(moved=0.5 * INCH), "the hand stopped after 0.50 in"),
@@ -48,71 +47,71 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.GuardsUnmet(guards=(GuardKind.FORCE, GuardKind.MOMENT)), "or the moment"),
     (
         c.TravelOutside(travel=0.3 * INCH, minimum=0.1 * INCH, maximum=0.2 * INCH),
-        "it went 0.30 in; allowed: 0.10 to 0.20 in",
+        "the hand moved 0.30 in; allowed: 0.10 to 0.20 in",
     ),
     (
         c.HeightOutside(name="BARE", height=0.12 * INCH, minimum=0.04 * INCH, maximum=0.08 * INCH),
-        "it is 0.120 in above BARE; allowed: 0.040 to 0.080 in",
+        "the hand is 0.120 in above BARE; allowed: 0.040 to 0.080 in",
     ),
-    (c.HeightUnknown(name="BARE"), "BARE was not saved"),
-    (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
+    (c.HeightUnknown(name="BARE"), "no place was saved as BARE"),
+    (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "gap 0.02 in, minimum 0.10 in"),
     (
         c.GapTooSmall(gap=-0.002 * INCH, minimum=0.0, of="PUMP"),
-        "the gap is -0.002 in, the minimum 0.000 in; or PUMP has moved",
+        "gap -0.002 in, minimum 0.000 in",
     ),
-    (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "the gap is 0.40 in, the maximum 0.30 in"),
-    (c.NothingBetween(gap=0.1 * INCH), "not both fingers touch; the gap is 0.10 in"),
+    (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "gap 0.40 in, maximum 0.30 in"),
+    (c.NothingBetween(gap=0.1 * INCH), "at most one finger touches; the gap is 0.10 in"),
     (
         c.SwitchesClosed(fingers=(True, False)),
         "the switch of the +y finger is closed although the fingers are open",
     ),
     (
         c.SwitchesOpen(fingers=(True, True), gap=0.3 * INCH),
-        "the switches of both fingers are open although something 0.30 in thick holds the fingers apart: they are "
-        "numb, or the fingers' motor is weak",
+        "the switches of both fingers are open although something 0.30 in thick holds the fingers apart: the "
+        "switches have failed, or the fingers' motor is weak",
     ),
     (
         c.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
-        "the switch of the +y finger is still closed after the hand moved 0.06 in to that side: the switches are "
-        "exchanged, or the other one stays open",
+        "the switch of the +y finger is still closed after the hand moved 0.06 in towards it, away from the "
+        "part: the two switches are swapped, or the switch of the other finger stays open",
     ),
     (
         c.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
-        "the switches of both fingers are open although the fingers are pressed together with 10 oz: they are "
-        "numb, or the fingers' motor is weak",
+        "the switches of both fingers are open although the fingers are pressed together with 10 oz: the "
+        "switches have failed, or the fingers' motor is weak",
     ),
     (
         c.GapJumped(gap=2.3 * INCH, before=2.0 * INCH, held=False),
-        "it jumped from 2.00 in to 2.30 in: no finger can move so fast",
+        "the gap reading jumped from 2.00 in to 2.30 in: no finger can move so fast",
     ),
     (
         c.GapJumped(gap=1.29 * INCH, before=1.39 * INCH, held=True),
-        "it jumped from 1.39 in to 1.29 in: the held part has slipped, or the gap's potentiometer fails",
+        "the gap reading jumped from 1.39 in to 1.29 in: the held part has slipped, or the gap's potentiometer fails",
     ),
     (
         c.GapJumped(gap=1.32 * INCH, before=1.0 * INCH, held=True),
-        "it jumped from 1.00 in to 1.32 in: the held part has been pushed and has forced the fingers apart, or the "
-        "gap's potentiometer fails",
+        "the gap reading jumped from 1.00 in to 1.32 in: the held part has been pushed and has forced the "
+        "fingers apart, or the gap's potentiometer fails",
     ),
     (
         c.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
-        "it shows 30.0 oz-in of the commanded 42.0 oz-in while the motor is stalled: the current sensor reads no "
-        "higher, or the motor is weak",
+        "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in while the motor is stalled: the current "
+        "sensor reads no higher, or the motor is weak",
     ),
     (
         c.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
-        "it reads 1.15 in on PIN, which is 1.00 in thick there: 1.15 times as much",
+        "the gap reads 1.15 in on PIN, which is 1.00 in thick there: 1.15 times the thickness",
     ),
     (
         c.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
-        "it shows 3.5 oz-in, but the motor takes 7.0 oz-in: 0.5 times as much",
+        "the sensor shows 3.5 oz-in, but the motor takes 7.0 oz-in: 0.5 times as much",
     ),
     (
         c.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
         "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque than "
         "commanded (the drive of the wrist 1.30 times as much), or the arm no longer stands upright",
     ),
-    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of the usual time: it turns too slowly"),
+    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of the usual time: the motor turns too slowly"),
     (
         c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",
@@ -144,15 +143,15 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
-        "wrist takes 9 oz-in to move; at the start it took 3 oz-in, or the arm no longer stands upright",
+        "wrist takes 9 oz-in to move; at the start it took 3 oz-in; or the arm no longer stands upright",
     ),
     (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail does not move with 80 oz"),
-    (c.CurrentSilent(torque=0.0), "it showed at most 0.0 oz-in, less than the motor needs to start"),
+    (c.CurrentSilent(torque=0.0), "the sensor showed at most 0.0 oz-in, less than the motor needs to start"),
     (
         c.PictureRepeated(picture="AFTER", earlier="BEFORE"),
         "picture AFTER is the same as BEFORE, pixel by pixel",
     ),
-    (c.PictureBlank(picture="WIDE"), "picture WIDE is uniform"),
+    (c.PictureBlank(picture="WIDE"), "picture WIDE has the same intensity everywhere"),
     (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
     (c.NoGeneral(), "no earlier GENERAL found the part"),
     (c.NoOutline(), "nothing of the part's size is visible against the background where it should be"),
@@ -179,9 +178,9 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.PartAstray(off=0.2 * INCH, unlike=0.034),
-        "it has moved by 0.20 in relative to its surroundings; 3.4 % of it looks different",
+        "moved by 0.20 in relative to its surroundings; 3.4 % of the part looks different",
     ),
-    (c.NoSearch(), "no search was set up"),
+    (c.NoSearch(), "no SEARCH was executed"),
     (c.PlacesTried(places=9), "9 places tried"),
     (c.PlacesTried(places=9, around="T1"), "9 places tried around T1"),
     (c.Looping(place="pins.al:12"), "the program loops at line pins.al:12 while nothing moves"),
@@ -191,7 +190,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0075, holding=True),
-        "the gap is 0.00 in; when the step was executed, the fingers held something at 0.30 in",
+        "the gap is 0.00 in; when the step was executed, the fingers held an object at 0.30 in",
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0254, holding=False),
@@ -199,22 +198,22 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.MetEarly(fingers=(True, False), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
-        "the +y finger touches something already at a gap of 1.80 in; when the step was executed, the fingers "
-        "held something at 1.40 in: the object lies 0.20 in off the centre of the hand",
+        "the +y finger touches an object already at a gap of 1.80 in; when the step was executed, the fingers "
+        "held an object at 1.40 in: the object lies 0.20 in off the centre of the hand",
     ),
     (
         c.MetEarly(fingers=(True, True), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
-        "both fingers touch something already at a gap of 1.80 in; when the step was executed, the fingers held "
-        "something at 1.40 in",
+        "both fingers touch an object already at a gap of 1.80 in; when the step was executed, the fingers held "
+        "an object at 1.40 in",
     ),
     (
         c.MetEarly(fingers=(False, True), gap=0.5 * INCH, kept=0.0, holding=False),
-        "the -y finger touches something already at a gap of 0.50 in; when the step was executed, the fingers stood "
+        "the -y finger touches an object already at a gap of 0.50 in; when the step was executed, the fingers stood "
         "at 0.00 in",
     ),
     (
         c.ScrewFast(torque=0.5, risen=0.0),
-        "the screw does not come out: it has risen by 0.00 in, and the driver shows 71 oz in",
+        "the screw does not come out: it has risen by 0.00 in, and the driver's motor gives 71 oz-in",
     ),
     (
         c.ScrewLost(way=0.002, force=6.0),
@@ -256,6 +255,10 @@ def test_an_error_is_told_with_what_led_to_it() -> None:
     assert error_sentence(errors.NO_FORCE, None) == meaning
     assert error_sentence(errors.NO_FORCE, c.GuardsUnmet(guards=(GuardKind.FORCE,))) == meaning
     assert error_sentence(errors.SEARCH_EXHAUSTED, c.PlacesTried(places=9)).endswith(" (9 places tried)")
+    moved = c.GapTooSmall(gap=0.0, minimum=0.1 * INCH, of="the base")
+    assert error_sentence(errors.NOTHING_HELD, moved).endswith(
+        "or the object is too thin, or the base has moved (gap 0.00 in, minimum 0.10 in)"
+    )
 
 
 def test_a_call_of_the_operator_is_told_by_its_message_its_error_or_its_cause() -> None:

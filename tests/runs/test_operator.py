@@ -28,7 +28,7 @@ SEARCHED = AfterStage(stage=1, name="search in the air")
 
 pytestmark = pytest.mark.slow
 
-CALLED = "the fingers closed beyond the minimum gap: there is nothing between them, or something too thin"
+CALLED = "the fingers closed beyond the minimum gap: there is nothing between them, or the object is too thin"
 
 
 @pytest.fixture(scope="module")
@@ -217,7 +217,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
     attend(runner, talk.operator)
     assert talk.said[0].splitlines() == [
         "The program calls the operator in stage 3, grasp nothing:",
-        f"    {CALLED} (the gap is 0.00 in, the minimum 0.40 in)",
+        f"    {CALLED} (gap 0.00 in, minimum 0.40 in)",
         '    17          STAGE   "grasp nothing"',
         "    18          OPEN    .5",
         "  ■ 19          CLOSE   .4",

@@ -99,7 +99,7 @@ def test_a_stop_and_what_the_operator_chose_stand_out() -> None:
         "FIND THE HOLE: stopped in 1.2 s",
         "     0.00    12  CLOSE   .1",
         "                    error 2: the fingers closed beyond the minimum gap: there is nothing between them, or "
-        "something too thin (the gap is 0.02 in, the minimum 0.10 in)",
+        "the object is too thin (gap 0.02 in, minimum 0.10 in)",
         "     1.10  *** brakes set, operator called: nothing is held (error 2)",
         "     1.10  *** the operator chooses to retry the stage",
         "     1.10  *** experiment: saved H is set to (1.000, 0.000, 0.000) in",

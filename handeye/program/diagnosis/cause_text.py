@@ -12,8 +12,10 @@ from handeye.program.guards import GuardKind
 
 
 def error_sentence(number: int, cause: Cause | None) -> str:
-    """The meaning of an error, with its cause in brackets."""
+    """The meaning of an error, with the part whose motion may have caused it, and the cause in brackets."""
     meaning = ERRORS.get(number, "an error")
+    if isinstance(cause, c.JointBehind | c.HandAstray | c.GapTooSmall) and cause.of:
+        meaning += f", or {cause.of} has moved"
     words = "" if cause is None else cause_sentence(cause)
     return f"{meaning} ({words})" if words else meaning
 
@@ -34,31 +36,30 @@ def cause_sentence(cause: Cause) -> str:
             goal = f"{cause.goal}: " if cause.goal else ""
             return goal + reach_sentence(cause.arm, cause.reason)
         case c.JointBehind():
-            lags = f"{cause.joint} {_SWINGS if cause.swings else 'lags behind its set-point'}"
-            return lags + _or_moved(cause.of)
+            return f"{cause.joint} {_SWINGS if cause.swings else 'lags behind its set-point'}"
         case c.HandAstray():
             lags = f"; {cause.joint} {_SWINGS if cause.swings else 'lags most'}" if cause.joint else ""
-            return f"the hand is {_inches(cause.distance)} from its set-point{lags}{_or_moved(cause.of)}"
+            return f"the hand is {_inches(cause.distance)} from its set-point{lags}"
         case c.HandStuck():
             return f"the hand stopped after {_inches(cause.moved)}"
         case c.GuardsUnmet():
             return "or the moment" if GuardKind.MOMENT in cause.guards else ""
         case c.TravelOutside():
             went, least, most = _apart(cause.travel, cause.minimum, cause.maximum)
-            return f"it went {went} in; allowed: {least} to {most} in"
+            return f"the hand moved {went} in; allowed: {least} to {most} in"
         case c.HeightOutside():
             height, least, most = _apart(cause.height, cause.minimum, cause.maximum, decimals=3)
-            return f"it is {height} in above {cause.name}; allowed: {least} to {most} in"
+            return f"the hand is {height} in above {cause.name}; allowed: {least} to {most} in"
         case c.HeightUnknown():
-            return f"{cause.name} was not saved"
+            return f"no place was saved as {cause.name}"
         case c.GapTooSmall():
             gap, least = _apart(cause.gap, cause.minimum)
-            return f"the gap is {gap} in, the minimum {least} in{_or_moved(cause.of)}"
+            return f"gap {gap} in, minimum {least} in"
         case c.GapTooLarge():
             gap, most = _apart(cause.gap, cause.maximum)
-            return f"the gap is {gap} in, the maximum {most} in"
+            return f"gap {gap} in, maximum {most} in"
         case c.NothingBetween():
-            return f"not both fingers touch; the gap is {_inches(cause.gap)}"
+            return f"at most one finger touches; the gap is {_inches(cause.gap)}"
         case (
             c.SwitchesClosed() | c.SwitchesOpen() | c.SwitchesCrossed() | c.SwitchesHard() | c.GapAstray()
             | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
@@ -78,7 +79,7 @@ def cause_sentence(cause: Cause) -> str:
         case c.PartAstray():
             return match_sentence(cause.off, cause.unlike)
         case c.NoSearch():
-            return "no search was set up"
+            return "no SEARCH was executed"
         case c.PlacesTried():
             return f"{counted(cause.places, 'place')} tried" + (
                 f" around {cause.around}" if cause.around else ""
@@ -96,10 +97,6 @@ def cause_sentence(cause: Cause) -> str:
 _SWINGS = "swings about its set-point: its drive or the computer is late, or its tachometer fails"
 
 
-def _or_moved(part: str) -> str:
-    return f"; or {part} has moved" if part else ""
-
-
 def inspection_sentence(cause: c.InspectionCause | None) -> str:
     """The result of an inspection as a sentence; None is a pass."""
     match cause:
@@ -114,7 +111,8 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
 
 def match_sentence(off: float, unlike: float) -> str:
     """The result of a match as a sentence, from the displacement (m) and the fraction that looks different."""
-    return f"it has moved by {_inches(off)} relative to its surroundings; {100 * unlike:.1f} % of it looks different"
+    moved = f"moved by {_inches(off)} relative to its surroundings"
+    return f"{moved}; {100 * unlike:.1f} % of the part looks different"
 
 
 def _undo_stopped(cause: c.UndoCause) -> str:
@@ -124,14 +122,14 @@ def _undo_stopped(cause: c.UndoCause) -> str:
             return f"something resists as the step is undone: the hand feels {felt} oz; allowed: {limit} oz"
         case c.HoldOff():
             gap, kept = _apart(cause.gap, cause.kept)
-            held = "held something at" if cause.holding else "stood at"
+            held = "held an object at" if cause.holding else "stood at"
             return f"the gap is {gap} in; when the step was executed, the fingers {held} {kept} in"
         case c.MetEarly():
             return _met_early(cause)
         case c.ScrewFast():
-            torque = f"{cause.torque / OUNCE_INCH:.0f} oz in"
+            torque = f"{cause.torque / OUNCE_INCH:.0f} oz-in"
             return (
-                f"the screw does not come out: it has risen by {_inches(cause.risen)}, and the driver shows"
+                f"the screw does not come out: it has risen by {_inches(cause.risen)}, and the driver's motor gives"
                 f" {torque}"
             )
         case c.ScrewLost():
@@ -146,8 +144,8 @@ def _undo_stopped(cause: c.UndoCause) -> str:
 
 def _met_early(cause: c.MetEarly) -> str:
     gap, kept = _apart(cause.gap, cause.kept)
-    then = "held something" if cause.holding else "stood"
-    touching = f"{touching_fingers(cause.fingers)} something already at a gap of {gap} in"
+    then = "held an object" if cause.holding else "stood"
+    touching = f"{touching_fingers(cause.fingers)} an object already at a gap of {gap} in"
     reach_sentence = f"{touching}; when the step was executed, the fingers {then} at {kept} in"
     if all(cause.fingers) or not cause.holding:
         return reach_sentence
@@ -201,9 +199,10 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             held = f"something {_inches(cause.gap)} thick holds the fingers apart"
             return f"{_switches(cause.fingers)} open although {held}: {_numb(cause.fingers)}"
         case c.SwitchesCrossed():
-            still = f"still closed after the hand moved {_inches(cause.moved)} to that side"
+            still = f"still closed after the hand moved {_inches(cause.moved)} towards it, away from the part"
             return (
-                f"{_switches(cause.fingers)} {still}: the switches are exchanged, or the other one stays open"
+                f"{_switches(cause.fingers)} {still}: the two switches are swapped, or the switch of the other "
+                "finger stays open"
             )
         case c.SwitchesHard():
             force = f"{cause.force / OUNCE_FORCE:.0f} oz"
@@ -211,11 +210,11 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"{_switches(cause.fingers)} open although {driven}: {_numb(cause.fingers)}"
         case c.GapJumped():
             before, after = _apart(cause.before, cause.gap)
-            return f"it jumped from {before} in to {after} in: {_jump(cause)}"
+            return f"the gap reading jumped from {before} in to {after} in: {_jump(cause)}"
         case c.GapUnlike():
             gap, thick = _apart(cause.gap, cause.thickness)
-            times = f": {cause.gap / cause.thickness:.2f} times as much" if cause.thickness else ""
-            return f"it reads {gap} in on {cause.held}, which is {thick} in thick there{times}"
+            times = f": {cause.gap / cause.thickness:.2f} times the thickness" if cause.thickness else ""
+            return f"the gap reads {gap} in on {cause.held}, which is {thick} in thick there{times}"
         case c.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(
@@ -228,15 +227,15 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             times = f": {told / known:.1f} times as much" if known else ""
-            return f"it shows {told:.1f} oz-in, but the motor takes {known:.1f} oz-in{times}"
+            return f"the sensor shows {told:.1f} oz-in, but the motor takes {known:.1f} oz-in{times}"
         case c.CurrentShort():
             shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
-            short = (
-                f"it shows {shown:.1f} oz-in of the commanded {asked:.1f} oz-in while the motor is stalled"
-            )
+            short = f"the sensor shows {shown:.1f} oz-in of the commanded {asked:.1f} oz-in while the motor is stalled"
             return f"{short}: the current sensor reads no higher, or the motor is weak"
         case c.MotorSlow():
-            return f"the motor had started after {cause.share:.1f} of the usual time: it turns too slowly"
+            return (
+                f"the motor had started after {cause.share:.1f} of the usual time: the motor turns too slowly"
+            )
         case c.GapAstray():
             return f"the gap reads {_inches(cause.gap)}; the fingers were driven to {_inches(cause.goal)}"
         case c.GapStill():
@@ -253,13 +252,11 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.JointAlone():
             return _alone(cause)
         case c.CurrentSilent():
-            return (
-                f"it showed at most {cause.torque / OUNCE_INCH:.1f} oz-in, less than the motor needs to start"
-            )
+            return f"the sensor showed at most {cause.torque / OUNCE_INCH:.1f} oz-in, less than the motor needs to start"
         case c.PictureRepeated():
             return f"picture {cause.picture} is the same as {cause.earlier}, pixel by pixel"
         case c.PictureBlank():
-            return f"picture {cause.picture} is uniform"
+            return f"picture {cause.picture} has the same intensity everywhere"
         case c.PictureNoisy():
             noise, most = distinct_digits([cause.noise, cause.most], 1)
             return f"picture {cause.picture} has noise of {noise} levels; allowed: {most}"
@@ -288,7 +285,9 @@ def _switches(fingers: tuple[bool, bool]) -> str:
 
 
 def _numb(fingers: tuple[bool, bool]) -> str:
-    return f"{'they are' if all(fingers) else 'it is'} numb, or the fingers' motor is weak"
+    return (
+        f"{'the switches have' if all(fingers) else 'the switch has'} failed, or the fingers' motor is weak"
+    )
 
 
 def _named(fingers: tuple[bool, bool]) -> list[str]:
@@ -308,7 +307,7 @@ def _alone(cause: c.JointAlone) -> str:
     if cause.friction is None:
         return f"{cause.joint.name} does not move with {abs(cause.torque) / unit:.0f} {name}"
     took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
-    tilted = ", or the arm no longer stands upright" if cause.one_way else ""
+    tilted = "; or the arm no longer stands upright" if cause.one_way else ""
     return f"{cause.joint.name} takes {takes} {name} to move; at the start it took {took} {name}{tilted}"
 
 

@@ -60,7 +60,11 @@ class Insertion(InsertionTask):
         from handeye.tasks.insertion.cell import SEATED, shoulder
 
         high = shoulder(truth.data) * 1e3
-        return {"seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder above the face of the plate")}
+        return {
+            "seat": at_most(
+                high, SEATED * 1e3, "mm", "height of the pin's shoulder above the face of the plate"
+            )
+        }
 
     def judge_apart(self, truth: Truth) -> Findings:
         from handeye.tasks.insertion.cell import off_holder

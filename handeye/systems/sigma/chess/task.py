@@ -58,7 +58,9 @@ class Chess(GantryTask):
             "on_the_board": at_most(
                 lifted / MILLIMETRE, STANDS, "mm", "greatest height of a piece's foot above the board"
             ),
-            "sorted": at_most(across, PLACED, "mm", "greatest distance of a piece from the line for its height"),
+            "sorted": at_most(
+                across, PLACED, "mm", "greatest distance of a piece from the line for its height"
+            ),
             "heights": at_most(wrong, HEIGHT, "mm", "greatest error of a height measured by the program"),
         }
 

@@ -91,10 +91,16 @@ def _as_before(before: Poses, now: Poses, names: Sequence[str], what: str) -> Fi
     turns = [_turn(inverse(before[name]) @ now[name]) for name in names]
     return {
         "blocks": at_most(
-            _most(off) * _MM, BACK, "mm", f"greatest distance of a block {what} from its place at the start of the run"
+            _most(off) * _MM,
+            BACK,
+            "mm",
+            f"greatest distance of a block {what} from its place at the start of the run",
         ),
         "turned": at_most(
-            degrees(_most(turns)), TURNED, "deg", f"greatest rotation of a block {what} since the start of the run"
+            degrees(_most(turns)),
+            TURNED,
+            "deg",
+            f"greatest rotation of a block {what} since the start of the run",
         ),
     }
 

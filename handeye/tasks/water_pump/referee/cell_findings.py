@@ -75,7 +75,10 @@ def made(left: SettledState, truth: Truth) -> Findings:
             len(differing), limits.ALTERED, "parts",
             "parts that are not as drawn" + (f": {told(differing)}" if differing else ""),
         ),
-        "bonds": at_most(_bonds(left, truth), 0, "bonds", "bonds of the simulated cell that are wrongly open, closed or strained"),
+        "bonds": at_most(
+            _bonds(left, truth), 0, "bonds",
+            "bonds of the simulated cell that are wrongly open, closed or strained",
+        ),
         "held": at_most(max(forces), limits.FORCE, "N", "greatest external force on a part or the arm"),
         "motor": at_most(
             len(driven), 0, "motors",

@@ -110,8 +110,13 @@ def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         "screws_thread": at_least(
             length * 1e3, limits.SCREW_THREAD, "mm", "shortest thread engagement of a screw in the base"
         ),
-        "screws_place": mm(aside, limits.SCREW_PLACE, "greatest offset between the axes of a screw and its tapped hole"),
-        "screws_size": mm(size_off, limits.SCREW_SIZE, "greatest deviation of a screw's length or radius from the drawing"),
+        "screws_place": mm(
+            aside, limits.SCREW_PLACE, "greatest offset between the axes of a screw and its tapped hole"
+        ),
+        "screws_size": mm(
+            size_off, limits.SCREW_SIZE,
+            "greatest deviation of a screw's length or radius from the drawing",
+        ),
         "screws_lean": deg(lean, limits.SCREW_LEAN, "greatest tilt of a screw"),
         "screws_crossed": at_most(crossed, 0, "screws", "cross-threaded screws"),
         "threads_scarred": at_most(
@@ -134,7 +139,10 @@ def _pressing(settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
             max(forces, default=0.0), limits.SCREW_STRAIN, "N", "greatest clamping force of a screw"
         ),
         "screws_turned": at_most(
-            max(turned, default=0.0), limits.SCREW_TURNED, "N", "greatest clamping force reached while a screw was tightened"
+            max(turned, default=0.0),
+            limits.SCREW_TURNED,
+            "N",
+            "greatest clamping force reached while a screw was tightened",
         ),
         "screws_hold": at_least(
             min(held, default=0.0), limits.SCREW_HOLD, "N m", "smallest torque that loosens a screw"
@@ -152,14 +160,18 @@ def _cell(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
             "greatest distance of a pin from its hole in the holder",
         ),
         "rack": mm(rack, limits.RACK_PLACE, "distance of the screwdriver from its place in the rack"),
-        "dispenser": mm(dispenser, limits.PIN_PLACE, "greatest distance of a loose screw from its place in the dispenser"),
+        "dispenser": mm(
+            dispenser, limits.PIN_PLACE, "greatest distance of a loose screw from its place in the dispenser"
+        ),
     }
 
 
 def _rotor(measured: SettledState) -> Findings:
     return {
         "rotor_place": mm(
-            measure.rotor_deviation(measured), limits.ROTOR_PLACE, "greatest distance of the rotor or its crank pin from its nominal place"
+            measure.rotor_deviation(measured),
+            limits.ROTOR_PLACE,
+            "greatest distance of the rotor or its crank pin from its nominal place",
         ),
         "rotor_lean": deg(
             measure.rotor_lean(measured), limits.ROTOR_LEAN, "tilt of the rotor relative to the top"
@@ -199,7 +211,10 @@ def _apart(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     apart = {"base": limits.APART, "gasket": limits.APART_GASKET, "top": limits.APART}
     return {
         **{
-            f"{name}_back": mm(measured.strayed((name,), (name,)), limit, f"distance of the {name} from its place at the start of the run")
+            f"{name}_back": mm(
+                measured.strayed((name,), (name,)), limit,
+                f"distance of the {name} from its place at the start of the run",
+            )
             for name, limit in apart.items()
         },
         "parts_turn": deg(
