@@ -153,7 +153,12 @@ REFUSALS = {
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
     ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",
-    ("-o", "it.webm", "--size", "65x48"): "a WebM video of 65 x 48 cannot be made; both sides must be even",
+    (
+        "-o",
+        "it.webm",
+        "--size",
+        "65x48",
+    ): "a WebM video of 65 x 48 cannot be made; width and height must be even",
     ("-o", "it.gif"): "it.gif: a GIF would be seven times as large, with only 256 colours",
     ("-o", "nowhere/it.webp"): "nowhere/it.webp cannot be written: No such file or directory",
 }

@@ -89,7 +89,7 @@ def test_what_is_typed_while_the_run_goes_is_heard_then_and_not_later(stepping: 
     assert "2 steps undone" in paused
     stepping.until(PROMPT)
     paused = stepping.say("continue\npause")
-    assert "the run pauses after this step" in paused
+    assert "the run will pause after the current step" in paused
     assert paused.endswith("paused on request")
 
 

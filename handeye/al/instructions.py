@@ -73,8 +73,10 @@ _MEANINGS: Final = {
     "more than this moment (oz-in); a single number (ours) limits the force against the motion, in any direction; "
     "error 23 if the motion is not stopped",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
-    "FREE": "yield to forces along these table axes during the next CHANGE: 1 (yield) or 0 for each axis, or `2 X Y`",
-    "SPIN": "yield to moments about these table axes during the next CHANGE: 1 (yield) or 0 for each axis, or `2 X Y`",
+    "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
+    "stiff) for each axis, or the number of axes and their names: `2 X Y`",
+    "SPIN": "let the hand yield to moments about the given table axes during the next CHANGE: give 1 (yield) or 0 "
+    "(stay stiff) for each axis, or the number of axes and their names: `2 X Y`",
     "VIA": "pass these positions on the next MOVE, in this order, without stopping",
     "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side to which angle O "
     "points, 2 the other finger, 3 either finger; error 25 if neither touches anything",

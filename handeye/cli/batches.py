@@ -214,8 +214,8 @@ def compare_trials(
     ],
     json: Json = False,
 ) -> int:
-    """Compare batches with a first one, world by world: how much a sense, or an error of the world, changes the success
-    rate.
+    """Compare batches of trials with a first batch, world by world: how much a sensor, or an error of the world,
+    changes the success rate.
 
     All batches must be of the same kind. Only trials that are in both batches are counted. `p` is from McNemar's exact
     test: the probability of differences at least this uneven if neither batch is better.

@@ -14,15 +14,15 @@ from handeye.core.entries import loaded
 COMMANDS: Final = """
 demo = demo:demo: Show a recorded assembly of the pump: a 3D replay beside its program, with the camera pictures and the forces.
 assemble = runs:assemble: Assemble the water pump, or do another task with its own program: plan, run, judge.
-run = runs:run: Run a plan, or some of its stages, in the work cell of its task, at once or step by step.
+run = runs:run: Run a plan, or some of its stages, in the work cell of its task: straight through or step by step.
 resume = runs:resume: Resume an interrupted run.
 dismantle = dismantling:dismantle: Have the arm undo the steps of a run: take the pump apart again.
-show = reports:show: Show the result of a run, or its progress so far; the folder does not change.
+show = reports:show: Show the result of a run, or its progress so far, without changing the run folder.
 report = reports:report: Write one self-contained HTML page of a run, or of two: 3D replay, pictures, forces, and what happened and why.
 video = videos:video: Make a video of a recorded run, without simulating it again.
 view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
 compare = reports:compare: Compare two runs, step by step: the first difference, and where each run searched, felt and corrected.
-do = teaching:do: Plan instructions and run them at once, one after the other: `handeye do "OPEN 3" PARK`.
+do = teaching:do: Plan instructions and run them immediately, one after the other: `handeye do "OPEN 3" PARK`.
 repl = teaching:repl: Type instructions to collect and check them; DO runs them. HELP lists the commands.
 teach = teaching:teach: Move the arm and name positions; new names are added to the taught file, and the rest of the file is kept.
 check = scripts:check: Check a script and its taught positions, including the arm's reach; nothing moves.
@@ -34,7 +34,7 @@ docs = docs:docs: List the pages of the documentation, or print one.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
-export glb = exports:glb: Write solids for programs that show or measure shapes, and check that they are closed and have the right mass.
+export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.
 inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
 diff = scripts:diff: Compare what two plans do, step by step.
 schema = scripts:schema: Print the JSON schema of the plan format.
@@ -48,18 +48,18 @@ trace plot = exports:plot: Plot joints, hand force and events of a run against t
 trace export: Write joints, forces and events of a run as tables.
 trace export csv = exports:csv: Write tables of a run as CSV, with a README that describes the columns.
 trace export parquet = exports:parquet: Write tables of a run as Parquet, with a README that describes the columns; needs the extra `export` (pyarrow).
-world = worlds:world: List every quantity in which worlds differ: its value in this world, unit, spread and source.
+world = worlds:world: List every quantity that varies between worlds: its value in this world, unit, spread and source.
 render = worlds:render: Render a picture of the work cell.
 faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and report which faults the program noticed.
 trials: Repeat a task in many worlds and count successes.
 trials assembly = batches:assembly_trials: Assemble in many worlds: success rate with its confidence interval, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, have the arm take each pump apart again, and count how often every part is back in place.
-trials disturbed = trials:disturbed_trials: Build a pump, disturb it unseen by the arm, and have the arm take it apart: does a guard stop the arm before harm?
-trials compare = batches:compare_trials: Compare batches with a first one, world by world: how much a sense, or an error of the world, changes the success rate.
-trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often, how accurately, and how often wrongly.
+trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before it does damage?
+trials compare = batches:compare_trials: Compare batches of trials with a first batch, world by world: how much a sensor, or an error of the world, changes the success rate.
+trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; a failure is minimised to one command.
-bench: Measure timing and insertion.
+bench: Benchmarks: stage times, and inserting a pin into a hole.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 """  # noqa: E501 - a command a line

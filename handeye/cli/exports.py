@@ -59,7 +59,8 @@ def glb(
     json: Json = False,
     world: WorldOptions = ANY_WORLD,
 ) -> int:
-    """Write solids for programs that show or measure shapes, and check that they are closed and have the right mass.
+    """Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the
+    right mass.
 
     Exit code 0: written, whatever the checks found; 2: bad input.
     """

@@ -190,7 +190,7 @@ def _animations(a: "RecordedRun", b: "RecordedRun") -> "Animations | str":
 
 
 def show(run: Run = None, /, *, json: Json = False) -> int:
-    """Show the result of a run, or its progress so far; the folder does not change.
+    """Show the result of a run, or its progress so far, without changing the run folder.
 
     Exit code 0: shown, whatever the result of the run; 2: there is no run to show.
     """

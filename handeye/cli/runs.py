@@ -173,7 +173,7 @@ def run(
     ] = None,
     on_stop: OnStop = None,
 ) -> int:
-    """Run a plan, or some of its stages, in the work cell of its task, at once or step by step.
+    """Run a plan, or some of its stages, in the work cell of its task: straight through or step by step.
 
     Give a stage by its number, its name, or part of its name. A later stage starts from its checkpoint; without one,
     the stages before it run first.

@@ -93,7 +93,7 @@ def do(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Plan instructions and run them at once, one after the other: `handeye do "OPEN 3" PARK`.
+    """Plan instructions and run them immediately, one after the other: `handeye do "OPEN 3" PARK`.
 
     Exit code 0: done; 1: the program called the operator; 2: bad input; 130: interrupted.
 

@@ -90,7 +90,7 @@ def base_vision_trials(
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Find the base on the belt at many poses: how often, how accurately, and how often wrongly.
+    """Find the base on the belt at many poses: how often it is found, how accurately, and how often in the wrong place.
 
     In every world the arm first moves its lamp through the camera's view, as in a run. This takes most of the time of
     a trial; with `--worlds`, several poses share a world and its calibration.
@@ -126,8 +126,8 @@ def disturbed_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Build a pump, disturb it unseen by the arm, and have the arm take it apart: does a guard stop the arm before
-    harm?
+    """Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before it does
+    damage?
 
     The stop is in time if, until then, no part outside the hand has moved by more than 2 mm in a step and the hand
     has felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.

@@ -69,7 +69,7 @@ PLAIN: Final = FineOptions()
 
 
 def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
-    """List every quantity in which worlds differ: its value in this world, unit, spread and source."""
+    """List every quantity that varies between worlds: its value in this world, unit, spread and source."""
     from handeye.results.world_page import world_json, world_page
 
     spec = world.spec

@@ -88,7 +88,7 @@ _TRYING, _CALLED, _LEAVING = "Trying something else", "When the operator is call
 COMMANDS: Final[tuple[StepperCommand, ...]] = (
     Command(
         usage="step [N]", short="s", group=_GOING, act=acts.step, repeats=True,
-        help="do the next step, or the next N steps",
+        help="execute the next step, or the next N steps",
     ),
     Command(
         usage="stage", short="n", group=_GOING, act=acts.stage, repeats=True,
@@ -100,11 +100,11 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="until PLACE", short="u", group=_GOING, act=acts.until,
-        help="continue to a place, or to a breakpoint before it",
+        help="continue to a place, or to the first breakpoint before that place",
     ),
     Command(
         usage="pause", group=_GOING, act=acts.pause, meanwhile=True,
-        help="during the run: pause after the current step",
+        help="pause after the current step; can be typed while the arm moves",
     ),
     Command(
         usage="pace [1x|4x|free]", group=_GOING, act=acts.pace, meanwhile=True,
@@ -116,7 +116,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="back stage", short="bs", group=_BACK, act=acts.back,
-        help="go back to the beginning of this stage, or from there to the beginning of the previous stage",
+        help="go back to the beginning of this stage; at its beginning, to the beginning of the previous stage",
     ),
     Command(
         usage="undo [N|stage]", group=_BACK, act=acts.undo,
@@ -153,7 +153,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="retry", group=_CALLED, act=acts.answer("retry"),
-        help="repeat the stage from its first step, in the world as it is now",
+        help="repeat the stage from its first step, with the parts where they are now",
     ),
     Command(usage="skip", group=_CALLED, act=acts.answer("skip"), help="skip the rest of the stage"),
     Command(usage="abort", group=_CALLED, act=acts.abort, help="end the run"),

@@ -58,7 +58,7 @@ def until(session: DebugSession, rest: str) -> CommandResult:
 
 def pause(session: DebugSession, _: str) -> CommandResult:
     session.ask_pause()
-    return CommandResult(said="the run pauses after this step")
+    return CommandResult(said="the run will pause after the current step")
 
 
 def pace(session: DebugSession, rest: str) -> CommandResult:
@@ -70,7 +70,7 @@ def pace(session: DebugSession, rest: str) -> CommandResult:
 def _told(session: DebugSession, pause: Pause) -> CommandResult:
     said = session.at_its_end() or pause_sentence(pause)
     if pause.kind == "panic":
-        said += "; the interrupted step is undone"
+        said += "; the simulator is back at the start of the interrupted step"
     return CommandResult(pause=pause, source=session.source(), said=said)
 
 
@@ -92,7 +92,7 @@ def back(session: DebugSession, rest: str) -> CommandResult:
     else:
         position = done - _count(rest, "back takes a number of 1 or more, or `stage`")
     if position is None or not done:
-        raise Refused("this is the beginning of the run")
+        raise Refused("the run is at its first step: there is no earlier state to go back to")
     first = session.first()
     if position < first:
         raise Refused(reach(first) if first else f"`back` can undo only {counted(done, 'step')}")
@@ -232,12 +232,12 @@ def _file(name: str) -> Path:
 def leave(session: DebugSession, _: str) -> CommandResult:
     session.over = True
     if session.runner.ended and session.runner.call is None:
-        return CommandResult(said="the run has ended; nothing was saved")
+        return CommandResult(said="the run has ended, so there is no state to save for `handeye resume`")
     if session.idle:
-        return CommandResult(said="no step has run; nothing was saved")
+        return CommandResult(said="no step has run, so there is no state to save")
     path = session.keep(session.runner.checkpoint())
     if path is None:
-        return CommandResult(said="nothing was saved")
+        return CommandResult(said="nothing was saved, because this run has no folder for checkpoints")
     return CommandResult(file=str(path), said=f"saved to {path}")
 
 
@@ -255,7 +255,7 @@ def _set(runner: Runner, text: str) -> None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
         raise BadArgument(f"write {known}" if known else "this run has no values to set")
     if runner.trouble is not None:
-        raise Refused("no value can be set here; go back first")
+        raise Refused("no value can be set where the run has stopped; first go back with `back`")
     name, numbers = _read(rest, settable, kind.casefold())
     values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
     runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])

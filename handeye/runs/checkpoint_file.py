@@ -158,7 +158,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     own = not isinstance(first, RunStarted) or is_plan_of(first, body.plan.encode())
     told = (head.task, head.program, head.position, head.touched)
     if not own or told != (setup.task, listing.name, checkpoint.position, checkpoint.touched):
-        raise BadFile(f"{name} is not a valid checkpoint: its head does not match its content")
+        raise BadFile(f"{name} is not a valid checkpoint: its header does not match its content")
     return checkpoint
 
 

@@ -81,7 +81,10 @@ class Repl:
         return self._advised(Answer(time=self.workplace.time, said=said))
 
     def _advised(self, given: Answer) -> Answer:
-        advice = {"operator": self.called, "panic": "the interrupted step is undone"}.get(given.stopped or "")
+        advice = {
+            "operator": self.called,
+            "panic": "the simulator is back at the start of the interrupted step",
+        }.get(given.stopped or "")
         if advice is None:
             return given
         return replace(given, said=msgspec.structs.replace(given.said, said=advice))

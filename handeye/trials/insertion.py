@@ -318,8 +318,8 @@ INSERTION: Final = Sweep(
     details=_details,
     summary=lambda _: [
         "A hole is given by its clearance in diameter, its chamfer, and the standard deviation of its position "
-        "along each axis. The peak is the greatest true force between pin and plate in any physics step; felt is "
-        "the greatest force that the hand measured. Times are simulated."
+        "along each axis. Column `peak` is the largest contact force in any physics step, taken from the "
+        "simulator; column `felt` is the largest force that the hand's sensor measured. Times are simulated."
     ],
     shared_worlds=True,
 )

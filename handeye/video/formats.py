@@ -155,7 +155,7 @@ class Format:
         """Raise BadArgument if the size or length is impossible."""
         if self.even and (width % 2 or height % 2):
             raise BadArgument(
-                f"a {self.kind.name} of {width} x {height} cannot be made; both sides must be even"
+                f"a {self.kind.name} of {width} x {height} cannot be made; width and height must be even"
             )
         if self.largest is not None and frames * width * height * 3 > self.largest:
             raise BadArgument(
@@ -177,7 +177,7 @@ def format_of(path: Path) -> Format:
     why = next((reason for endings, reason in REFUSED.items() if ending in endings), None)
     if why is None:
         raise BadArgument(f"{path}: the name of a video must end in {' or '.join(FORMATS)}")
-    raise BadArgument(f"{path}: {why}; make a {' or a '.join(FORMATS)}")
+    raise BadArgument(f"{path}: {why}; use {' or '.join(FORMATS)}")
 
 
 FORMATS: Final = {
@@ -197,5 +197,5 @@ FORMATS: Final = {
 REFUSED: Final = {
     (".gif",): "a GIF would be seven times as large, with only 256 colours",
     (".png", ".apng"): "an animated PNG would be twenty times as large",
-    (".m4v", ".mov"): "this format is H.264 in another container",
+    (".m4v", ".mov"): "this format is not supported; an .mp4 holds the same H.264 video",
 }

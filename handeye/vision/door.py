@@ -93,7 +93,7 @@ def localise(
     corners = quadrilateral(window)
     _settings(BRIGHTER, step, 0.0)
     if not callable(fits):
-        raise BadArgument(f"`fits` must be a function of a box, not {_kind(fits)}")
+        raise BadArgument(f"`fits` must be a function that takes a box, not {_kind(fits)}")
     if isinstance(tries, bool) or not isinstance(tries, int | np.integer) or tries < 1:
         raise BadArgument(
             f"the number of boxes to grow must be a whole number of 1 or more, not {tries!r:.40}"

@@ -34,7 +34,7 @@ def test_a_line_that_is_refused_is_told_with_its_number_and_those_before_it_are_
 def test_one_who_has_left_can_go_on() -> None:
     session = handeye.TrigSession()
     session.type(TAUGHT + "Q")
-    assert session.type("RUN -1000") == ("3 steps undone; nothing before this can be undone",)
+    assert session.type("RUN -1000") == ("3 steps undone; no earlier steps can be undone",)
 
 
 def test_what_cannot_be_had_is_refused_in_a_sentence() -> None:

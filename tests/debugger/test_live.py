@@ -61,7 +61,7 @@ def test_a_pause_that_is_asked_for_comes_behind_the_step_under_way(stepper: Step
     replies = heard(stepper, {3: ["pause"]})
     paused = stepper.do("continue")
     assert (paused.position, paused.said) == (3, "paused on request")
-    assert [reply.said for reply in replies] == ["the run pauses after this step"]
+    assert [reply.said for reply in replies] == ["the run will pause after the current step"]
 
 
 def test_a_run_that_was_paused_goes_the_same_way_as_another(stepper: Stepper) -> None:

@@ -407,7 +407,7 @@ def test_the_end_of_the_input_is_taken_for_quit(stepper: Stepper) -> None:
     out: list[str] = []
     pause = interact(stepper, iter(["s"]), out.append)
     assert (pause.kind, pause.met) == ("break", ByHand())
-    assert out[-1].splitlines()[-1] == "nothing was saved"
+    assert out[-1].splitlines()[-1] == "nothing was saved, because this run has no folder for checkpoints"
 
 
 @pytest.mark.parametrize("commands", [("q",), ("exit",), ("s 2", "b 2", "q"), ("s", "b", "set x", "q")])
@@ -416,11 +416,14 @@ def test_where_nothing_was_done_nothing_is_kept(runner: Runner, commands: tuple[
         raise AssertionError
 
     out = lines_of(Stepper(runner, keep=keep), *commands)
-    assert out[-1].splitlines()[-1] == "no step has run; nothing was saved"
+    assert out[-1].splitlines()[-1] == "no step has run, so there is no state to save"
 
 
 def test_an_experiment_is_something_that_was_done(stepper: Stepper) -> None:
-    assert lines_of(stepper, "set saved H 0 0 0", "q")[-1].splitlines()[-1] == "nothing was saved"
+    assert (
+        lines_of(stepper, "set saved H 0 0 0", "q")[-1].splitlines()[-1]
+        == "nothing was saved, because this run has no folder for checkpoints"
+    )
 
 
 def test_a_run_that_begins_at_a_checkpoint_says_so_to_those_who_go_back_behind_it(runner: Runner) -> None:
@@ -500,7 +503,10 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
     stepper = Stepper(runner, pictures=tmp_path)
     stopped = stepper.do("s 2")
     assert why(stopped) == ("panic", "stopped by the panic button; the brakes are set")
-    assert stopped.said == "stopped by the panic button; the brakes are set; the interrupted step is undone"
+    assert (
+        stopped.said
+        == "stopped by the panic button; the brakes are set; the simulator is back at the start of the interrupted step"
+    )
     assert stopped.position < 2
     stepper.do("c")
     assert history(runner.events) == whole
@@ -532,7 +538,10 @@ def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> Non
         say("s")[0].error
         == "the run cannot continue from here, only go back: the simulation lost its footing"
     )
-    assert say("set saved H 0 0 0")[0].error == "no value can be set here; go back first"
+    assert (
+        say("set saved H 0 0 0")[0].error
+        == "no value can be set where the run has stopped; first go back with `back`"
+    )
     assert [answer.position for answer in say("b", "s")] == [1, 2]
 
 
@@ -570,8 +579,8 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("pace 0", "pace takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0`"),
         ("until", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("until L7", "the program has no label, instruction or stage `L7`; did you mean `L1`?"),
-        ("back", "this is the beginning of the run"),
-        ("back stage", "this is the beginning of the run"),
+        ("back", "the run is at its first step: there is no earlier state to go back to"),
+        ("back stage", "the run is at its first step: there is no earlier state to go back to"),
         ("back x", "back takes a number of 1 or more, or `stage`, not `x`"),
         ("break", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("break 99", "line 99 is after the last step, which is on line 22"),

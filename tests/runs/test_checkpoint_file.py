@@ -128,7 +128,7 @@ def test_a_head_that_does_not_match_what_is_below_it_is_refused(
 ) -> None:
     head, _, packed = data.partition(b"\n")[2].partition(b"\n")
     assert head.count(was) == 1
-    with pytest.raises(InvalidInput, match=r"its head does not match its content$"):
+    with pytest.raises(InvalidInput, match=r"its header does not match its content$"):
         decode(sealed(head.replace(was, forged) + b"\n" + packed), "it")
 
 

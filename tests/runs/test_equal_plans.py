@@ -139,7 +139,9 @@ def test_a_checkpoint_with_motions_changed_by_hand_is_refused() -> None:
     sound = runner.checkpoint()
     assert decode(checkpoint_bytes(sound), "it").setup.plan == PLAN
     tampered = replace(sound, setup=replace(sound.setup, plan=with_motions(BY_HAND)))
-    with pytest.raises(BadFile, match=r"^it is not a valid checkpoint: its head does not match its content$"):
+    with pytest.raises(
+        BadFile, match=r"^it is not a valid checkpoint: its header does not match its content$"
+    ):
         decode(checkpoint_bytes(tampered), "it")
 
 

@@ -81,11 +81,11 @@ def test_a_file_is_known_by_how_it_begins() -> None:
     [
         (
             "it.gif",
-            "it.gif: a GIF would be seven times as large, with only 256 colours; make a .webp or a .webm or a .mp4",
+            "it.gif: a GIF would be seven times as large, with only 256 colours; use .webp or .webm or .mp4",
         ),
         (
             "it.APNG",
-            "it.APNG: an animated PNG would be twenty times as large; make a .webp or a .webm or a .mp4",
+            "it.APNG: an animated PNG would be twenty times as large; use .webp or .webm or .mp4",
         ),
         ("it.mkv", "it.mkv: the name of a video must end in .webp or .webm or .mp4"),
         ("it", "it: the name of a video must end in .webp or .webm or .mp4"),
@@ -100,7 +100,7 @@ def test_other_files_are_refused_with_the_reason(name: str, sentence: str) -> No
 def test_a_webm_has_even_sides() -> None:
     format_of(Path("it.webp")).check(10, 65, 48)
     with pytest.raises(
-        InvalidInput, match=r"^a WebM video of 65 x 48 cannot be made; both sides must be even$"
+        InvalidInput, match=r"^a WebM video of 65 x 48 cannot be made; width and height must be even$"
     ):
         format_of(Path("it.webm")).check(10, 65, 48)
 

@@ -252,7 +252,8 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.JointAlone():
             return _alone(cause)
         case c.CurrentSilent():
-            return f"the sensor showed at most {cause.torque / OUNCE_INCH:.1f} oz-in, less than the motor needs to start"
+            most = f"{cause.torque / OUNCE_INCH:.1f} oz-in"
+            return f"the sensor showed at most {most}, less than the motor needs to start"
         case c.PictureRepeated():
             return f"picture {cause.picture} is the same as {cause.earlier}, pixel by pixel"
         case c.PictureBlank():

@@ -107,7 +107,7 @@ def _course(run: RecordedRun) -> Iterator[str]:
     """Yield sentences on the progress and the duration of the run."""
     steps = counted(sum(isinstance(event, StepStarted) for event in run.trace.events), "step")
     stages = counted(len(run.trace.stages), "stage")
-    yield f"The run did {steps} in {stages} and took {duration(run.ends)} min of simulated time."
+    yield f"The run executed {steps} in {stages} and took {duration(run.ends)} min of simulated time."
     then = run.period
     if then is not None:
         yield f" In {then.year} the work took {clock(then.times['manipulation'] + then.times['lens'])}."

@@ -28,7 +28,7 @@ class TrigSession:
        ***  BLOCK
     ▶  ***  (grasp)
     >>> session.type("RUN -1000")
-    ('3 steps undone; nothing before this can be undone',)
+    ('3 steps undone; no earlier steps can be undone',)
     """
 
     def __init__(self, arm: ArmName = "none") -> None:

@@ -169,7 +169,7 @@ def test_a_player_runs_a_program(tmp_path: Path) -> None:
         ("acuse supply", "`acuse` is none of your means; did you mean `accuse`?"),
         ("force", "the form is `force ARM`"),
         ("clocks X1", "the form is `clocks`"),
-        ("force 3", "the arms are 1 and 2, not `3`"),
+        ("force 3", "the arm must be 1 or 2, not `3`"),
         ("rail Q1", "no axis is called `Q1`; there are X1, Y1"),
         ("swap 77", "no microcomputer is called `77`; there are X1"),
         ("accuse the suply", "no part is called `the suply`; "),

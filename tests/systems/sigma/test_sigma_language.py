@@ -58,12 +58,12 @@ def test_no_flag_is_called_as_a_word_is() -> None:
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("10 MOVE X3 TO 5", "an axis (X1, Y1, Z1, X2, Y2, Z2) is wanted here, and there is `X3`"),
-        ("10 MOVE X1 TO", "a number, a variable or a function is wanted here, and the line ends"),
+        ("10 MOVE X3 TO 5", "an axis (X1, Y1, Z1, X2, Y2, Z2) is expected here, but there is `X3`"),
+        ("10 MOVE X1 TO", "a number, a variable or a function is expected here, but the line ends"),
         ("10 GOTO 30\n20 END", "there is no line 30"),
-        ("5 GOTO 10 20\n10 END", "the end of the line is wanted here, and there is `20`"),
-        ("10 ACTUATE HAND3", "a device (HAND1, HAND2, DRIVER2, LAMP, BELL) is wanted here, and there is `HAND3`"),
-        ("10 IF A THEN 10", "`=` or `<>` or `<` or `>` or `<=` or `>=` is wanted here, and there is `THEN`"),
+        ("5 GOTO 10 20\n10 END", "the end of the line is expected here, but there is `20`"),
+        ("10 ACTUATE HAND3", "a device (HAND1, HAND2, DRIVER2, LAMP, BELL) is expected here, but there is `HAND3`"),
+        ("10 IF A THEN 10", "`=` or `<>` or `<` or `>` or `<=` or `>=` is expected here, but there is `THEN`"),
         ("10 Ä = 5", "`Ä` is not a character of MAL"),
     ],
 )  # fmt: skip

@@ -183,7 +183,7 @@ def test_the_hand_over_leaves_the_central_computer_idle_for_most_of_the_time() -
         (f"A = {' * '.join(['1E30'] * 11)}", "beyond the largest number"),
         ("A = POS(X1)", "NOTORIGINATED: ORIGIN X1 comes before POS(X1)"),
         ("MOVE X1 BY 9000", "a place is at most 1229 mm from 0; X1 would go to 9000 mm"),
-        ("A = BEAM(1 + 2)", "the arms are 1 and 2, and not 3"),
+        ("A = BEAM(1 + 2)", "there is no arm 3, only arms 1 and 2"),
         ("DELAY 0 - 1", "a delay is from 0 to 86400 s, and not -1"),
         ("CURVE X1, 1 / 2", "a curve is 0, 1, 2, 3 or 4, and not 0.5"),
         ("LIMIT Z1, 0 - 4", "a limit of force is from 0 to 655 N, and not -4"),

@@ -28,7 +28,7 @@ PALLETISE = str(PLANS / "palletise.trig")
 def test_a_script_is_typed_run_and_run_back(command: Command) -> None:
     assert command("trig", "run", PALLETISE, "--back") == (
         0,
-        "227 steps done; the program has ended\n227 steps undone; nothing before this can be undone\n",
+        "227 steps done; the program has ended\n227 steps undone; no earlier steps can be undone\n",
         "",
     )
 

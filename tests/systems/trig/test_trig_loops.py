@@ -94,5 +94,5 @@ def test_a_million_rounds_are_halted_and_undone_as_far_as_they_are_remembered() 
     typist.type("RUN")
     assert typist.told[-1].startswith("499 steps done; stopped")
     typist.type("RUN -1000")
-    assert typist.told[-1] == "499 steps undone; nothing before this can be undone"
+    assert typist.told[-1] == "499 steps undone; no earlier steps can be undone"
     assert typist.steps[-1].count == 0

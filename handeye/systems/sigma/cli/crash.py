@@ -24,7 +24,7 @@ def crash(
     ] = False,
     json: Json = False,
 ) -> int:
-    """Let arm 1 run into the standing hand of arm 2: force, steps lost, what the program believes, and what is true.
+    """Let arm 1 run into the stationary hand of arm 2: force, steps lost, what the program believes, and what is true.
 
     The collision is a study, so no outcome is right or wrong. The page `docs/safety_study.md` compares ten.
 

@@ -233,7 +233,7 @@ def demonstrate(game: Game, tell: Callable[[str], None]) -> Verdict:
 
 def _arm(text: str) -> int:
     if text not in ("1", "2"):
-        raise BadArgument(f"the arms are 1 and 2, not {quoted(text)}")
+        raise BadArgument(f"the arm must be 1 or 2, not {quoted(text)}")
     return int(text)
 
 

@@ -80,7 +80,7 @@ class Clocks:
     @property
     def lines(self) -> Sequence[str]:
         each = [f"{name_of(n)} {'-' if off is None else f'{off:+.1f}'}" for n, off in self.slow.items()]
-        return [f"clocks, percent slow: {', '.join(each)}"]
+        return [f"clocks, by how many percent each is slow: {', '.join(each)}"]
 
 
 def clocks(at: Technician) -> Clocks:
@@ -119,8 +119,9 @@ class Strobe:
     @property
     def lines(self) -> Sequence[str]:
         if self.misread:
-            return [f"{self.misread} of {self.tries} late risers took a command that was never sent"]
-        return [f"{self.tries} late risers misread nothing"]
+            often = f"in {self.misread} of {self.tries} tries"
+            return [f"{often}, a microcomputer that became free in mid-command obeyed a command never sent"]
+        return [f"in {self.tries} tries, no microcomputer that became free in mid-command misread it"]
 
 
 def strobe(at: Technician) -> Strobe:

@@ -87,7 +87,10 @@ class Strategy:
                 "its answers take a different time from those of the others",
             )
         if self._test("strobe", lambda: means.strobe(self._at)).misread:
-            raise Found("computer", "it raises /DATA READY so late that late risers misread commands")
+            raise Found(
+                "computer",
+                "it raises /DATA READY so late that microcomputers that become free in mid-command misread it",
+            )
 
     # -- wrists and hands, while no motor moves -----------------------------------------------------------------
 

@@ -1,4 +1,4 @@
-"""The safety study: arm 1 runs into the standing hand of arm 2, with and without the reflex."""
+"""The safety study: arm 1 runs into the stationary hand of arm 2, with and without the reflex."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -154,7 +154,7 @@ def lines(found: Crash) -> list[str]:
         for a in found.axes
     ]
     return [
-        f"arm 1 runs into the standing hand of arm 2, at {speed}, reflex {'on' if found.reflex else 'off'}{loop}",
+        f"arm 1 runs into the stationary hand of arm 2, at {speed}, reflex {'on' if found.reflex else 'off'}{loop}",
         "      force  status      believed         true   steps lost",
         *rows,
         f"the program reports: {found.message}",

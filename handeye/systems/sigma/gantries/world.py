@@ -32,34 +32,70 @@ def _quantity(
 
 VARIATION: Final = Variation(
     _quantity(
-        SWITCHES, "mm", Noise(0.05), 1.0, "Standard deviation of the place of a rail's switch. Chosen."
+        SWITCHES,
+        "mm",
+        Noise(0.05),
+        1.0,
+        "Standard deviation of the position of a rail's switch. No source: our choice.",
     ),
-    _quantity(FRICTION, "", Range(0.35, 0.65), 5.0, "Friction of an axis, N s/m for each kg. Chosen.", 0.5),
     _quantity(
-        PULL_OUT, "", Noise(0.05), 0.4, "Standard deviation of a motor's pull-out force, as a share. Chosen."
+        FRICTION,
+        "",
+        Range(0.35, 0.65),
+        5.0,
+        "Viscous friction of an axis, N s/m for each kilogram that it moves. No source: our choice.",
+        0.5,
     ),
     _quantity(
-        STIFFNESS, "", Noise(0.015), 0.4, "Standard deviation of a wrist's stiffness, as a share. Chosen."
+        PULL_OUT,
+        "",
+        Noise(0.05),
+        0.4,
+        "Standard deviation of a motor's pull-out force, as a fraction of the nominal force. No source: our choice.",
     ),
-    _quantity(GAIN, "", Noise(0.015), 0.4, "Standard deviation of a strain gauge's gain. Chosen."),
+    _quantity(
+        STIFFNESS,
+        "",
+        Noise(0.015),
+        0.4,
+        "Standard deviation of a wrist's stiffness, as a fraction of the nominal stiffness. No source: our choice.",
+    ),
+    _quantity(
+        GAIN,
+        "",
+        Noise(0.015),
+        0.4,
+        "Standard deviation of a strain gauge's gain, as a fraction of the nominal gain. No source: our choice.",
+    ),
     _quantity(
         LEFT,
         "",
         Range(0.03, 0.08),
         1.0,
-        "Share of the inertial force that the accelerometers leave; 1 without them. Chosen.",
+        "Fraction of the inertial force that remains in the reading after the correction by the accelerometers; "
+        "1 without them. No source: our choice.",
         0.05,
     ),
-    _quantity(BEAM, "mm", Noise(0.1), 2.0, "Standard deviation of the height of a beam. Chosen."),
     _quantity(
-        CLOCKS, "", Noise(0.0025), 0.04, "Standard deviation of a microcomputer's clock, as a share. Chosen."
+        BEAM,
+        "mm",
+        Noise(0.1),
+        2.0,
+        "Standard deviation of the height of a light beam. No source: our choice.",
+    ),
+    _quantity(
+        CLOCKS,
+        "",
+        Noise(0.0025),
+        0.04,
+        "Standard deviation of a microcomputer's clock rate, as a fraction of the nominal rate. No source: our choice.",
     ),
     _quantity(
         ACROSS,
         "mm",
         Noise(0.5),
         5.0,
-        "Standard deviation of a piece's place across its line. Chosen: by hand.",
+        "Standard deviation of a piece's position across its line. No source: our choice, as placed by hand.",
     ),
 )
 

@@ -61,7 +61,7 @@ class BusOperations:
     def _do_beam(self, name: str, task: TaskMemory, __: Instruction) -> None:
         arm = task.stack.pop()
         if arm not in (1, 2):
-            raise Trap(f"the arms are 1 and 2, and not {arm:g}")
+            raise Trap(f"there is no arm {arm:g}, only arms 1 and 2")
         self._push(task, float(self.ask(name, protocol.beam(int(arm)))[0]))
 
     # -- commands ---------------------------------------------------------------------------------------

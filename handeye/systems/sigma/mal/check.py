@@ -306,17 +306,24 @@ class _Check:
                     arm = None if isinstance(part.argument, Token | None) else constant(part.argument)
                     if arm not in (None, 1, 2):
                         yield mistake(
-                            "wrong-value", f"the arms are 1 and 2; there is no arm {arm:g}", statement.span
+                            "wrong-value",
+                            f"there is no arm {arm:g}, only arms 1 and 2",
+                            statement.span,
+                            help=_allowed("BEAM"),
                         )
         for word, (least, most, what) in _RANGES.items():
             value = constant(statement.values[0]) if statement.word == word and statement.values else None
             if value is not None and not least <= value <= most:
                 told = f"{what} must be between {least:g} and {most:g}, not {value:g}"
-                yield mistake("wrong-value", told, statement.span)
+                yield mistake("wrong-value", told, statement.span, help=_allowed(word))
         slow = None if statement.slow is None else constant(statement.slow)
         if slow is not None and not SLOWEST <= slow <= FASTEST_SLOW:
             told = f"a constant speed must be between {SLOWEST:g} and {FASTEST_SLOW:g} mm/s, not {slow:g}"
-            yield mistake("wrong-value", told, statement.span)
+            yield mistake("wrong-value", told, statement.span, help=_allowed("SLOW"))
+
+
+def _allowed(word: str) -> str:
+    return f"`handeye sigma words {word}` says which values are allowed"
 
 
 SLOWEST: Final = 2.0  # mm/s

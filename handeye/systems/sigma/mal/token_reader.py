@@ -52,7 +52,7 @@ class TokenReader:
         span = self._end if token is None else token.span
         found = "the line ends" if token is None else f"there is {quoted(token.text)}"
         usage = f"the form is `{WORDS[self._word].usage}`" if self._word in WORDS else None
-        raise Mistaken(mistake("syntax", f"{wanted} is wanted here, and {found}", span, help=usage))
+        raise Mistaken(mistake("syntax", f"{wanted} is expected here, but {found}", span, help=usage))
 
     def _need(self, *texts: str) -> Token:
         if not self._is(*texts):

@@ -68,7 +68,7 @@ class _Progress(Observer):
         if isinstance(event, StepStarted):
             steps = counted(len(self._runner.system.executed), "step")
             way = "undoing" if isinstance(event, UndoStarted) else "running"
-            self._status.update(f"{way}: {steps} done and not undone, at {event.text}")
+            self._status.update(f"{way}: {steps} done (not counting undone steps), now at {event.text}")
 
 
 def palletise(

@@ -66,7 +66,9 @@ class _ProgressDesk(Script):
         steps = sum(program.graph[done.node].shown for done in program.trail if done.node in program.graph)
         active = program.active
         what = active.name or active.position or active.type
-        self._status.update(f"running: {counted(steps, 'step')} done and not undone, at {what}")
+        self._status.update(
+            f"running: {counted(steps, 'step')} done (not counting undone steps), now at {what}"
+        )
 
 
 def interrupting(halted: Callable[[], bool]) -> Halted:

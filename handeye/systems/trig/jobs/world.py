@@ -29,37 +29,54 @@ def _quantity(name: str, unit: str, distribution: Distribution, most: float, sou
 
 VARIATION: Final = Variation(
     _quantity(
-        TAUGHT, "mm", Noise(0.3), 5.0, "Standard deviation of an axis driven with the teach box. Chosen."
+        TAUGHT,
+        "mm",
+        Noise(0.3),
+        5.0,
+        "Standard deviation of the position of an axis that is driven with the teach box. No source: our choice.",
     ),
     _quantity(
         STACKED,
         "mm",
         Noise(0.3),
         5.0,
-        "Standard deviation of a stack's position along X and Y. Chosen: as if the stack is placed at a mark.",
+        "Standard deviation of a stack's position along X and Y. "
+        "No source: our choice, as if a person places the stack at a mark.",
     ),
     _quantity(
         ALIGNED,
         "mm",
         Noise(0.1),
         5.0,
-        "Standard deviation of a block's position in its stack along X and Y. Chosen.",
+        "Standard deviation of a block's position in its stack along X and Y. No source: our choice.",
     ),
-    _quantity(TURNED, "deg", Noise(0.2), 10.0, "Standard deviation of a block's yaw in its stack. Chosen."),
-    _quantity(FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of blocks and platter. Chosen: dry aluminium."),
+    _quantity(
+        TURNED,
+        "deg",
+        Noise(0.2),
+        10.0,
+        "Standard deviation of a block's yaw in its stack. No source: our choice.",
+    ),
+    _quantity(
+        FRICTION,
+        "",
+        Range(0.3, 0.5),
+        2.0,
+        "Coefficient of friction of blocks and platter. No source: our choice, dry aluminium.",
+    ),
     _quantity(
         SLIDES,
         "mm",
         Noise(0.05),
         5.0,
-        "Standard deviation of the nonlinearity of linear potentiometers. Chosen.",
+        "Standard deviation of the nonlinearity of linear potentiometers. No source: our choice.",
     ),
     _quantity(
         TURNS,
         "rad",
         Noise(2e-4),
         0.1,
-        "Standard deviation of the nonlinearity of rotary potentiometers. Chosen.",
+        "Standard deviation of the nonlinearity of rotary potentiometers. No source: our choice.",
     ),
 )  # quantities of the bench: sigmas of errors, of which each has a stream of its own, and the friction
 WEAK, HEAVY, SLIPPERY = "hand.weak", "blocks.heavy", "platter.slippery"

@@ -80,9 +80,7 @@ def told_run(ran: RunResult, *, back: bool = False) -> str:
         "count": steps,
         "none": f"{steps}; the program has ended",
         "halted": f"{steps}; stopped: RUN with a number continues, with a minus goes back",
-        "beginning": f"{steps}; nothing before this can be undone"
-        if ran.steps
-        else "there is nothing to undo",
+        "beginning": f"{steps}; no earlier steps can be undone" if ran.steps else "there is nothing to undo",
         "forgotten": f"{steps}; earlier steps have been forgotten",
         "deleted": f"{steps}; the step before this has been deleted and cannot be undone",
     }[ran.end]

@@ -120,7 +120,7 @@ def _switches() -> Iterator[DeviceFault]:
             meaning = f"The switch of the {side} finger {tells}."
             yield _fault(f"{line}.stuck_{state}", meaning, line, stuck, expected)
     yield _fault(
-        "finger_switch.swapped", "The switches of the two fingers are exchanged.", "switches", Stuck(1.0),
+        "finger_switch.swapped", "The switches of the two fingers are swapped.", "switches", Stuck(1.0),
         replace(expected, harmless="Only CENTER depends on which finger touches; both may touch at once."),
     )  # fmt: skip
     yield _fault(
