@@ -24,20 +24,22 @@ _LATE: Final = 1e-6  # share of a period lost to rounding
 
 @dataclass(slots=True)
 class Watchdog:
-    """Switches off the drives of an arm whose computer does not answer, until the program sets the brakes itself."""
+    """Switches off the drives of an arm when its computer stops answering. They stay off until the program sets the
+    brakes.
+    """
 
     period: float  # s
     tripped: bool = False
     unanswered: float = 0.0  # s since the arm was driven
 
     def answer(self, *, braked: bool) -> None:
-        """The computer has sent a command; setting the brakes acknowledges a trip."""
+        """Note that the computer has sent a command. A command to set the brakes acknowledges a trip."""
         self.unanswered = 0.0
         self.tripped = self.tripped and not braked
 
     def wait(self, seconds: float) -> None:
-        """Count `seconds` that are about to pass while the drives hold the last command; trip if a servo period is
-        exceeded.
+        """Count `seconds` that are about to pass while the drives hold the last command. The watchdog trips if the
+        count exceeds a servo period.
         """
         self.unanswered += seconds
         self.tripped = self.tripped or self.unanswered > self.period * (1 + _LATE)
@@ -47,14 +49,14 @@ class JointSensors:
     """The sensors of n joints, connected by lines named `potentiometer.N` and `tachometer.N`."""
 
     def __init__(self, errors: ArmErrors, noise: np.random.Generator, lines: SignalLines) -> None:
-        """Make sensors with `errors`, and with noise from the generator `noise`."""
+        """Make sensors with the given errors. `noise` generates their noise."""
         self._errors, self._noise, self._lines = errors, noise, lines
         self._joints = len(errors.offset)
         self._sigma = np.concatenate((errors.pot_noise, errors.tachometer_noise))
         self._converters = Converters(np.concatenate((errors.pot_step, errors.tachometer_step)))
 
     def read(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """Sensor readings of positions and rates for true ones; shape (n,), rad or m, and per s."""
+        """Return the sensor readings for true positions and rates, shape (n,), in rad or m, and rad/s or m/s."""
         n, lines = self._joints, self._lines
         told = np.concatenate((self._errors.readings(q), qd))
         told += self._sigma * self._noise.standard_normal(2 * n)
@@ -66,11 +68,11 @@ class JointSensors:
 
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
-"""Constraint stiffness of the brakes: the arm creeps less than .01 deg in 10 s, until it sleeps."""
+"""Constraint stiffness of the brakes. With it the arm creeps less than .01 degrees in 10 s, until it sleeps."""
 
 
 class ArmState(Record, frozen=True, kw_only=True):
-    """State of an arm: readings, torques, watchdog."""
+    """State of an arm: its readings, torques and watchdog."""
 
     q: tuple[float, ...]
     qd: tuple[float, ...]
@@ -83,8 +85,8 @@ class ArmState(Record, frozen=True, kw_only=True):
 class SimulatedArm(Mechanism[ArmState], ArmPort):
     """Motors, brakes and sensors of n joints, named `<prefix>j1`, `<prefix>j2`, ... in the MuJoCo model.
 
-    A brake is dry friction in the joint: it holds the joint where it is, and slips under a torque greater than the
-    brake's own.
+    A brake is dry friction in the joint. It holds the joint in place, and slips under a torque greater than the
+    torque of the brake.
     """
 
     kind = ArmState
@@ -102,12 +104,12 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """An arm with its brakes set at a posture, shape (n,), rad or m; `noise` generates the noise of its
+        """Make an arm with its brakes set at a posture, shape (n,), rad or m. `noise` generates the noise of its
         sensors.
 
-        The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N`; `force.x`,
-        `force.y` and `force.z`, which offset the drives by the torques of a force at the hand (N, in W); and
-        `servo`, which must carry 1 for torques of the computer to arrive.
+        The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for joint
+        N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand (N,
+        in W). The line `servo` must carry 1, or torques from the computer do not arrive.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
@@ -117,7 +119,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self.last_link = int(model.jnt_bodyid[joints[-1]])  # the body that carries the hand
         self.watchdog = Watchdog(arm.servo.period)
         self.motors = np.array([model.actuator(name).id for name in names])
-        """Ids of the motors, which are actuators of the simulator."""
+        """Ids of the motors, which are actuators of the MuJoCo model."""
         self._limits = model.actuator_ctrlrange[self.motors, 1].copy()
         self._friction = model.dof_frictionloss[self.dofs].copy()
         self._brake, self._errors = constants(arm).brake, errors
@@ -156,7 +158,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._put(None if self.watchdog.tripped else self._torque)
 
     def _put(self, torque: Array | None) -> None:
-        """Apply a torque, shape (n,), or with None the brakes, from now on."""
+        """Apply a torque, shape (n,), from now on. If the torque is None, set the brakes."""
         self._braked = torque is None
         allow(self._model, self._tree, allowed=self._braked)
         if not self._braked:
@@ -167,7 +169,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._data.ctrl[self.motors] = 0.0 if torque is None else self._driven(torque).clip(-limits, limits)
 
     def _driven(self, torque: Array) -> Array:
-        """Torque that the drives produce for a commanded torque, shape (n,)."""
+        """Return the torque that the drives produce for a commanded torque, shape (n,)."""
         torque = self._torque_converters(torque) * self._errors.drive_gain
         if not self._lines.defects:
             return torque
@@ -180,7 +182,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Keep readings, read-only, until time passes again."""
+        """Keep the readings, read-only, until time passes again."""
         q.setflags(write=False)
         qd.setflags(write=False)
         self._reading = ArmReading(q=q, qd=qd, braked=braked)

@@ -1,4 +1,4 @@
-"""Bench: machines with servos outside the computer, in one scene under one clock."""
+"""A bench: machines whose servos run outside the computer, in one scene under one clock."""
 
 import math
 from collections.abc import Callable
@@ -20,16 +20,16 @@ MICROSECONDS: Final = 1_000_000
 _LATEST: Final = 10**15
 _MOST_AT_ONCE: Final = 100_000  # events between two physics steps
 _FINEST: Final = 10**6
-"""Greatest number of physics steps per second for which the step is recognised as an exact fraction of a second:
-1/960, 1/1200, .001.
+"""A physics step is taken as an exact fraction of a second (1/960, 1/1200, .001) if there are at most this many
+steps in a second.
 """
 FASTEST: Final = 1000.0
-"""Greatest plausible speed, m/s and rad/s: nothing on a bench approaches it unless the contact solver has failed."""
+"""Greatest plausible speed, m/s and rad/s. Only a failure of the contact solver makes a body on a bench faster."""
 _STRETCH: Final = Fraction(1, 60)  # s for which mechanisms may hold what they do to the simulator, at most
 
 
 class Due(Record, frozen=True, kw_only=True):
-    """A pending event; it is handled between two physics steps."""
+    """A pending event, which is handled between two physics steps."""
 
     microseconds: int  # when, on the clock of the bench
     name: str  # of its handler
@@ -47,7 +47,7 @@ class Bench(Clock, Mechanism[BenchTime]):
     synchronised.
 
     Machines add themselves to the bench. If the scene allows sleep, bodies at rest are not computed. While all
-    bodies sleep, time passes in one jump, and no hook of a step is called.
+    bodies sleep, time passes in one jump, without calls of the functions for single steps.
     """
 
     name = "clock"
@@ -58,7 +58,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         self.before_step: list[Callable[[], None]] = []  # called before every physics step
         self.after_step: list[Callable[[], None]] = []
         self.before_period: list[Callable[[], None]] = []
-        """Functions called before time passes: every 1/60 s at the latest, unless everything sleeps."""
+        """Functions called before time passes, at least every 1/60 s unless everything sleeps."""
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}  # handlers of events, by name
         self._tick = Fraction(model.opt.timestep).limit_denominator(_FINEST)
@@ -69,18 +69,18 @@ class Bench(Clock, Mechanism[BenchTime]):
         mujoco.mj_forward(self.model, self.data)
 
     def add(self, part: Mechanism[Any]) -> None:
-        """Add a mechanism, which acts on the scene as time passes, after those added before."""
+        """Add a mechanism. It acts on the scene as time passes, after the mechanisms added before."""
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """A cell of this bench, whose scene must not change from now on, and of `others`: mechanisms that do not
-        act as time passes.
+        """Make a cell of this bench and of `others`, mechanisms that do not act as time passes. The scene must not
+        change from now on.
         """
         noise = np.random.Generator(np.random.PCG64(0))
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 
     def replace(self, spec: mujoco.MjSpec) -> None:
-        """Continue with a changed scene; everything that exists in both scenes keeps its state."""
+        """Continue with a changed scene. Everything that exists in both scenes keeps its state."""
         self.model, self.data = spec.recompile(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
         for part in self._parts:
@@ -98,7 +98,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         return float(self._steps * self.tick)
 
     def set_to_zero(self) -> None:
-        """Set the clock to 0 now, as the program begins; pending events keep their distance from now."""
+        """Set the clock to 0 now, because the program begins. The time until each pending event stays the same."""
         due = [(self._step_of(each) - self._steps) * self.tick * MICROSECONDS for each in self._due]
         self._due = [replace(was, microseconds=int(at)) for was, at in zip(self._due, due, strict=True)]
         self._steps, self.data.time = 0, 0.0
@@ -117,7 +117,7 @@ class Bench(Clock, Mechanism[BenchTime]):
             self._passing = False
 
     def end_early(self) -> None:
-        """Let `advance` end with the physics step under way; called by a hook of a step."""
+        """Let `advance` end with the present physics step. Called by a function that is called at every step."""
         self._ending = True
 
     def call_at(self, microseconds: int, name: str) -> None:
@@ -134,14 +134,14 @@ class Bench(Clock, Mechanism[BenchTime]):
         return max(self._before_event(), 1) * self.tick if self._due else None
 
     def _before_event(self) -> int:
-        """Number of physics steps before the next event is handled; a number that is never reached if there is
-        none.
+        """Return the number of physics steps before the next event is handled, or a number that is never reached if
+        no event is pending.
         """
         return self._step_of(self._due[0]) - self._steps if self._due else _LATEST
 
     def _step_of(self, due: Due) -> int:
-        """Number of the physics step before which an event is handled: the first that begins at the event's time or
-        later.
+        """Return the number of the physics step before which an event is handled: the first step that begins at the
+        time of the event or later.
         """
         return math.ceil(due.microseconds / (MICROSECONDS * self._tick))
 
@@ -153,7 +153,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         raise HandeyeError(f"events repeat without end at {self.now:g} s; the last is {due.name}")
 
     def _pass(self, most: int) -> None:
-        """Let at most `most` physics steps pass: one stretch of them, or all of them if everything sleeps."""
+        """Let at most `most` physics steps pass: one stretch of steps, or all of them if everything sleeps."""
         steps = min(most, self._stretch)
         for part in self._parts:
             part.before(float(steps * self.tick))

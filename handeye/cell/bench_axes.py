@@ -18,32 +18,36 @@ from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel, Outputs
 from handeye.ports.clock import whole_steps
 
 Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
-"""Reads the components of a channel from a scene."""
+"""Function that reads the components of a channel from a scene."""
 
 
 def sensor(name: str) -> Sense:
-    """A channel that reads the values of a sensor of the scene."""
+    """Make the function for a channel that reads the values of the scene's sensor `name`."""
     return lambda _, data: np.asarray(data.sensor(name).data)
 
 
 def switch(name: str, above: float = 0.0) -> Sense:
-    """A switch channel: 1 while the sensor `name` shows more than the threshold `above`, else 0."""
+    """Make the function for a switch channel: 1 while the sensor `name` shows more than the threshold `above`, or
+    else 0.
+    """
     return lambda _, data: (float(data.sensor(name).data[0] > above),)
 
 
 class AxesState(Record, frozen=True, kw_only=True):
-    """State of the controller of a machine of n axes."""
+    """State of the controller of a machine with n axes."""
 
     goal: tuple[float, ...]  # where its servos are to be at the end of the period, m and rad, n numbers
     way: tuple[float, ...]  # how far they go in a physics step, n numbers
     left: int  # physics steps of the period that are left
     powered: bool = True
     latched: dict[str, tuple[float, ...]]
-    """Values of the latched channels that have been different from zero since they were cleared."""
+    """For each latched channel, the values that have been different from zero since the channel was cleared."""
 
 
 class BenchAxes(Axes, Mechanism[AxesState]):
-    """One machine of a bench: joints or tendons with position servos of the same names, and its channels."""
+    """One machine of a bench: joints or tendons with position servos, and sensor channels. Servos have the names of
+    their joints or tendons.
+    """
 
     kind = AxesState
     changes = ("actuator_gainprm", "actuator_biasprm", "tree_sleep_policy")
@@ -64,7 +68,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         Args:
             specs: the axes of the machine, by the names of their joints and servos. A servo without a joint of its
                 name drives a tendon.
-            period: s between two goals.
+            period: time between two goals, s.
             channels: the sensor channels, each with the function that reads it.
             at_once: axes whose servos get a goal at once, not gradually during the period.
             bent: a function from the potentiometer readings, shape (n,), to the difference between true and
@@ -90,7 +94,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     @scene_for("a machine")
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Find the machine's joints and servos in a scene."""
+        """Find the joints and servos of the machine in a scene."""
         self._servos = np.array([model.actuator(spec.name).id for spec in self._specs], dtype=int)
         joints = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, spec.name) for spec in self._specs]
         self._jointed = np.array([joint >= 0 for joint in joints], dtype=bool)
@@ -141,7 +145,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         return values
 
     def _true(self) -> Array:
-        """True positions of the axes, shape (n,)."""
+        """Return the true positions of the axes, shape (n,)."""
         data = self._bench.data
         q = data.actuator_length[self._servos].copy()
         q[self._jointed] = data.qpos[self._qpos]
@@ -185,11 +189,11 @@ class BenchAxes(Axes, Mechanism[AxesState]):
     # -- as time passes -------------------------------------------------------------------------------
 
     def _interpolate(self) -> None:
-        """Move the set-points evenly towards the goal during a period, because goals that jump shake whatever lies
+        """Move the set-points evenly towards the goal during a period. Goals that jump shake the objects that lie
         on the axes.
 
-        Measured: with jumping goals, the acceleration of a platter reached 10.8 m/s2 on paths planned with 1 m/s2,
-        and moved the blocks on it.
+        Measured with jumping goals: on paths planned with 1 m/s2, the acceleration of a platter reached 10.8 m/s2
+        and moved the blocks that lay on it.
         """
         if self._left:
             self._left -= 1
@@ -213,13 +217,13 @@ class BenchAxes(Axes, Mechanism[AxesState]):
                     self._latched[channel.name] = values
 
     def _switch(self, *, on: bool) -> None:
-        """Give the servos their gains, or with `on` False take the gains from those that do not hold."""
+        """Switch the gains of the servos on or off. Servos that hold their axes without power keep their gains."""
         model, slack = self._bench.model, self._servos[~self._holds]
         gain, bias = (gains[~self._holds] if on else 0.0 for gains in self._gains)
         model.actuator_gainprm[slack], model.actuator_biasprm[slack] = gain, bias
 
     def _allow_sleep(self, *, allowed: bool) -> None:
-        """Allow the machine's bodies to sleep when they are at rest, or keep them awake."""
+        """Allow the bodies of the machine to sleep when they are at rest, or keep them awake."""
         if not self._sleeps:
             return
         for dof in self._dofs:
@@ -254,12 +258,12 @@ class OutputsState(Record, frozen=True, kw_only=True):
 
 
 class BenchOutputs(Outputs, Mechanism[OutputsState]):
-    """Outputs of a machine on a bench; each is 0 until it is set."""
+    """Outputs of a machine on a bench. Each output is 0 until it is set."""
 
     kind = OutputsState
 
     def __init__(self, bench: Bench, name: str, outputs: Mapping[str, Callable[[float], None]]) -> None:
-        """Outputs by name, each with the function that sets its value in the mechanism concerned."""
+        """Make outputs by name. Each has a function that sets its value in the mechanism concerned."""
         self.name, self._outputs = name, outputs
         self._values = dict.fromkeys(outputs, 0.0)
         bench.add(self)

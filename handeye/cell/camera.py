@@ -1,4 +1,4 @@
-"""The simulated television camera: the camera of the design with the errors of the world, behind its interface."""
+"""The simulated television camera: the designed camera with the errors of the world, behind the device interface."""
 
 import math
 from collections.abc import Iterator
@@ -28,9 +28,10 @@ from handeye.vision.camera_model import CameraModel, View
 TURRET: Final = 20.0  # s for which the turret turns
 SLEW: Final = 5 * DEGREE  # rad/s of pan and of tilt, which turn together
 REFOCUS: Final = 0.0347
-"""Speed of refocusing, 1/m per second: focus rings are divided by the reciprocal of the distance. With these rates
-the looks of a pump take 90 s, the time that the paper gives for all lens changes and focusing: 40 s for the turret,
-12 s for 60 degrees, 36 s for 1.25 1/m and 2 s for four pictures; this division is from the layout study, section 6.
+"""Speed of refocusing, 1/m per second, because focus rings are divided by the reciprocal of the distance. With
+these rates the looks of a pump take 90 s, the time that the paper gives for all lens changes and focusing: 40 s for
+the turret, 12 s for 60 degrees, 36 s for 1.25 1/m, and 2 s for four pictures. This division is from the layout
+study, section 6.
 """
 
 
@@ -60,10 +61,10 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         drawing: CameraModel,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A camera that takes pictures of the state `data`, which it never changes.
+        """Make a camera that takes pictures of the state `data`, which the camera never changes.
 
-        `rng` generates the noise of tube and mount. The lines are `picture`; `turret`, the commanded focal length
-        (m); `camera.pan` and `camera.tilt`, the true angles of the mount (rad).
+        `rng` generates the noise of tube and mount. The lines are `picture`, `turret` (the commanded focal length,
+        m), and `camera.pan` and `camera.tilt` (the true angles of the mount, rad).
         """
         self._data = data
         self._lines = lines
@@ -109,9 +110,10 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
 
     @contextmanager
     def without_shadows(self) -> Iterator[None]:
-        """In this context, lights cast no shadows in pictures: an idealisation, for looks at the lamp of the arm.
+        """Draw pictures without shadows while the context is open. This idealisation is for pictures of the lamp on
+        the arm.
 
-        Two pictures of it differ by the lamp alone, with shadows and without.
+        The lamp is found from two pictures that differ only by the lamp, with or without shadows.
         """
         self._renderer.shadows = False
         try:
@@ -156,7 +158,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         self._vidicon.gain = state.gain
 
     def true_view(self) -> View:
-        """The true present view, for the referee and for tests; the program knows only `pots`."""
+        """Return the true present view, for the referee and for tests. The program knows only `pots`."""
         pan, tilt = self._stand
         return self._model.view(
             self._lens,
@@ -165,14 +167,14 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         )
 
     def shown(self, points_W: Array) -> Array:
-        """True picture points, shape (n, 2), of points in W, shape (n, 3), m, without the drift of the tube; for
-        the referee and for tests.
+        """Return the true picture points, shape (n, 2), of points in W, shape (n, 3), m, without the drift of the
+        tube. For the referee and for tests.
         """
         return self._raster.shown(self.true_view().project(points_W))
 
 
 def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
-    """The true camera model: the design with the errors of the world."""
+    """Return the true camera model: the designed camera with the errors of the world."""
     x, y, z = np.add(drawing.mount, errors.place)
     pan, tilt, roll = errors.turn
     return CameraModel(
@@ -196,14 +198,14 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
 
 
 def renderer_here(kind: str) -> Literal["gl", "ray"]:
-    """`gl` or `ray`: the renderer that `kind` means on this computer; raises InvalidInput if there is none."""
+    """Return the renderer, `gl` or `ray`, that `kind` means on this computer. Raises InvalidInput if there is none."""
     made = make_renderer(kind, mujoco.MjModel.from_xml_string("<mujoco/>"))
     return "gl" if made.identity.method == "opengl" else "ray"
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
-    """Make a renderer: `gl`, `ray`, `auto` (`gl` if it works here), or one made by a caller's function; raises
-    InvalidInput.
+    """Make a renderer. `kind` is `gl`, `ray`, `auto` (`gl` if it works here), or a function of the caller that
+    makes one. Raises InvalidInput if that fails.
     """
     if not isinstance(kind, str):
         return kind(model)

@@ -1,9 +1,9 @@
 """Carriers of tapped holes: bodies in the base that represent the screws engaged in its threads.
 
-A carrier slides along its axis and turns about it; the two motions are bound by the pitch. The axis is that of the
-tapped hole, except for a screw that entered at an angle. The carrier of such a screw takes the screw's own axis, so
-that nothing jumps, and the thread draws it straight as the screw is turned; a cross-threaded screw stays at its
-angle. Head and shank of a carrier touch other parts only while a screw is in its hole; the shank touches only the
+A carrier slides along its axis and turns about it; the pitch couples the two motions. The axis is that of the
+tapped hole, unless a screw entered at an angle. The carrier of such a screw takes the axis of the screw, so that
+nothing jumps. The thread then draws the screw straight as it is turned; a cross-threaded screw stays at its angle.
+The head and shank of a carrier touch other parts only while a screw is in its hole, and the shank touches only the
 bores of gasket and top.
 """
 
@@ -27,10 +27,10 @@ class Carriers:
     """The carriers of one scene, in the order of the tapped holes."""
 
     changes: Final = ("geom_contype", "geom_conaffinity", "geom_group", "body_pos", "body_quat")
-    """Fields of the MuJoCo model that belong to the state of the carriers."""
+    """Fields of the MuJoCo model that are part of the state of the carriers."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Find the carriers in the model; all holes are empty."""
+        """Find the carriers in the model. All holes are empty."""
         self._model, self._data = model, data
         self.count = sum(model.body(i).name.startswith("carrier") for i in range(model.nbody))
         """Number of carriers."""
@@ -45,7 +45,7 @@ class Carriers:
         self.head = np.array([model.geom(f"head{k}").id for k in holes])  # their heads, geoms
         self.site = [model.site(f"thread{k}").id for k in holes]  # their frames, sites
         self.mouths: Array = model.body_pos[self._body].copy()
-        """Mouths of the tapped holes in the frame of the base, m, shape (n, 3)."""
+        """Positions of the mouths of the tapped holes in the frame of the base, m, shape (n, 3)."""
         self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian
         self._solid = [np.array([self.head[k], model.geom(f"shank{k}").id]) for k in holes]
         self._bits = [(model.geom_contype[g].copy(), model.geom_conaffinity[g].copy()) for g in self._solid]
@@ -56,27 +56,31 @@ class Carriers:
             self._show(hole, there=False)
 
     def friction_of(self, hole: int) -> int:
-        """The degree of freedom that has the friction of a hole's thread."""
+        """Return the degree of freedom that has the friction of the thread in a hole."""
         return int(self._model.jnt_dofadr[self._turn[hole]])
 
     def depth(self, hole: int) -> float:
-        """Depth of the point of a screw below the mouth of its hole, along the screw's axis, m."""
+        """Return the depth (m) of the point of a screw below the mouth of its hole, along the axis of the screw."""
         return -float(self._data.qpos[self._model.jnt_qposadr[self._slide[hole]]])
 
     def pose(self, hole: int) -> Pose:
-        """The pose `X_WS` of the screw in a hole; its origin is the screw's point."""
+        """Return the pose `X_WS` of the screw in a hole. The origin of frame S is the point of the screw."""
         body = self._body[hole]
         return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
 
     def velocity(self, hole: int) -> Array:
-        """Angular velocity of the screw in a hole, and velocity of its point, in W, shape (6,)."""
+        """Return the angular velocity (rad/s) of the screw in a hole, and the velocity (m/s) of its point, in W,
+        shape (6,).
+        """
         found = np.zeros(6)
         kind = mujoco.mjtObj.mjOBJ_XBODY
         mujoco.mj_objectVelocity(self._model, self._data, kind, int(self._body[hole]), found, 0)
         return found
 
     def fill(self, hole: int, X_WS: Pose, rate: float) -> None:
-        """Put the carrier of a hole where a screw is, on the screw's own axis, turning at `rate` (rad/s)."""
+        """Move the carrier of a hole to the pose of a screw, with the axis of that screw, turning at `rate`
+        (rad/s).
+        """
         model, data = self._model, self._data
         X_WB = pose(data.xmat[self.base].reshape(3, 3), data.xpos[self.base])
         X_BS = inverse(X_WB) @ X_WS
@@ -97,11 +101,11 @@ class Carriers:
         self._show(hole, there=False)
 
     def turn_back(self, hole: int, turns: float) -> None:
-        """Raise a screw in its thread by some turns, at rest."""
+        """Raise a screw in its thread by some turns, and leave it at rest."""
         self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
     def straighten(self, hole: int, seconds: float) -> None:
-        """Let the thread draw a screw straight while it is turned in for `seconds`."""
+        """Let the thread straighten a screw that is turned in for `seconds`."""
         model, body, mouth = self._model, self._body[hole], self.mouths[hole]
         place, lean = model.body_pos[body], model.body_quat[body][1:].copy()
         if place.tolist() == mouth.tolist() and not any(lean.tolist()):
@@ -116,7 +120,9 @@ class Carriers:
         mujoco.mju_normalize4(model.body_quat[body])
 
     def _move(self, hole: int, along: float, rate: float) -> None:
-        """Set the joints of a carrier, bound by the pitch, to `along` (m) above the mouth and to `rate`."""
+        """Set the joints of a carrier, which the pitch couples, to `along` (m) above the mouth and to `rate`
+        (rad/s).
+        """
         model, data = self._model, self._data
         slide, turn = self._slide[hole], self._turn[hole]
         data.qpos[model.jnt_qposadr[slide]] = along
@@ -125,19 +131,19 @@ class Carriers:
         data.qvel[model.jnt_dofadr[slide]] = rate * self._lead
 
     def _show(self, hole: int, *, there: bool) -> None:
-        """Show head and shank and let them touch other parts, or neither."""
+        """Show the head and shank of a hole and let them touch other parts, or hide them and do not."""
         self.meet(hole, self._model, there=there)
         self._model.geom_group[self._looks[hole]] = SEEN if there else LATENT
 
     def meet(self, hole: int, model: mujoco.MjModel, *, there: bool) -> None:
-        """Let head and shank of a hole touch other parts, or not, in a model of this scene."""
+        """Set whether the head and shank of a hole touch other parts, in a model of this scene."""
         solid = self._solid[hole]
         contype, conaffinity = self._bits[hole] if there else (0, 0)
         model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity
 
 
 def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:
-    """The equality constraint that binds a slide to a turn by the pitch."""
+    """Return the number of the equality constraint that couples a slide to a turn by the pitch."""
     for e in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
         if (model.eq_obj1id[e], model.eq_obj2id[e]) == (slide, turn):
             return int(e)

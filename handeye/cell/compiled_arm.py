@@ -1,7 +1,7 @@
-"""Kinematics and dynamics of an arm in MuJoCo's C code, about twenty times as fast as the formulas for a single
-configuration.
+"""Kinematics and dynamics of an arm in MuJoCo's C code. For a single configuration this is about twenty times as
+fast as the formulas.
 
-The model is made only from the controller's figures of the arm, so it contains nothing about the true cell.
+The model is made only from the arm model of the controller, so it contains nothing about the true cell.
 """
 
 import mujoco
@@ -15,12 +15,12 @@ from handeye.core.pose import Array, Pose
 
 
 class CompiledArm(ArmArithmetic):
-    """An arm as a MuJoCo model of its links and joints. Not for use by several threads, because it computes in one
-    buffer.
+    """An arm as a MuJoCo model of its links and joints. It computes in one buffer, so several threads must not
+    share it.
     """
 
     def __init__(self, arm: ArmModel) -> None:
-        """Compile the arm, which takes some milliseconds."""
+        """Compile the arm. This takes some milliseconds."""
         self._model = _model(arm)
         self._data = data = mujoco.MjData(self._model)
         self._joints, self._tool = self._model.nv, self._model.nbody - 1
@@ -51,7 +51,7 @@ class CompiledArm(ArmArithmetic):
 
 
 def _model(arm: ArmModel) -> mujoco.MjModel:
-    """The links in their DH frames, each nested in the previous one."""
+    """Build a MuJoCo model of the links in their DH frames, each link nested in the previous one."""
     k, spec = constants(arm), mujoco.MjSpec()
     spec.option.gravity = np.array([0.0, 0.0, -GRAVITY])
     turns = link_rotations(

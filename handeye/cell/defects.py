@@ -13,20 +13,20 @@ PICTURE: Final = "picture"  # the line of the camera's pictures
 
 
 class Effect(ABC):
-    """Effect of a defect on the values of a line, which are numbers or the points of a picture."""
+    """Effect of a defect on the values that a line carries. The values are numbers, or the points of a picture."""
 
     __slots__ = ()
 
     @abstractmethod
     def on(self, values: Values, first: Values, seconds: float) -> Values:
-        """Values that arrive, SI, instead of those sent, `seconds` after the defect began; `first` is the value
-        carried when it began.
+        """Return the values (SI) that arrive instead of the values sent, `seconds` after the defect began. `first`
+        is the value that the line carried at that moment.
         """
 
 
 @dataclass(frozen=True, slots=True)
 class Stuck(Effect):
-    """The line stays at the value it carried when the defect began, or at a given value."""
+    """The line keeps the value that it carried when the defect began, or a given value."""
 
     at: float | None = None
 
@@ -36,7 +36,7 @@ class Stuck(Effect):
 
 @dataclass(frozen=True, slots=True)
 class OffsetEffect(Effect):
-    """A constant is added."""
+    """A constant is added to the values."""
 
     by: float
 
@@ -46,7 +46,7 @@ class OffsetEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class DriftEffect(Effect):
-    """A growing amount is added, `rate` per second."""
+    """A growing amount is added to the values, `rate` per second."""
 
     rate: float
 
@@ -56,7 +56,7 @@ class DriftEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class SlipEffect(Effect):
-    """An amount is added that grows evenly to its full size within some seconds."""
+    """An amount is added to the values. It grows evenly to its full size within some seconds."""
 
     by: float
     seconds: float
@@ -67,7 +67,7 @@ class SlipEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class PulseEffect(Effect):
-    """An amount is added for some seconds."""
+    """An amount is added to the values for some seconds."""
 
     by: float
     seconds: float
@@ -78,7 +78,7 @@ class PulseEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class GainEffect(Effect):
-    """Values are multiplied by a factor."""
+    """The values are multiplied by a factor."""
 
     by: float
 
@@ -88,7 +88,7 @@ class GainEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class DropoutEffect(Effect):
-    """Nothing arrives for some seconds."""
+    """No values arrive for some seconds."""
 
     seconds: float
 
@@ -106,4 +106,6 @@ class Defect:
     line: str
     effect: Effect
     stage: int | None = None
-    """Number of the stage with which the defect begins, from 1; None: it is present when the cell is switched on."""
+    """Number of the stage, from 1, with which the defect begins. None if it is present when the cell is switched
+    on.
+    """

@@ -1,4 +1,4 @@
-"""Errors of the devices of a cell: their differences from the controller's model."""
+"""Errors of the devices of a cell: how the true devices differ from the models of the controller."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -11,8 +11,8 @@ from handeye.core.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmErrors:
-    """Errors of the sensors and drives of an arm with n joints; shape (n,), rad, or m for prismatic joints, unless
-    stated.
+    """Errors of the sensors and drives of an arm with n joints. Arrays have shape (n,), in rad, or m for prismatic
+    joints, unless stated.
     """
 
     offset: Array
@@ -30,7 +30,7 @@ class ArmErrors:
 
     @classmethod
     def none(cls, joints: int) -> Self:
-        """Errors of zero."""
+        """Make errors that are all zero."""
         none, ones = np.zeros(joints), np.ones(joints)
         return cls(
             offset=none, scale=none, wave=none, period=ones, phase=none, centre=none, pot_noise=none,
@@ -38,12 +38,12 @@ class ArmErrors:
         )  # fmt: skip
 
     def readings(self, q: Array) -> Array:
-        """Potentiometer readings without noise for true positions `q`, shape (..., n)."""
+        """Return the potentiometer readings without noise at true positions `q`, shape (..., n)."""
         wave = self.wave * np.sin(2 * np.pi * q / self.period + self.phase)
         return np.asarray(q + self.offset + self.scale * (q - self.centre) + wave)
 
     def positions(self, readings: Array) -> Array:
-        """True positions for given readings without noise, shape (..., n)."""
+        """Return the true positions at given readings without noise, shape (..., n)."""
         q = readings
         for _ in range(6):  # the errors are small and smooth: a few fixed-point steps reach 1e-12
             q = q - (self.readings(q) - readings)
@@ -52,8 +52,8 @@ class ArmErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmBuild:
-    """True properties of an arm with n joints; arrays have shape (n,) and are ratios of the true value to the
-    model's, unless stated.
+    """True properties of an arm with n joints. Arrays have shape (n,) and hold the ratio of the true value to the
+    value in the model, unless stated.
     """
 
     link_mass: Array
@@ -78,13 +78,13 @@ class HandErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraErrors:
-    """Differences between a TV camera and its design."""
+    """How a TV camera differs from its design."""
 
     place: tuple[float, float, float]  # error of the mount in W, m
     turn: tuple[float, float, float]  # error of pan, tilt and roll, rad
     focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
-    """Position error of each lens: forwards, to the right and upwards in its picture, m."""
+    """Error of the position of each lens, m: forwards, to the right and upwards in its picture."""
     pot_noise: float  # sigma of the pan and tilt readings, rad
     raster: Raster
     drift: float  # sigma of where a picture lies, along its lines and across, over half its length and height

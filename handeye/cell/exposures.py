@@ -1,7 +1,8 @@
-"""Fine photographs: the mean of many exposures, each through another point of the lens, of the lamp and of the sky.
+"""Fine photographs: the mean of many exposures, each through a different point of the lens and lit from different
+points of the lamp and the sky.
 
-OpenGL draws hard shadows, everything in focus, and jagged edges. The mean, taken of the light and not of the screen
-values, has soft shadows, blur where the picture is out of focus, and smooth edges.
+OpenGL draws hard shadows, everything in focus, and jagged edges. The mean is taken of the light, not of the screen
+values. It has soft shadows, blur where the picture is out of focus, and smooth edges.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,11 +20,11 @@ from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.pose import Array
 
 _TOLD: Final = "gloss/"
-"""Prefix of the scene's numeric fields for the metalness and roughness of a material."""
+"""Prefix of the numeric fields of the scene that hold the metalness and roughness of a material."""
 
 
 def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
-    """Set the gloss of the shapes in a prepared scene as the scene states it for their materials."""
+    """Give the shapes in a prepared scene the gloss that the scene states for their materials."""
     told = _told(model)
     for shape in scene.geoms[: scene.ngeom]:
         if shape.matid in told:
@@ -33,7 +34,7 @@ def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
 
 
 def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
-    """Metalness and roughness of materials, by their number."""
+    """Return the metalness and roughness of materials, by the number of the material."""
     figures = {
         model.numeric(number).name: tuple(model.numeric(number).data.tolist())
         for number in range(model.nnumeric)
@@ -52,7 +53,7 @@ _MIDDLE: Final = 20  # the focus is measured in the middle of the picture, 1/20 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lens:
-    """A lens at a place, looking in a direction, with the picture upright."""
+    """A lens at a place, pointing in a direction, with the picture upright."""
 
     eye: Array  # its middle in W, m
     forward: Array
@@ -63,7 +64,7 @@ class Lens:
 
     @classmethod
     def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:
-        """The lens of the camera for which a scene was prepared."""
+        """Return the lens of the camera for which a scene was prepared."""
         left, right = scene.camera  # two, next to the camera
         high = (left.frustum_top - left.frustum_bottom) / 2 / left.frustum_near
         wide = left.frustum_width / left.frustum_near or high * size[0] / size[1]
@@ -76,8 +77,8 @@ class Lens:
         )
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
-        """Look through a point of the lens, (2,), in radii to the right and up, with the focus unchanged and the
-        picture shifted by `shift`, (2,), points.
+        """Look through a point `at` of the lens, shape (2,), in radii to the right and up. The focus stays
+        unchanged, and the picture is shifted by `shift`, shape (2,), points.
         """
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at
@@ -93,7 +94,7 @@ class Lens:
 
     @staticmethod
     def looked_at(depth: NDArray[np.float32]) -> float:
-        """Distance (m) of the object in the centre of a picture, from its depth buffer."""
+        """Return the distance (m) of the object in the centre of a picture, computed from its depth buffer."""
         rows, columns = (
             slice(side // 2 - side // _MIDDLE, side // 2 + side // _MIDDLE + 1) for side in depth.shape
         )
@@ -106,11 +107,11 @@ _SHADOW: Final = 2048  # points along a side of the map of shadows: their edges 
 _TURN: Final = np.pi * (3 - np.sqrt(5))  # golden angle: from one point of a spiral to the next
 _SEED: Final = 1
 _LIGHT: Final = ((np.arange(256) / 255) ** GAMMA).astype(np.float32)
-"""Amount of light for each value of a screen point."""
+"""Amount of light for each of the 256 values of a pixel."""
 _PLASTIC: Final = np.array([0.7548776662466927, 0.5698402909980532])
-"""Steps of an evenly distributed sequence in a square, from the root of x^3 = x + 1."""
+"""Steps of a sequence that fills a square evenly, from the root of x^3 = x + 1."""
 Progress = Callable[[int, int], None]
-"""Called before each exposure with its number, from 1, and the total number."""
+"""Function called before each exposure with the number of the exposure, from 1, and the total number."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,7 +122,7 @@ class ExposurePlan:
     film: str = "colour"
 
     def __post_init__(self) -> None:
-        """Raises InvalidInput if the film is unknown, or the number of exposures is out of range."""
+        """Raise InvalidInput if the film is unknown or the number of exposures is out of range."""
         if self.film not in FILMS:
             raise NoSuchName(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
         whole = isinstance(self.exposures, (int, np.integer))
@@ -130,7 +131,7 @@ class ExposurePlan:
 
 
 def exposing(*, fine: bool, film: str | None, exposures: int | None) -> ExposurePlan | None:
-    """The requested settings; None for a plain photograph; raises as `ExposurePlan`."""
+    """Return the requested settings, or None for a plain photograph. Raises InvalidInput as `ExposurePlan` does."""
     if not (fine or film is not None or exposures is not None):
         return None
     return ExposurePlan(
@@ -140,7 +141,9 @@ def exposing(*, fine: bool, film: str | None, exposures: int | None) -> Exposure
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Exposure:
-    """Points of the unit discs of lens, lamp and sky for one exposure, and its shift in pixels; shape (2,) each."""
+    """Points on the unit discs of lens, lamp and sky for one exposure, and the shift of the picture in pixels. Each
+    has shape (2,).
+    """
 
     lens: Array
     lamp: Array
@@ -152,7 +155,9 @@ def photographed(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int, how: ExposurePlan | None,
     told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """A photograph by a camera of the scene: fine, or plain if `how` is None; raises as `fine_photograph`."""
+    """Take a photograph with a camera of the scene: a fine one, or a plain one if `how` is None. Raises
+    InvalidInput as `fine_photograph` does.
+    """
     if how is None:
         return smooth_photograph(model, data, camera=camera, width=width, height=height)
     return fine_photograph(model, data, view=camera, width=width, height=height, how=how, told=told)
@@ -162,8 +167,8 @@ def fine_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, view: str | Near, width: int, height: int, how: ExposurePlan,
     told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """A photograph of many exposures; raises InvalidInput if the camera or OpenGL is missing, or the size is
-    impossible.
+    """Take a photograph of many exposures. Raises InvalidInput if the camera or OpenGL is missing, or if the size
+    is impossible.
     """
     check_size(width, height)
     stock = FILMS[how.film]
@@ -184,7 +189,9 @@ def fine_photograph(
 
 
 def _exposures(number: int) -> Iterator[_Exposure]:
-    """Always the same exposures, spread evenly over lens, lamp, sky and pixel, each of the four in another order."""
+    """Yield exposures, always the same ones, spread evenly over the lens, the lamp, the sky and the pixel. The four
+    are visited in different orders.
+    """
     k, order = np.arange(number), np.random.default_rng(_SEED)
     radius, angle = np.sqrt((k + 0.5) / number), _TURN * k
     disc = np.column_stack(

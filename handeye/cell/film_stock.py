@@ -1,4 +1,4 @@
-"""Films: the lighting that belongs to each, and the picture that each makes of the light."""
+"""Films: each has its own lighting, and makes its own picture of the light."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -19,7 +19,7 @@ _GRAZING: Final = 0.2  # least height of a point of the sky, over its distance
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lighting:
-    """The lighting of a photograph: a lamp with a disc, and a sky."""
+    """The lighting of a photograph: a lamp in the form of a disc, and a sky."""
 
     lamp: Colour
     gloss: float  # share of the lamp that shiny shapes mirror
@@ -30,8 +30,8 @@ class Lighting:
     cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
-        """Light a scene from one point of the lamp, in radii, and one of the sky, as seen from above, shape (2,)
-        each.
+        """Light a scene from one point of the lamp, in radii of its disc, and one point of the sky, as seen from
+        above. Each point has shape (2,).
         """
         middle = np.array(model.stat.center)
         scene.nlight = 2
@@ -74,28 +74,28 @@ _VIGNETTE: Final = 0.11  # how much less light falls into the corners
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FilmStock:
-    """A film, and the lighting that belongs to it."""
+    """A film, and the lighting used with it."""
 
     lighting: Lighting
     developed: Callable[[Array], Array]
     """Converts light to screen values from 0 to 1; both have shape (height, width, 3)."""
 
     def develop(self, light: Array) -> NDArray[np.uint8]:
-        """The photograph made by light of shape (height, width, 3), in which 1 is white."""
+        """Make the photograph from light of shape (height, width, 3), in which 1 is white."""
         y, x = (np.linspace(-1, 1, side) for side in light.shape[:2])
         values = self.developed(light * (1 - _VIGNETTE * np.add.outer(y**2, x**2))[..., None])
         return np.asarray(np.rint(255 * np.clip(values, 0, 1)), dtype=np.uint8)
 
 
 def _contrast(values: Array, share: float) -> Array:
-    """Raise the contrast: dark values become darker and light values lighter, by a fraction `share` of a full
-    curve.
+    """Raise the contrast: dark values become darker and light values lighter. `share` is the fraction, from 0 to 1,
+    of the greatest effect.
     """
     return np.asarray((1 - share) * values + share * values**2 * (3 - 2 * values))
 
 
 def _on_screen(light: Array, gain: float) -> Array:
-    """Screen values for light; strong light is compressed, not cut off."""
+    """Convert light to screen values. Strong light is compressed, not cut off."""
     bright = gain * light
     return np.asarray(np.clip(1.28 * bright * (1 + bright / 9) / (1 + bright), 0, 1) ** (1 / GAMMA))
 
@@ -108,13 +108,13 @@ def _black_and_white(light: Array) -> Array:
 
 
 _PANCHROMATIC: Final = np.array([0.30, 0.55, 0.15])
-"""Sensitivity of a black and white film to red, green and blue."""
+"""Sensitivity of a black-and-white film to red, green and blue."""
 _PAPER: Final = np.array([1.0, 0.985, 0.945])
 _GRAIN: Final = 0.016  # how much a point differs by the grain, standard deviation
 
 
 def _grain(height: int, width: int) -> Array:
-    """The grain of the film, always the same for pictures of the same size."""
+    """Make the grain of the film, which is always the same for pictures of the same size."""
     noise = np.random.default_rng(_SEED).standard_normal((height, width))
     soft = cv2.GaussianBlur(noise, (0, 0), max(0.3, 0.8 * height / _LINES))
     return np.asarray(_GRAIN * soft / soft.std())

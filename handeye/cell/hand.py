@@ -1,4 +1,6 @@
-"""A simulated hand with one motor for both fingers, a potentiometer and two switches; its lamp; its screwdriver."""
+"""A simulated hand, with one motor for both fingers, a potentiometer and two switches; its lamp; and its
+screwdriver.
+"""
 
 from collections.abc import Sequence
 from typing import Final
@@ -29,11 +31,11 @@ class HandState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedHand(Mechanism[HandState], HandPort):
-    """Two fingers, their motor `grip`, and the sensors `switch_a` and `switch_b`, with a common prefix in the
-    MuJoCo model.
+    """Two fingers, their motor `grip`, and the sensors `switch_a` and `switch_b`. Their names in the MuJoCo model
+    have a common prefix.
 
-    The activation of the actuator `grip` is the set-point of the finger servo, and the actuator's control is the
-    rate of that set-point, so that the fingers move on smoothly between two commands, as with an analogue servo.
+    The activation of the actuator `grip` is the set-point of the finger servo, and the control of the actuator is
+    the rate of that set-point. The fingers therefore move smoothly between two commands, as with an analogue servo.
     """
 
     kind = HandState
@@ -50,11 +52,11 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A hand at rest.
+        """Make a hand at rest.
 
-        The lines of a hand are `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and `.minus_y`;
-        `switch_force.plus_y` and `.minus_y`, a factor on the force at which a switch closes; and `switches`, which
-        exchanges the two switches while it carries 1.
+        The lines of a hand are `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and
+        `finger_switch.minus_y`. The lines `switch_force.plus_y` and `switch_force.minus_y` carry a factor on the
+        force at which a switch closes. While the line `switches` carries 1, the two switches are exchanged.
         """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data
@@ -86,8 +88,8 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._command = gap, grip
 
     def before(self, seconds: float) -> None:
-        """Move the set-point towards the commanded gap (as the sensor reads gaps), but never far ahead of fingers
-        that are blocked.
+        """Move the set-point towards the commanded gap, but never far ahead of fingers that are blocked. The gap is
+        in the scale of the sensor.
         """
         if self._command is None:
             return
@@ -106,10 +108,10 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._press(grip, start, moved / seconds)
 
     def _press(self, grip: float, start: float, rate: float) -> None:
-        """Set the force limit (N), a stiffness in proportion, and the set-point: `start` (m, as the sensor reads
-        gaps), moving at `rate` (m/s).
+        """Set the force limit (N), a stiffness proportional to it, and the set-point, which begins at `start` (m,
+        in the scale of the sensor) and moves at `rate` (m/s).
 
-        The actuator uses the true gap, which the servo does not know. Its set-point is therefore shifted by the
+        The actuator uses the true gap, which the servo does not know. The set-point is therefore shifted by the
         error of the reading, and moved ahead by the lag of the servo.
         """
         model, motor, stiffness = self._model, self._motor, grip / self._hand.grasp.give
@@ -131,7 +133,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         )
 
     def _told(self, finger: str, number: int) -> bool:
-        """The reading of a finger's switch."""
+        """Return the reading of the switch of a finger."""
         force = self._errors.switch_force[number] * self._lines.carried(f"switch_force.{finger}", 1.0)
         closed = self._data.sensordata[self._switches[number]] > force
         return bool(self._lines.carried(f"finger_switch.{finger}", float(closed)))
@@ -163,7 +165,7 @@ class SimulatedLamp(Mechanism[LampState], LampPort):
     _LIT: Final = ((1.0, 0.96, 0.85, 1.0), 1.0)
 
     def __init__(self, model: mujoco.MjModel, material: str, lines: SignalLines = SOUND) -> None:
-        """A lamp, switched off; its line is `lamp`."""
+        """Make a lamp that is switched off. Its line is `lamp`."""
         self.name = material
         self._lines = lines
         self._model = model
@@ -195,8 +197,8 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
-    """The motor of a screwdriver. Its torque is that of actuators in the model; the effect of its speed is computed
-    by the task's threads.
+    """The motor of a screwdriver. Its torque is read from actuators of the model. The threads of the task compute
+    the effect of its speed.
     """
 
     name = "screwdriver"
@@ -213,7 +215,7 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         watchdog: Watchdog,
         lines: SignalLines = SOUND,
     ) -> None:
-        """A screwdriver at rest; `torque_noise` is the standard deviation of its torque reading, N m.
+        """Make a screwdriver at rest. `torque_noise` is the standard deviation of its torque reading, N m.
 
         The torque of the screwdriver is the sum of the torques of `motors`, counter-clockwise about the spindle.
         The watchdog of the arm that carries the screwdriver also stops its motor. The lines are
@@ -224,11 +226,11 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         self._torque_noise, self._noise = torque_noise, noise
         self._command = self._torque = 0.0
         self.magnet = True
-        """True if the magnet of the bit is to be on; the attraction is computed by the task's threads."""
+        """True if the magnet of the bit is commanded on. The threads of the task compute its attraction."""
 
     @property
     def speed(self) -> float:
-        """Present speed command of the motor, rad/s, positive to drive a screw in."""
+        """Commanded speed of the motor, rad/s, positive to drive a screw in."""
         return 0.0 if self._watchdog.tripped else self._lines.carried("screwdriver.motor", self._command)
 
     def torque(self) -> float:

@@ -1,4 +1,6 @@
-"""Stores the state of a simulation in its scene, so that the scene's files show every body where it was then."""
+"""Stores the state of a simulation in its scene, so that the files of the scene show every body where it was at
+that time.
+"""
 
 from collections.abc import Mapping
 from typing import Final
@@ -13,11 +15,11 @@ HINGE: Final = mujoco.mjtJoint.mjJNT_HINGE
 
 
 def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere: Mapping[str, Pose]) -> None:
-    """Set the bodies of a scene, which may lack some of the simulation's bodies, as they are in the simulation, and
-    store them as the scene's last keyframe.
+    """Set the bodies of a scene as they are in the simulation, and store their state as the last keyframe of the
+    scene. The scene may lack some bodies of the simulation.
 
-    The initial state of the scene is set as well, so that a viewer that loads no keyframe shows the same.
-    `elsewhere` has the poses `X_WP` of free bodies that are to be at rest elsewhere than in the simulation.
+    The initial state of the scene is set as well, so that a viewer that loads no keyframe shows the same state.
+    `elsewhere` gives the poses `X_WP` of free bodies that are to rest at another place than in the simulation.
     """
     for body in spec.bodies:
         if body.joints:
@@ -34,13 +36,13 @@ def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere:
 
 
 def body_pose(data: mujoco.MjData, name: str) -> Pose:
-    """The pose `X_WP` of a body."""
+    """Return the pose `X_WP` of a body."""
     body = data.body(name)
     return pose(body.xmat.reshape(3, 3).copy(), body.xpos.copy())
 
 
 def _stand(body: mujoco.MjsBody, data: mujoco.MjData, elsewhere: Pose | None) -> None:
-    """Set the pose of a body with joints; the present positions of its joints become their initial positions."""
+    """Set the pose of a body with joints. The present positions of its joints become their initial positions."""
     X_WP = body_pose(data, body.name) if elsewhere is None else elsewhere
     X = inverse(body_pose(data, body.parent.name)) @ X_WP
     body.pos = X[:3, 3]

@@ -1,4 +1,4 @@
-"""Shapes of the MuJoCo model for pictures and traces, and their names there."""
+"""Shapes of the MuJoCo model that pictures and traces show, and their names there."""
 
 from typing import Final
 
@@ -11,8 +11,8 @@ MESH: Final = mujoco.mjtGeom.mjGEOM_MESH
 SPHERE: Final = mujoco.mjtGeom.mjGEOM_SPHERE
 
 SCENERY: Final = 1
-"""Geom group of the decorative shapes, which the television camera does not see."""
+"""Geom group of decorative shapes, which the television camera does not see."""
 SEEN: Final = 2  # group of the shapes by which a body is seen
 PLAIN: Final = 5  # group of the shapes that the television camera sees, where photographs show finer ones
 LATENT: Final = 4
-"""Geom group of shapes that appear only after an event, such as screws that are not yet in their threads."""
+"""Geom group of shapes that appear only after an event, such as the screws in threads that are still empty."""

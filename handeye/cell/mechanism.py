@@ -1,4 +1,4 @@
-"""A part of a simulated cell that acts as time passes: a device, or anything that a task adds to the physics."""
+"""The parts of a simulated cell that act as time passes: devices, and whatever else a task adds to the physics."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
@@ -15,7 +15,9 @@ S = TypeVar("S", bound=msgspec.Struct)
 
 @contextmanager
 def scene_for(what: str) -> Iterator[None]:
-    """In this context, a name missing in the scene raises BadArgument with a sentence, instead of KeyError."""
+    """Raise BadArgument with a clear sentence, instead of KeyError, if the scene lacks a name that is used while
+    the context is open.
+    """
     try:
         yield
     except KeyError as error:
@@ -23,24 +25,28 @@ def scene_for(what: str) -> Iterator[None]:
 
 
 class Mechanism(ABC, Generic[S]):
-    """A part of a cell that acts on the simulator before time passes, and may read it afterwards."""
+    """A part of a cell that acts on the simulator before time passes, and may read the simulator afterwards."""
 
     name: str  # by which its state is found
     kind: type[S]  # the type of its state
     changes: ClassVar[tuple[str, ...]] = ()
-    """Fields of the MuJoCo model that the mechanism changes as it runs; they belong to the state of the cell."""
+    """Fields of the MuJoCo model that the mechanism changes as it runs. They are part of the state of the cell."""
 
     def begin_stage(self, number: int) -> None:
-        """Apply the effects due at a stage of the program, given by its number from 1, or at an earlier stage."""
+        """Apply the effects that are due at a stage of the program, given by its number from 1, or at an earlier
+        stage.
+        """
 
     def before(self, seconds: float) -> None:
-        """Prepare for the next `seconds` of time."""
+        """Prepare for the next `seconds`."""
 
     def rested(self, seconds: float) -> None:
-        """`seconds` more than announced by `before` pass at once, because everything sleeps."""
+        """Let `seconds` pass at once, because everything sleeps. They come in addition to the seconds that `before`
+        announced.
+        """
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Continue in a changed scene, in which bodies, joints and servos may have other numbers; raises Refused if
+        """Continue in a changed scene, in which bodies, joints and servos may have other numbers. Raises Refused if
         the mechanism cannot.
         """
         raise Refused(f"{self.name} cannot continue in a changed scene")
@@ -50,7 +56,9 @@ class Mechanism(ABC, Generic[S]):
 
     @abstractmethod
     def state(self) -> S:
-        """The state of the mechanism: everything, besides the simulator's state, on which its future depends."""
+        """Return the state of the mechanism: all values, besides the state of the simulator, on which its future
+        depends.
+        """
 
     def check(self, state: S) -> None:
         """Raise InvalidInput, ValueError, KeyError or TypeError if `state` is impossible for this mechanism."""
@@ -60,4 +68,4 @@ class Mechanism(ABC, Generic[S]):
         """Restore a state that has been checked."""
 
     def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Undo optimisations for speed, in this model or in a copy of it."""
+        """Undo optimisations for speed in this model or in a copy of it."""

@@ -1,4 +1,4 @@
-"""Writes a scene as files that plain MuJoCo opens: XML with figures in full precision, meshes as OBJ, textures as
+"""Writes a scene as files that plain MuJoCo opens: XML with numbers in full precision, meshes as OBJ, textures as
 PNG.
 """
 
@@ -26,11 +26,11 @@ _DIGITS: Final = 10  # places of a vertex, m: finer than the single precision th
 
 
 def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[str, bytes]:
-    """The files of a scene, by their names in its folder; raises Refused if this MuJoCo cannot write figures in
-    full precision.
+    """Return the files of a scene by their names in its folder. Raises Refused if this MuJoCo cannot write numbers
+    in full precision.
 
     The specification is changed, because its meshes and textures become files. `mark` is a comment in the first
-    line of the XML; `told` has texts for `<custom>`, by name.
+    line of the XML. `told` holds the texts of the element `<custom>`, by name.
     """
     for name, text in told.items():
         spec.add_text(name=name, data=text)
@@ -42,7 +42,7 @@ def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[
 
 
 def mesh_of(mesh: mujoco.MjsMesh) -> trimesh.Trimesh:
-    """A mesh of a specification, m; if it has only points, their convex hull."""
+    """Return a mesh of a specification, in m. If the mesh has only points, return their convex hull."""
     points = np.array(mesh.uservert).reshape(-1, 3)
     if not len(mesh.userface):
         hull: trimesh.Trimesh = trimesh.Trimesh(points).convex_hull
@@ -78,8 +78,8 @@ def _textures(spec: mujoco.MjSpec) -> dict[str, bytes]:
 
 @contextmanager
 def _in_full() -> Iterator[None]:
-    """In this context, MuJoCo writes figures in full precision. MuJoCo has a setting for that, but no name for it
-    in Python.
+    """Make MuJoCo write numbers in full precision while the context is open. MuJoCo has a setting for this, but no
+    Python name for the setting.
     """
     try:
         (library,) = Path(mujoco.__file__).parent.glob("*mujoco.[0-9ds]*")
@@ -98,7 +98,7 @@ def _in_full() -> Iterator[None]:
 
 @contextmanager
 def _decimal_points() -> Iterator[None]:
-    """In this context, the C locale of this process has decimal points, which MuJoCo needs to read meshes."""
+    """Use a C locale with decimal points in this process while the context is open. MuJoCo needs it to read meshes."""
     before = locale.setlocale(locale.LC_NUMERIC)
     locale.setlocale(locale.LC_NUMERIC, "C")
     try:
@@ -108,7 +108,7 @@ def _decimal_points() -> Iterator[None]:
 
 
 def _short(figure: re.Match[str]) -> str:
-    """The shortest text of a figure: as a double, or in single precision if the figure is no more precise."""
+    """Write a number as the shortest text that keeps its precision, single or double."""
     value = float(figure[0])
     single = np.float32(value)
     text = str(single) if float(single) == value else repr(value)

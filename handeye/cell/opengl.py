@@ -1,7 +1,7 @@
-"""Pictures by OpenGL, off-screen, on a computer without a display.
+"""Off-screen pictures by OpenGL, on a computer without a display.
 
 The OpenGL context is made here, after its libraries have been tested, and not by the environment variable that
-MuJoCo reads when it is first imported, so that the result does not depend on the order of imports.
+MuJoCo reads when it is first imported. The result therefore does not depend on the order of imports.
 """
 
 import contextlib
@@ -25,9 +25,9 @@ PLATFORMS: Final = (
     ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),
     ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
 )
-"""Platforms: name, module, and alternatives for the libraries that each needs."""
+"""Platforms: the name, the module, and alternatives for the libraries that the platform needs."""
 SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
-"""Prefixes of the environment variables with which a user selects a device or a driver."""
+"""Prefixes of the environment variables by which a user selects a device or a driver."""
 NEAR, FAR = 0.3, 10.0  # clipping planes, m
 MOST_GEOMS: Final = 10000
 
@@ -35,16 +35,16 @@ _WIDTH, _HEIGHT = COLUMNS * FINE, ROWS * FINE
 
 _QUALITY: Final = {"shadowsize": 1024, "offsamples": 0, "numstacks": 2}
 """Quality of pictures: points of the shadow map, samples per fine point, and rings along a cylinder. Finer detail
-is lost, because four fine points are averaged and the vidicon blurs. With the quality of photographs, a picture
-takes three times as long and differs by .001 of white on average.
+would be lost, because four fine points are averaged and the vidicon blurs the picture. With the quality of
+photographs, a picture takes three times as long and differs by .001 of white on average.
 """
 
 
 class OpenGlRenderer(SceneRenderer):
-    """Renders pictures with shadows by OpenGL, at twice the resolution of the picture."""
+    """Renders pictures with shadows by OpenGL, at twice the resolution of the pictures."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        """Raises InvalidInput if there is no usable OpenGL."""
+        """Raise InvalidInput if OpenGL cannot be used."""
         self._model = model
         platform, self._gl = context()
         self.identity = Renderer(method="opengl", platform=platform)
@@ -66,7 +66,7 @@ class OpenGlRenderer(SceneRenderer):
 
     @cached_property
     def _context(self) -> mujoco.MjrContext:
-        """The OpenGL context with the scene, made for the first picture, because making it takes longer than
+        """The OpenGL context with the scene. It is made for the first picture, because making it takes longer than
         building the cell.
         """
         return drawing(self._model, _QUALITY, _WIDTH, _HEIGHT)
@@ -93,7 +93,7 @@ class OpenGlRenderer(SceneRenderer):
         return averaged(rgb[::-1].astype(np.float32) @ (LUMA / 255).astype(np.float32))
 
     def _aim(self, view: View) -> None:
-        """Place the OpenGL camera where the television camera is, with a raster of non-square points."""
+        """Place the OpenGL camera where the television camera is, with its raster of non-square points."""
         X_WC, (fx, fy) = view.X_WC, view.focal
         for eye in self._scene.camera:
             eye.pos[:] = X_WC[:3, 3]
@@ -108,7 +108,7 @@ class OpenGlRenderer(SceneRenderer):
 
 @contextlib.contextmanager
 def replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
-    """In this context, a record of the simulator has other values."""
+    """Change values of a record of the simulator while the context is open."""
     before = {name: getattr(record, name) for name in values}
     for name, value in values.items():
         setattr(record, name, value)
@@ -120,8 +120,8 @@ def replaced(record: Any, values: Mapping[str, int]) -> Iterator[None]:
 
 
 def drawing(model: mujoco.MjModel, quality: Mapping[str, int], width: int, height: int) -> mujoco.MjrContext:
-    """An OpenGL context with a scene, for pictures of a size in points; raises Refused if the driver cannot hold
-    the scene.
+    """Make an OpenGL context with a scene, for pictures of a given size in points. Raises Refused if the driver
+    cannot hold the scene.
     """
     context()[1].make_current()
     try:
@@ -135,7 +135,7 @@ def drawing(model: mujoco.MjModel, quality: Mapping[str, int], width: int, heigh
 
 @cache
 def driver() -> str:
-    """Renderer and version that the OpenGL library reports; raises the same errors as `context`."""
+    """Return the renderer and the version that the OpenGL library reports. Raises InvalidInput as `context` does."""
     context()[1].make_current()
     gl = importlib.import_module("OpenGL.GL")  # which MuJoCo needs, too
     return ", ".join(gl.glGetString(name).decode() for name in (gl.GL_RENDERER, gl.GL_VERSION))
@@ -143,11 +143,11 @@ def driver() -> str:
 
 @cache
 def context() -> tuple[str, Any]:
-    """The platform's name and the only OpenGL context of this process.
+    """Return the name of the platform and the only OpenGL context of this process.
 
-    All renderers share the context, so that the objects of one are never freed in the context of another. Raises
-    InvalidInput if OpenGL does not work here. This is tested with an empty scene, because an OpenGL version that is
-    too old only fails when it is given a scene.
+    All renderers share the context, so that the objects of one renderer are never freed in the context of another.
+    Raises InvalidInput if OpenGL does not work here. This is tested with an empty scene, because an OpenGL version
+    that is too old fails only when it is given a scene.
     """
     set_here = sorted(
         name for name, value in os.environ.items() if name.startswith(SETTINGS) and value != "egl"

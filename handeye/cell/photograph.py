@@ -1,4 +1,4 @@
-"""Colour photographs of the cell, through the cameras of the scene; the arm program never sees them."""
+"""Colour photographs of the cell, taken with the cameras of the scene. The arm program never sees them."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -24,24 +24,26 @@ Photograph = NDArray[np.uint8]  # red, green and blue of every point, shape (hei
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Near:
-    """A close view of a place, from the side on which a camera of the scene stands."""
+    """A close view of a place, seen from the side on which a camera of the scene stands."""
 
     camera: str
     place: tuple[float, float, float]  # W, m
     distance: float  # m
     turned: float = 0.0
-    """Angle by which the viewpoint is turned about the place, counterclockwise seen from above, degrees."""
+    """Angle by which the viewpoint is turned about the place, degrees, counter-clockwise seen from above."""
 
 
 class Photographer:
-    """Takes photographs of one scene, which is loaded into OpenGL once; bodies may be elsewhere in each photograph."""
+    """Takes photographs of one scene, which is loaded into OpenGL once. In each photograph the bodies may be at
+    different places.
+    """
 
     def __init__(
         self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW,
         samples: int = FINE_SAMPLES,
     ) -> None:  # fmt: skip
-        """Prepare for pictures; raises InvalidInput without OpenGL. A smaller shadow map halves the time per
-        picture.
+        """Prepare for photographs. Raises InvalidInput if OpenGL cannot be used. A smaller shadow map halves the
+        time per photograph.
         """
         _, self._gl = context()
         self._drawing = drawing(scene, {"shadowsize": shadow, "offsamples": samples}, width, height)
@@ -52,29 +54,31 @@ class Photographer:
         self._option.sitegroup[:] = 0
 
     def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
-        """A photograph of the scene, or of a copy with other groups visible; raises InvalidInput if there is no
-        such camera.
+        """Take a photograph of the scene, or of a copy of the scene with other groups visible. Raises InvalidInput
+        if there is no such camera.
         """
         self.aimed(model, data, view)
         return self.exposed()
 
     def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
-        """Shapes, camera and lights of a view, which may be changed before the exposure; raises InvalidInput if
-        there is no such camera.
+        """Return the shapes, camera and lights of a view. They may be changed before the exposure. Raises
+        InvalidInput if there is no such camera.
         """
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
         return self._scene
 
     def exposed(self) -> Photograph:
-        """The picture of the view that was aimed at."""
+        """Take the photograph of the view that was last aimed at."""
         self._draw()
         rgb = np.zeros((self._viewport.height, self._viewport.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(rgb, None, self._viewport, self._drawing)
         return rgb[::-1]
 
     def depth(self) -> NDArray[np.float32]:
-        """The depth of each point, 0 at the near clipping plane and 1 at the far one, shape (height, width)."""
+        """Return the depth of each point, from 0 at the near clipping plane to 1 at the far one, shape (height,
+        width).
+        """
         self._draw()
         depth = np.zeros((self._viewport.height, self._viewport.width), dtype=np.float32)
         mujoco.mjr_readPixels(None, depth, self._viewport, self._drawing)
@@ -89,13 +93,13 @@ class Photographer:
 def photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
-    """Take a photograph with a camera of the scene; raises InvalidInput if the camera or OpenGL is missing."""
+    """Take a photograph with a camera of the scene. Raises InvalidInput if the camera or OpenGL is missing."""
     _number(model, camera)
     return Photographer(model, width=width, height=height).take(model, data, camera)
 
 
 def _number(model: mujoco.MjModel, camera: str) -> int:
-    """The number of a camera of the scene; raises InvalidInput if there is no such camera."""
+    """Return the number of a camera of the scene. Raises InvalidInput if there is no such camera."""
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
         there = f"there are {', '.join(names)}" if names else "the scene has none"
@@ -104,7 +108,7 @@ def _number(model: mujoco.MjModel, camera: str) -> int:
 
 
 def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvCamera:
-    """The simulator's camera object for a view."""
+    """Make the camera object of the simulator for a view."""
     eye = mujoco.MjvCamera()
     if isinstance(view, str):
         eye.type, eye.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, _number(model, view)
@@ -117,15 +121,15 @@ def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco
 
 
 def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:
-    """A smooth photograph as a PNG file; raises the same errors as `smooth_photograph`."""
+    """Take a smooth photograph and return it as a PNG file. Raises InvalidInput as `smooth_photograph` does."""
     return png(smooth_photograph(model, data, camera=camera, width=width, height=height))
 
 
 def smooth_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
-    """A photograph that is drawn at twice the size and averaged; raises the same errors as `photograph`, and
-    InvalidInput for an impossible size.
+    """Take a photograph that is drawn at twice its size and averaged. Raises InvalidInput as `photograph` does, or
+    for an impossible size.
     """
     check_size(width, height)
     fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
@@ -133,7 +137,7 @@ def smooth_photograph(
 
 
 def check_size(width: int, height: int) -> None:
-    """Check the size of a photograph; raises InvalidInput if it is impossible."""
+    """Check the size of a photograph. Raises InvalidInput if it is impossible."""
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise BadArgument(
@@ -142,7 +146,7 @@ def check_size(width: int, height: int) -> None:
 
 
 def png(picture: Photograph) -> bytes:
-    """A picture as a PNG file."""
+    """Encode a picture as a PNG file."""
     done, data = cv2.imencode(".png", picture[:, :, ::-1])
     assert done
     return data.tobytes()

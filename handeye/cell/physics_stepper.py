@@ -1,18 +1,19 @@
-"""Steps of the physics: none while everything sleeps, long ones while nothing touches but what is carried, short ones
-for all other contacts.
+"""Steps of the physics: none while everything sleeps, long steps while only carried parts touch other bodies, and
+short steps while there are any other contacts.
 
-Short steps are needed for contacts, whose softness grows with the square of the step. Free motion does not need
-them: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between the two steps.
-Brakes and dry friction of joints are constraints too: a joint held by friction creeps at up to 9e-6 rad/s with long
-steps, instead of 4e-6.
+Contacts need short steps, because their softness grows with the square of the step. Free motion does not: with long
+steps it has the same speeds, but is early by 1.6 ms, half of the difference between the two steps. Brakes and dry
+friction of joints are constraints too. A joint held by friction creeps at up to 9e-6 rad/s with long steps, instead
+of 4e-6 rad/s.
 
-A part that is carried through the air has contacts only with what holds it. These take long steps too, if the task
-names the pair. They are made stiffer, and are still four times as soft as in short steps. Softness does not make a part
-creep in the hand, but the integrator does: Euler's method moves joints, and with them the hand, along an arc, but a
-free body along the tangent, which leaves out the second-order term of its motion, half the acceleration times the
-square of the step. Long steps therefore add this term to carried bodies; it is a few micrometres in a servo period.
-Grasps hold by friction alone, with or without it: a part that slips goes on slipping. With the term, a held part
-creeps less than in short steps, which leave it out.
+A part that is carried through the air touches only the bodies that hold it. These contacts also take long steps, if
+the task names the pair of bodies. In long steps the contacts are made stiffer, and are still four times as soft as
+in short steps. This softness does not make a part creep in the hand, but the integrator does. Euler's method moves
+the joints, and with them the hand, along an arc, but a free body along the tangent. It leaves out the second-order
+term of the motion: half the acceleration times the square of the step. After long steps this term is therefore
+added to carried bodies; it is a few micrometres in a servo period. Grasps hold by friction alone, with or without
+the term: a part that slips goes on slipping. With the term, a held part creeps less than in short steps, which
+leave it out.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. It
 wakes the tree when an awake body touches it, but not on a new command to a motor: code that drives a motor must

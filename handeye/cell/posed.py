@@ -12,18 +12,21 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 
 TURNS: Final = "turns/"
-"""Prefix of the scene's numeric fields that give the period, s, of a rotating body fixed in the world, such as a
-clock hand.
+"""Prefix of the numeric fields of the scene that give the period (s) of a rotating body fixed in the world, such as
+a clock hand.
 """
 
 
 def hand_poses(model: mujoco.MjModel, time: float) -> dict[str, Array]:
-    """Poses of the clock hands at a time of the cell's clock, by the names of their bodies, as in `drawn_poses`."""
+    """Return the poses of the clock hands at a time (s) of the cell's clock, by names of their bodies, as in
+    `drawn_poses`.
+    """
     return {name: rows[0] for name, rows in drawn_poses(model, _turns(model), np.array([time])).items()}
 
 
 def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> dict[str, Array]:
-    """Poses in W of bodies fixed in the world, at times of the cell's clock (s), by name, shape (n, 7) each.
+    """Return the poses in W of bodies fixed in the world at times (s) of the cell's clock, by name. The poses of
+    each body have shape (n, 7).
 
     A pose is a position (m), then a unit quaternion w, x, y, z. Clock hands turn clockwise about their z axis, and
     point to twelve at time 0.
@@ -39,7 +42,7 @@ def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> di
 
 
 def _turns(model: mujoco.MjModel) -> dict[str, float]:
-    """Turns per second of the rotating bodies, by name."""
+    """Return the rotation rates (turns per second) of the rotating bodies, by name."""
     told: list[Any] = [model.numeric(number) for number in range(model.nnumeric)]
     hands = [figure for figure in told if figure.name.startswith(TURNS)]
     return {figure.name.removeprefix(TURNS): 1 / float(figure.data[0]) for figure in hands}
@@ -49,10 +52,11 @@ Posed = tuple[mujoco.MjModel, mujoco.MjData]  # a scene as it stands
 
 
 def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: float = 0.0) -> Posed:
-    """A copy of a scene with its bodies at given poses, for viewing only: joints stay as in the model.
+    """Make a copy of a scene with its bodies at given poses. The copy is only for viewing: joints stay as in the
+    model.
 
-    `poses` has position in W (m) and unit quaternion w, x, y, z by the names of bodies. Bodies without a pose stay
-    as in the model, and bodies that appear only after an event stay hidden. Clock hands show `time` (s).
+    `poses` gives, by names of bodies, a position in W (m) and a unit quaternion w, x, y, z. A body without a pose
+    stays as in the model, and bodies that appear only after an event stay hidden. Clock hands show `time` (s).
     """
     model = copy.copy(scene)
     data = mujoco.MjData(model)
@@ -75,7 +79,7 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: flo
 
 
 def standing(scene: mujoco.MjModel, qpos: Array) -> Posed:
-    """A scene with joint positions `qpos`, in the simulator's order."""
+    """Return a scene with joint positions `qpos`, in the order of the simulator."""
     data = mujoco.MjData(scene)
     data.qpos[:] = qpos
     mujoco.mj_forward(scene, data)
@@ -83,8 +87,8 @@ def standing(scene: mujoco.MjModel, qpos: Array) -> Posed:
 
 
 def as_it_stands(scene: mujoco.MjModel, truth: Truth) -> Posed:
-    """A copy of a scene with its bodies where those of a cell are, for pictures of a cell whose own scene has fewer
-    shapes.
+    """Make a copy of a scene with its bodies where the bodies of a cell are, for pictures of a cell whose own scene
+    has fewer shapes.
     """
     model, data = truth.model, truth.data
     waiting = {*model.geom_bodyid[model.geom_group == LATENT].tolist()}

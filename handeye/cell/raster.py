@@ -1,8 +1,8 @@
 """The raster of a television tube: the positions on its target at which the beam reads the points of a picture.
 
-Deflection coils and their currents are imperfect. The raster is pulled out or in at the corners, uneven along its
-lines and from line to line, and no picture lies exactly where the previous one did. All figures are fractions of
-half the picture.
+Deflection coils and their currents are imperfect. The raster is pulled out or in at the corners, and is uneven
+along its lines and from line to line. No picture lies exactly where the previous picture did. All numbers are
+fractions of half the picture.
 """
 
 from dataclasses import dataclass
@@ -25,12 +25,14 @@ class Raster:
     pincushion: float = 0.0
     """Inward displacement of a corner of the picture, divided by its distance from the centre."""
     lines: float = 0.0
-    """Displacement of the middle of each line, divided by half its length; the ends of the line are in place."""
+    """Displacement of the middle of each line, divided by half the length of the line. The ends of the line are in
+    place.
+    """
     field: float = 0.0  # the same down the picture
 
     def read(self, light: NDArray[np.float32], shift: Array) -> NDArray[np.float32]:
-        """The light that the beam reads, shape (256, 333), in a picture that is shifted by `shift` = (columns,
-        rows).
+        """Return the light that the beam reads, shape (256, 333), in a picture that is shifted by `shift` =
+        (columns, rows).
         """
         import cv2  # not for plans, which know the pump's worlds
 
@@ -48,13 +50,13 @@ class Raster:
         )
 
     def target(self, uv: Array) -> Array:
-        """Positions on the target, in points of an ideal raster, that are read at picture points `uv`, shape (...,
-        2).
+        """Return the positions on the target that are read at picture points `uv`, shape (..., 2), in points of an
+        ideal raster.
         """
         return np.stack(self._target(uv[..., 0], uv[..., 1]), axis=-1)
 
     def _target(self, u: Array, v: Array) -> tuple[Array, Array]:
-        """Like `target`, for separate columns and rows of shapes that can be broadcast."""
+        """Compute `target` for separate columns and rows, whose shapes must broadcast."""
         (p, q), (across, down) = ((u - MIDDLE[0]) / HALF[0], (v - MIDDLE[1]) / HALF[1]), HALF
         stretch = 1 + self.pincushion / 2 * (p**2 + q**2)
         x = MIDDLE[0] + across * (p * stretch + self.lines * (1 - p**2))
@@ -62,7 +64,9 @@ class Raster:
         return x, y
 
     def shown(self, uv: Array) -> Array:
-        """Picture points at which positions on the target are read, shape (..., 2): the inverse of `target`."""
+        """Return the picture points at which positions on the target are read, shape (..., 2). The inverse of
+        `target`.
+        """
         found = uv
         for _ in range(
             8

@@ -13,11 +13,13 @@ from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
 
 SKY: Final = 0.1
-"""Luminance of the background, where there is no object. Placeholder."""
+"""Luminance of the background, where no object is visible. Placeholder."""
 
 
 class RayRenderer(SceneRenderer):
-    """Casts a ray for every sample, and from there a ray to every light for its shadow. Needs no OpenGL."""
+    """Casts a ray for every sample, and from the point it hits a ray to every light, for the shadows. Needs no
+    OpenGL.
+    """
 
     identity = Renderer(method="rays")
 
@@ -45,7 +47,7 @@ class RayRenderer(SceneRenderer):
         return averaged(result.reshape(ROWS * FINE, COLUMNS * FINE))
 
     def _light(self, data: mujoco.MjData, index: int, points: Array, normals: Array) -> Array:
-        """Light of one lamp on surface points, shape (n,)."""
+        """Return the light of one lamp on surface points, shape (n,)."""
         model = self._model
         source, axis = data.light_xpos[index], data.light_xdir[index]
         directional = model.light_type[index] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
@@ -69,8 +71,8 @@ class RayRenderer(SceneRenderer):
 def cast(
     model: mujoco.MjModel, data: mujoco.MjData, origin: Array, rays: Array
 ) -> tuple[NDArray[np.int32], Array, Array]:
-    """Cast rays along unit vectors, shape (n, 3). Returns the geom hit, (n,), or -1; the distance, (n,), m; the
-    normal, (n, 3).
+    """Cast rays along unit vectors, shape (n, 3). Returns the geom hit or -1, shape (n,); the distance (m), shape
+    (n,); and the normal, shape (n, 3).
     """
     n = len(rays)
     geom, distance, normal = np.full(n, -1, dtype=np.int32), np.zeros(n), np.zeros(3 * n)
@@ -93,16 +95,16 @@ def cast(
 
 
 def ambient(model: mujoco.MjModel) -> float:
-    """The ambient light. The rest of MuJoCo's headlight is meant for interactive viewers and does not appear in
-    pictures.
+    """Return the ambient light. The rest of MuJoCo's headlight is meant for interactive viewers and does not appear
+    in pictures.
     """
     head = model.vis.headlight
     return float(LUMA @ head.ambient) if head.active else 0.0
 
 
 def _reflectance(model: mujoco.MjModel) -> tuple[Array, Array]:
-    """Luminance that each geom reflects and emits, shape (ngeom,); a geom's own colour takes precedence over its
-    material.
+    """Return the luminance that each geom reflects and emits, shape (ngeom,). The colour of a geom takes precedence
+    over its material.
     """
     rgba = np.array(model.geom_rgba)
     material = np.array(model.geom_matid)

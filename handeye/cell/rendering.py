@@ -1,8 +1,8 @@
 """Two methods to compute the light on the camera's target: OpenGL off-screen, and ray casting.
 
-Both give the same picture within the resolution of a vidicon: diffuse surfaces without texture or gloss, lights
-with shadows, an ambient level, four samples per picture point. For one state of the scene, each method always gives
-the same values. Neither changes the state.
+Within the resolution of a vidicon the two methods give the same picture: diffuse surfaces without texture or gloss,
+lights with shadows, an ambient level, and four samples per picture point. For one state of the scene, each method
+always gives the same values. Neither changes the state.
 """
 
 from abc import ABC, abstractmethod
@@ -23,8 +23,8 @@ from handeye.vision.camera_model import View
 FINE: Final = 2  # samples for a picture point, along the line and across it
 LUMA: Final = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in luminance, ITU-R BT.601
 SHOWN: Final = np.array([1, 0, 1, 0, 0, 1], dtype=np.uint8)
-"""Geom groups that the camera sees: the ground, the parts, and group 5, which photographs leave out; not group 1,
-decorative scenery.
+"""Geom groups that the camera sees: the ground, the parts, and group 5, which photographs leave out. It does not
+see group 1, the decorative scenery.
 """
 
 
@@ -33,18 +33,18 @@ class SceneRenderer(ABC):
 
     identity: Renderer
     shadows: bool = True
-    """Lights cast shadows. Without them a picture by OpenGL takes a quarter of the time."""
+    """True if lights cast shadows. Without shadows an OpenGL picture takes a quarter of the time."""
 
     @abstractmethod
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
-        """Light on the target, shape (256, 333); geoms and lights in `data` must be up to date."""
+        """Compute the light on the target, shape (256, 333). The geoms and lights in `data` must be up to date."""
 
 
 RendererMaker = Callable[[mujoco.MjModel], SceneRenderer]  # makes the renderer of a scene
 
 
 def averaged(fine: Array | Luminance) -> Luminance:
-    """The mean of the samples of every point."""
+    """Return the mean of the samples of every point."""
     lines = fine.reshape(ROWS, FINE, COLUMNS * FINE).sum(axis=1)
     return np.asarray(lines.reshape(ROWS, COLUMNS, FINE).sum(axis=2) / FINE**2, dtype=np.float32)
 
@@ -53,24 +53,24 @@ _SHOWN: Final = 60  # characters of what is no picture: it may be long
 
 
 class PictureMaker(Protocol):
-    """Computes the light on the target of the television camera; a caller may supply one."""
+    """Computes the light on the target of the television camera. A caller may supply one."""
 
     def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
-        """Light on the target, shape (256, 333); 1 is a white surface in full light. `data` is a copy of the
-        scene's state.
+        """Compute the light on the target, shape (256, 333), in which 1 is a white surface in full light. `data` is
+        a copy of the state of the scene.
         """
 
 
 CameraMaker = Callable[[mujoco.MjModel], PictureMaker]
-"""Makes a `PictureMaker` for a scene; a class can serve as one."""
+"""Function that makes a `PictureMaker` for a scene. A class can serve as one."""
 
 
 class ReplacedCamera(SceneRenderer):
-    """A picture maker supplied by the user. It gets copies of the state, so that it cannot change the run."""
+    """A picture maker supplied by the user. It gets copies of the state, so it cannot change the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
-        """Make the user's picture maker for a scene; `name` is the name of its code. Raises InvalidInput if the
-        result has no method `render`.
+        """Make the picture maker of the user for a scene. `name` is the name of the user's code. Raises
+        InvalidInput if the result has no method `render`.
         """
         self.identity = Renderer(method="replaced", platform=name)
         self._scene = copy(model)

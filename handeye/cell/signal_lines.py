@@ -1,5 +1,5 @@
-"""Signal lines between the devices of a cell and its controller; device faults are injected here, and not in the
-physics.
+"""Signal lines between the devices of a cell and its controller. Device faults are injected in the lines, not in
+the physics.
 
 A device passes all its readings and commands over lines with names such as `potentiometer.3`, `drive.1` and `lamp`.
 A defect on a line changes the values that the line carries, from the moment the defect begins.
@@ -20,7 +20,9 @@ from handeye.ports.camera import COLUMNS, ROWS, Picture
 
 
 def converted(value: float, step: float) -> float:
-    """A number as a converter passes it on: the nearest multiple of `step`, or unchanged if `step` is 0."""
+    """Return a number as a converter passes it on: the nearest multiple of `step`, or the number itself if `step`
+    is 0.
+    """
     return round(value / step) * step if step else value
 
 
@@ -28,12 +30,14 @@ class Converters:
     """A row of converters, one for each number."""
 
     def __init__(self, steps: Array) -> None:
-        """Converters with the steps `steps`, shape (n,); a step of 0 passes a number on unchanged."""
+        """Make converters with the steps `steps`, shape (n,). A converter with a step of 0 passes numbers on
+        unchanged.
+        """
         self._steps, self._none = steps, np.flatnonzero(steps <= 0)
         self._divisors = np.where(steps > 0, steps, 1.0)
 
     def __call__(self, values: Array) -> Array:
-        """The numbers as the converters pass them on, shape (n,)."""
+        """Return the numbers as the converters pass them on, shape (n,)."""
         passed = np.rint(values / self._divisors) * self._steps
         if self._none.size:
             passed[self._none] = values[self._none]
@@ -58,7 +62,7 @@ class SignalLinesState(Record, frozen=True, kw_only=True):
 
 
 class SignalLines(Mechanism[SignalLinesState]):
-    """The signal lines of a cell; several defects on one line act one after another."""
+    """The signal lines of a cell. Several defects on one line act one after another."""
 
     name = "lines"
     kind = SignalLinesState
@@ -83,17 +87,17 @@ class SignalLines(Mechanism[SignalLinesState]):
         self.before(seconds)  # what is broken drifts on
 
     def carried(self, line: str, value: float) -> float:
-        """The number that arrives when `value` is sent, SI."""
+        """Return the number (SI) that arrives when `value` is sent."""
         return float(self._arriving(line, np.array(value, dtype=float))) if self.defects else value
 
     def carried_each(self, line: str, values: Array) -> Array:
-        """The numbers that arrive on `line.1`, `line.2` and so on, shape (n,)."""
+        """Return the numbers that arrive on `line.1`, `line.2` and so on, shape (n,)."""
         if not self.defects:
             return values
         return np.array([self.carried(f"{line}.{number}", value) for number, value in enumerate(values, 1)])
 
     def carried_picture(self, picture: Picture) -> Picture:
-        """The picture that arrives when `picture` is sent."""
+        """Return the picture that arrives when `picture` is sent."""
         return np.asarray(self._arriving(PICTURE, picture), dtype=picture.dtype)
 
     def _arriving(self, line: str, values: Values) -> Values:

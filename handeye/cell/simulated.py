@@ -20,8 +20,8 @@ from handeye.ports.clock import Clock, whole_steps
 from handeye.ports.workcell import Workcell
 
 _HELD: Final = 1 / 60
-"""Longest time, s, for which a device's action on the simulator may stay constant: the finger servo moves, threads
-engage screws.
+"""Longest time (s) for which the action of a device on the simulator may stay constant, because the finger servo
+moves and threads engage screws.
 """
 
 
@@ -43,9 +43,9 @@ class SimulatedCell(Clock, SnapshotCell):
         stepper: PhysicsStepper | None = None,
         noise: np.random.Generator,
     ) -> None:
-        """Switch a cell on; its devices are read for the first time.
+        """Switch a cell on. Its devices are read for the first time.
 
-        `mechanisms`, such as threads and further arms, act on the model in their order. All sensors except the
+        `mechanisms`, such as threads and further arms, act on the model in the given order. All sensors except the
         camera draw their noise from `noise`. Raises ValueError if two devices or mechanisms have the same name,
         because their states are stored by name.
         """
@@ -71,7 +71,7 @@ class SimulatedCell(Clock, SnapshotCell):
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of the cell's camera, or of method `none` without a camera."""
+        """The renderer of the cell's camera. Its method is `none` if the cell has no camera."""
         camera = self.devices.camera
         return Renderer(method="none") if camera is None else camera.renderer
 
@@ -80,17 +80,17 @@ class SimulatedCell(Clock, SnapshotCell):
         return float(self._data.time)
 
     def set_to_zero(self) -> None:
-        """Set the clock to 0 now, as the program begins."""
+        """Set the clock to 0 now, because the program begins."""
         self._data.time = 0.0
 
     def begin_stage(self, number: int) -> None:
-        """Begin a stage of the program, given by its number from 1; faults may begin with it."""
+        """Begin a stage of the program, given by its number from 1. Faults may begin with a stage."""
         for part in self._mechanisms:
             part.begin_stage(number)
 
     def advance(self, seconds: float) -> None:
-        """Let time pass; raises BadArgument unless it is a whole number of physics steps, and PhysicsFailed if the
-        simulation fails.
+        """Let time pass. Raises BadArgument unless `seconds` is a whole number of physics steps, and PhysicsFailed
+        if the simulation fails.
         """
         data, step = self._data, self._model.opt.timestep
         left = whole_steps(seconds, step)
@@ -116,8 +116,8 @@ class SimulatedCell(Clock, SnapshotCell):
 
 @contextmanager
 def pushed(cell: SimulatedCell, force: Vector3) -> Iterator[None]:
-    """In this context, a force (N, in W) pushes the hand: an action of the experimenter that no program can
-    perform.
+    """Push the hand with a force (N, in W) while the context is open. This is an action of the experimenter that no
+    program can perform.
     """
     applied, body = cell.truth.data.xfrc_applied, cell.arm.last_link
     applied[body, :3] = force

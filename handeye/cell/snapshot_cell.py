@@ -1,4 +1,4 @@
-"""A cell whose state can be saved and restored: a MuJoCo model, and mechanisms with states."""
+"""A cell whose state can be saved and restored. It consists of a MuJoCo model, and of mechanisms with states."""
 
 import copy
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 
 class SnapshotCell:
-    """A cell for runs of any system; its state can be saved, restored and viewed."""
+    """A cell for runs of any system. Its state can be saved, restored and viewed."""
 
     def __init__(
         self,
@@ -28,7 +28,7 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change, and mechanisms with distinct names, in the order in which they act."""
+        """Take a scene that will not change, and mechanisms with distinct names. They act in the given order."""
         self._model, self._data, self._noise = model, data, noise
         self._drawn = copy.deepcopy(model)
         self._mechanisms = tuple(mechanisms)
@@ -52,11 +52,11 @@ class SnapshotCell:
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of the cell's camera, or of method `none` without a camera."""
+        """The renderer of the cell's camera. Its method is `none` if the cell has no camera."""
         return Renderer(method="none")
 
     def capture(self) -> CellState:
-        """The complete state of the cell; `restore` restores it in this cell or in one like it."""
+        """Return the complete state of the cell, which `restore` can restore in this cell or in an equal one."""
         physics = np.empty(mujoco.mj_stateSize(self._model, INTEGRATION))
         mujoco.mj_getState(self._model, self._data, physics, INTEGRATION)
         return CellState(
@@ -67,12 +67,13 @@ class SnapshotCell:
         )
 
     def restore(self, state: CellState) -> None:
-        """Restore the cell to a state; what follows is then identical, to the byte, whatever happened before.
+        """Restore the cell to a state. Whatever follows is then identical, byte for byte, no matter what happened
+        before.
 
-        Sleep is not part of a state: everything wakes, and falls asleep again where it is at rest. Therefore a run
-        that is interrupted equals an uninterrupted run only if the cell's own state is restored at every point
-        where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of cell, or is
-        no valid state.
+        Sleep is not part of a state: everything wakes, and falls asleep again where it is at rest. For a run that
+        is interrupted to equal an uninterrupted run, the cell must therefore restore its own state at every point
+        where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of cell or is
+        not valid.
         """
         try:
             self._check(state)
@@ -93,7 +94,7 @@ class SnapshotCell:
         mujoco.mj_setState(model, data, state.physics, INTEGRATION)  # what the solver starts from, too
 
     def _check(self, state: CellState) -> None:
-        """Raises ValueError unless every figure of a state fits this cell."""
+        """Raise ValueError unless every number in a state fits this cell."""
         if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
             raise ValueError("its physics belong to another scene")
         if set(state.figures) != set(self._changes):

@@ -1,11 +1,11 @@
-"""Solids of a scene, by name, as trimesh meshes, and the scene as a glTF file (GLB) of them.
+"""The solids of a scene, by name, as trimesh meshes; and the scene as a glTF file (GLB) of them.
 
-A solid is a coloured surface, with its mass and whether it is closed. A surface that consists of several coloured
-pieces in the scene is one solid here. A surface is only closed if its faces share their corners, and a corner has
-one colour; where two colours meet, the corners get the lighter one.
+A solid is a coloured surface, with its mass and whether it is closed. If a surface consists of several coloured
+pieces in the scene, the pieces form one solid here. A surface is closed only if its faces share their corners, and
+a corner has only one colour. Where two colours meet, the corners get the lighter colour.
 
-The file has a tree of named bodies, their solids, and places on them. In glTF y is up and colours are linear, and
-both are converted. Grain and gloss are left out.
+The file has a tree of named bodies, their solids, and places on them. In glTF, y points up and colours are linear,
+so axes and colours are converted. Grain and gloss are left out.
 """
 
 from collections import Counter
@@ -37,18 +37,20 @@ class Solid:
     shape: trimesh.Trimesh  # in its own frame, m
     X_BS: Pose
     colours: Array
-    """Red, green, blue and opacity on a screen, for each corner, shape (n, 4), or for the whole solid, shape (4,)."""
+    """Red, green, blue and opacity, as screen values, for each corner, shape (n, 4), or for the whole solid, shape
+    (4,).
+    """
 
 
 def placed(solid: Solid) -> trimesh.Trimesh:
-    """The shape of a solid in the frame of its body."""
+    """Return the shape of a solid in the frame of its body."""
     shape: trimesh.Trimesh = solid.shape.copy()
     shape.apply_transform(solid.X_BS)
     return shape
 
 
 def solids_of(spec: mujoco.MjSpec, model: mujoco.MjModel, body: mujoco.MjsBody) -> Iterator[Solid]:
-    """The solids that show a body."""
+    """Yield the solids that make a body visible."""
     pieces: list[tuple[mujoco.MjsGeom, trimesh.Trimesh, Array]] = []
     named: Counter[str] = Counter()
     for number, geom in enumerate(geom for geom in body.geoms if geom.group in (SEEN, SCENERY)):
@@ -81,13 +83,13 @@ def _primitive(model: mujoco.MjModel, geom: mujoco.MjsGeom, name: str) -> Solid:
 
 
 def _mesh(geom: mujoco.MjsGeom, mesh: str, shape: trimesh.Trimesh, colours: Array, *, again: int) -> Solid:
-    """A solid from a mesh that the body has already used `again` times."""
+    """Make a solid from a mesh that the body has already used `again` times."""
     name = f"{mesh}{again}" if again else mesh
     return Solid(name=name, mesh=mesh, shape=shape, X_BS=_pose(geom.quat, geom.pos), colours=colours)
 
 
 def _joined(pieces: Sequence[tuple[trimesh.Trimesh, Array]]) -> tuple[trimesh.Trimesh, Array]:
-    """One surface made of pieces with one colour each, and the colours of its corners."""
+    """Join pieces with one colour each to one surface. Returns the surface, and the colours of its corners."""
     loose = trimesh.util.concatenate([shape for shape, _ in pieces])
     assert isinstance(loose, trimesh.Trimesh)
     painted = np.concatenate([np.tile(colour, (len(shape.vertices), 1)) for shape, colour in pieces])
@@ -98,7 +100,7 @@ def _joined(pieces: Sequence[tuple[trimesh.Trimesh, Array]]) -> tuple[trimesh.Tr
 
 
 def _colour(model: mujoco.MjModel, geom: mujoco.MjsGeom) -> Array:
-    """The mean colour of a shape: the colour of its material, times the mean of its grain."""
+    """Return the mean colour of a shape: the colour of its material, multiplied by the mean of its grain."""
     material = int(model.geom_matid[geom.id])
     if material < 0:
         return np.array(model.geom_rgba[geom.id], dtype=float)
@@ -118,7 +120,7 @@ def _pose(quat: Array, place: Array) -> Pose:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WeighedBody:
-    """The mass of a body of solid metal, from its volume and in the model."""
+    """The mass of a body of solid metal, as computed from its volume and as given in the model."""
 
     body: str
     mass: float  # by volume and density, kg
@@ -135,7 +137,9 @@ class SolidScene:
 
     @classmethod
     def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:
-        """The solids of the wanted bodies, by default of all bodies, including the world's own scenery."""
+        """Collect the solids of the wanted bodies, or if `wanted` is None, of all bodies, including the scenery
+        fixed in the world.
+        """
         model = spec.compile()
         bodies = [body for body in spec.bodies if wanted is None or body.name in wanted]
         return cls(
@@ -149,7 +153,7 @@ class SolidScene:
         return tuple(dict.fromkeys(solid.name for solid in found))
 
     def weighed(self, densities: Mapping[str, float]) -> Iterator[WeighedBody]:
-        """The masses of the bodies all of whose solids have a density; densities in kg/m3, by the names of the
+        """Yield the masses of those bodies whose solids all have a density. Densities (kg/m3) are given by names of
         solids.
         """
         for name, body in self.bodies.items():
@@ -159,7 +163,9 @@ class SolidScene:
 
 
 def _mass(body: Sequence[Solid], densities: Mapping[str, float]) -> float:
-    """Mass of solids from their volumes, kg; a volume that lies in two solids of equal density counts once."""
+    """Return the mass (kg) of solids, computed from their volumes. A volume shared by two solids of equal density
+    counts once.
+    """
     total = 0.0
     for density in sorted({densities[solid.name] for solid in body}):
         shapes = [placed(solid) for solid in body if densities[solid.name] == density]
@@ -174,7 +180,9 @@ _ROUGH: Final = 0.7
 
 
 def glb(scene: SolidScene, told: Mapping[str, str]) -> bytes:
-    """A scene in its present state as a GLB file; `told` has texts for the `extras` of the scene, by name."""
+    """Write a scene in its present state as a GLB file. `told` gives the texts for the `extras` of the scene, by
+    name.
+    """
     data = mujoco.MjData(scene.model)
     mujoco.mj_forward(scene.model, data)
     tree = trimesh.Scene(base_frame=_OUTSIDE, metadata=dict(told))
@@ -196,7 +204,9 @@ def glb(scene: SolidScene, told: Mapping[str, str]) -> bytes:
 
 
 def _node(tree: trimesh.Scene, body: mujoco.MjsBody, data: mujoco.MjData, bodies: Collection[str]) -> str:
-    """The node of a body, attached to the node of its parent body if that is in the tree."""
+    """Return the name of the node of a body. The node is attached to the node of the parent body if that is in the
+    tree.
+    """
     around = body.parent
     if around is None:
         return FRAME

@@ -1,4 +1,4 @@
-"""The complete state of a simulated cell, as plain figures, for checkpoints and for going back in time."""
+"""The complete state of a simulated cell, as plain values, for checkpoints and for going back in time."""
 
 import json
 import math
@@ -15,13 +15,13 @@ V = TypeVar("V", bound=Array | Sequence[float])
 
 
 class CellState(Record, frozen=True, kw_only=True):
-    """The complete state of a cell, without its world and its inputs."""
+    """The complete state of a cell, without the world and the inputs of the cell."""
 
     physics: Array  # MuJoCo's integration state; it begins with the time
     figures: dict[str, Array]  # the fields of the model that the mechanisms of the cell change, as numbers
     noise: str  # state of the sensors' generator, as JSON
     mechanisms: dict[str, dict[str, Any]]
-    """The state of each device and mechanism, by name; each mechanism checks its state before use."""
+    """The state of each device and mechanism, by name. Each mechanism checks its state before use."""
 
     @property
     def time(self) -> float:
@@ -33,27 +33,29 @@ _SCRATCH: Final = np.random.Generator(np.random.PCG64(0))  # states are tried on
 
 
 def noise_state(rng: np.random.Generator) -> str:
-    """The state of a random number generator."""
+    """Return the state of a random number generator as text."""
     return json.dumps(rng.bit_generator.state)
 
 
 def set_noise(rng: np.random.Generator, state: str) -> None:
-    """Set the state of a random number generator; raises what `json.loads` and NumPy raise if the state is invalid."""
+    """Set the state of a random number generator. Raises the exceptions of `json.loads` and NumPy if the state is
+    invalid.
+    """
     rng.bit_generator.state = json.loads(state)
 
 
 def check_noise(state: str) -> None:
-    """Check the state of a random number generator; raises the same errors as `set_noise`."""
+    """Check the state of a random number generator. Raises the same exceptions as `set_noise`."""
     set_noise(_SCRATCH, state)
 
 
 def figures(values: Array) -> tuple[float, ...]:
-    """A one-dimensional array as plain numbers."""
+    """Convert a one-dimensional array to plain numbers."""
     return tuple(values.tolist())
 
 
 def finite(values: V, what: str) -> V:
-    """Return the values; raises InvalidInput if one of them is not finite, with `what` as the name of the values."""
+    """Return the values. Raises InvalidInput if a value is not finite; `what` names the values in its sentence."""
     if not all(map(math.isfinite, values)):
         raise BadFile(f"{what} holds a value that is not a finite number")
     return values

@@ -1,19 +1,20 @@
-"""Screw threads: when a screw's tip enters a tapped hole rightly turned, the hole's carrier takes its place.
+"""Screw threads: when the tip of a screw enters a tapped hole and the screw is turned the right way, the carrier of
+the hole replaces the screw.
 
 Threads are too fine to simulate by contact. Each tapped hole has a carrier in the model (`carriers.py`). A loose
-screw is an ordinary body until, at some tick, its tip is in the bore, near the axis, deep enough, and the screw
-turns clockwise and is at the phase of the thread. Then the screw's body is parked out of sight, and the carrier
-takes its position. A screw that enters tilted cuts its own thread, stays tilted and jams high. From there on
-everything is physics again: the shank touches the holes of the parts above, the head touches the part beneath,
-friction grows with the clamp force, and the motor turns the carrier against the driver's body, so that whatever
-holds driver and tapped body carries the torque. A screw that is turned back to where its thread began is loose
-again. The limits of the model are in scenes/water_pump/README.md.
+screw is an ordinary body until, at some tick, its tip is in the bore, near the axis and deep enough, and the screw
+turns clockwise and is at the phase of the thread. The body of the screw is then parked out of sight, and the
+carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that angle, and jams before
+it is seated. From there on everything is physics again: the shank touches the holes of the parts above, the head
+touches the part beneath, and friction grows with the clamp force. The motor turns the carrier against the body of
+the driver, so the bodies that hold the driver and the tapped part carry the torque. A screw that is turned back to
+where its thread began is loose again. The limits of the model are in scenes/water_pump/README.md.
 
-A scene with screws numbers them from 0 and has these names: free bodies `screw0` (the origin is the point) with
-geoms `screw_head0`, and sites `park0` out of sight; carriers `carrier0` in the tapped body with site `thread0`,
-joints `thread_slide0` and `thread_turn0`, and geoms `head0` and `shank0`. The only driver has the geom `bit`, the
-joint and actuator `spindle`, and the actuators `magnet` and `drive`; `drive` acts from the site of a thread on the
-driver's body.
+A scene with screws numbers them from 0 and uses these names. Each screw is a free body `screw0`, whose origin is
+the point of the screw, with a geom `screw_head0` and a site `park0` out of sight. Each carrier is a body `carrier0`
+in the tapped body, with the site `thread0`, the joints `thread_slide0` and `thread_turn0`, and the geoms `head0`
+and `shank0`. The only driver has the geom `bit`, the joint and actuator `spindle`, and the actuators `magnet` and
+`drive`; `drive` acts from the site of a thread on the body of the driver.
 """
 
 from collections.abc import Set
@@ -51,8 +52,8 @@ BACKING_TORQUE: Final = (
 THREAD_FRICTION: Final = 0.15  # steel on steel, dry. Assembly study.
 THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the flank. Assembly study.
 STIFF: Final = (0.999, 0.9999, 0.0001)
-"""Constraint impedance of a thread. Measured: with MuJoCo's default, a screw under load turns twice more without
-going deeper.
+"""Constraint impedance of a thread. Measured with MuJoCo's default impedance, a screw under load makes two more
+turns without going deeper.
 """
 
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.
@@ -69,11 +70,13 @@ class Thread(Record, frozen=True, kw_only=True):
     crossed: bool = False  # it has cut a thread of its own
     scarred: bool = False  # a screw has been crossed in it, now or before
     clamp: float = 0.0
-    """Force of the screw's head on the part beneath, N, smoothed over a few ticks, at the last turn of the screw."""
+    """Force of the head of the screw on the part beneath, N, at the last turn of the screw, smoothed over a few
+    ticks.
+    """
 
 
 class ThreadsState(Record, frozen=True, kw_only=True):
-    """States of all tapped holes, and the hole whose screw is driven."""
+    """States of all tapped holes, and the number of the hole whose screw is driven."""
 
     holes: tuple[Thread, ...]  # in the order of the carriers
     driven: Number  # the hole whose carrier the driver's motor is coupled to
@@ -93,20 +96,20 @@ class Driver(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ThreadFigures:
-    """True dimensions of threads and screws; holes and screws are numbered from 0."""
+    """True dimensions of threads and screws. Holes and screws are numbered from 0."""
 
     phases: tuple[float, ...]  # where the thread of each hole starts, rad
     friction: float = THREAD_FRICTION
     scarred: Set[int] = frozenset()  # holes in which a screw has been crossed before
     crossing: Set[int] = frozenset()  # holes in which every screw crosses
     slipping: Set[int] = frozenset()
-    """Screws on which the bit slips; no thread takes such a screw, even if something other than the bit turns it a
+    """Screws on which the bit slips. No thread takes such a screw, even if a part other than the bit turns it a
     little.
     """
 
 
 class Threads(Mechanism[ThreadsState]):
-    """The tapped holes, the loose screws and the driver's motor."""
+    """The tapped holes, the loose screws and the motor of the driver."""
 
     name = "threads"
     kind = ThreadsState
@@ -121,7 +124,7 @@ class Threads(Mechanism[ThreadsState]):
         figures: ThreadFigures,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Empty holes. The line `magnet` carries a factor on the force of the bit's magnet."""
+        """Start with empty holes. The line `magnet` carries a factor on the force of the bit's magnet."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers, self._figures = Carriers(model, data), figures
         if len(figures.phases) != self._carriers.count:
@@ -143,7 +146,7 @@ class Threads(Mechanism[ThreadsState]):
 
     @property
     def driven(self) -> int:
-        """The hole whose carrier is coupled to the motor."""
+        """Number of the hole whose carrier is coupled to the motor."""
         return self._carriers.site.index(int(self._model.actuator_trnid[self._drive, 0]))
 
     @driven.setter
@@ -212,8 +215,8 @@ class Threads(Mechanism[ThreadsState]):
         return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
 
     def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
-        """True if the tip of a screw, at `offset` from the mouth of a hole, (3,), m, enters the thread within
-        `seconds`.
+        """Return True if the tip of a screw enters the thread of a hole within `seconds`. `offset` is the position
+        of the tip from the mouth of the hole, shape (3,), m.
         """
         in_bore = np.hypot(offset[0], offset[1]) < CAPTURE and -offset[2] > START_DEPTH
         rate = -self._rate(screw)
@@ -227,11 +230,11 @@ class Threads(Mechanism[ThreadsState]):
         return acos(min(1.0, float(X_WS[:3, 2] @ self._axes()[:, 2])))
 
     def _rate(self, screw: int) -> float:
-        """Rotation rate of a loose screw about its axis, rad/s, positive counter-clockwise."""
+        """Return the rotation rate of a loose screw about its axis, rad/s, positive counter-clockwise."""
         return float(self._data.qvel[self._free(screw)[1] + 5])  # free joints turn in body axes
 
     def _free(self, screw: int) -> tuple[int, int]:
-        """Indices of a loose screw's positions and rates in the simulator's state."""
+        """Return the indices of the positions and rates of a loose screw in the state of the simulator."""
         body = self._screw[screw]
         return int(self._model.jnt_qposadr[self._model.body_jntadr[body]]), int(self._model.body_dofadr[body])
 
@@ -253,8 +256,8 @@ class Threads(Mechanism[ThreadsState]):
         self._let_go(hole)
 
     def loosen(self, screw: int, turns: float | None = None) -> bool:
-        """Raise a screw in its thread by some turns, or release it; return False if it is in no thread, or the bit
-        is on it.
+        """Raise a screw in its thread by some turns, or release the screw if `turns` is None. Returns False if the
+        screw is in no thread, or if the bit is on it.
         """
         hole = next((k for k, thread in enumerate(self.holes) if thread.screw == screw), None)
         if hole is None or hole == self._under_bit():
@@ -288,7 +291,7 @@ class Threads(Mechanism[ThreadsState]):
     # --- the motor ---
 
     def _couple(self, speed: float) -> None:
-        """Let the motor turn the screw head on which the bit stands, if there is one."""
+        """Let the motor turn the screw on which the bit stands, if there is one."""
         model, data = self._model, self._data
         hole = self._under_bit()
         gain = MOTOR_STIFFNESS if hole is not None and speed != 0.0 else 0.0
@@ -300,12 +303,12 @@ class Threads(Mechanism[ThreadsState]):
             self.rub(hole, back=speed < 0)
 
     def _under_bit(self) -> int | None:
-        """The hole with the screw in whose slot the bit is; None if there is none."""
+        """Return the hole whose screw has the bit in its slot, or None if there is none."""
         filled = (k for k, thread in enumerate(self.holes) if thread.screw is not None)
         return next(filter(self._on, filled), None)
 
     def _on(self, hole: int) -> bool:
-        """True if the bit stands upright on the head of a hole's screw, over the slot."""
+        """Return True if the bit stands upright on the head of the screw in a hole, over the slot."""
         data, head = self._data, self._carriers.head[hole]
         if dist(data.geom_xpos[head].tolist(), data.geom_xpos[self._bit].tolist()) > NEAR:
             return False
@@ -316,7 +319,7 @@ class Threads(Mechanism[ThreadsState]):
         return mujoco.mj_geomDistance(self._model, data, self._bit, int(head), 2 * IN_SLOT, None) < IN_SLOT
 
     def rub(self, hole: int, *, back: bool = False) -> None:
-        """Set the friction of a thread for its present clamp force, for turning in or back."""
+        """Set the friction of a thread for its present clamp force. `back` is True if the screw is turned back."""
         if not self._data.body_awake[self._base]:  # its contacts are not kept up to date, but nothing moves
             return
         state = self.holes[hole]
@@ -326,20 +329,22 @@ class Threads(Mechanism[ThreadsState]):
         self._set(hole, rubbed)
 
     def _torque(self, thread: Thread, *, back: bool = False) -> float:
-        """Friction torque of a thread while its screw is turned in or back, N m."""
+        """Return the friction torque (N m) of a thread while its screw is turned in, or if `back` is True, turned
+        back.
+        """
         if thread.crossed:
             return BACKING_TORQUE if back else CROSSED_TORQUE
         return min(RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * thread.clamp, CROSSED_TORQUE)
 
     def write(self, holes: tuple[Thread, ...], model: mujoco.MjModel) -> None:
-        """Apply these thread states to a model of this scene in its initial state."""
+        """Apply thread states to a model of this scene that is in its initial state."""
         for hole, thread in enumerate(holes):
             self._carriers.meet(hole, model, there=thread.screw is not None)
             if thread.screw is not None:
                 model.dof_frictionloss[self._carriers.friction_of(hole)] = self._torque(thread)
 
     def head_force(self, hole: int) -> float:
-        """Force of the head of a hole's screw on the part beneath, N."""
+        """Return the force (N) of the head of the screw in a hole on the part beneath."""
         contact, head = self._data.contact, self._carriers.head[hole]
         pairs = contact.geom
         mine = (pairs == head).any(axis=1) & ~np.isin(pairs, self._driver_geoms).any(axis=1)
@@ -348,7 +353,7 @@ class Threads(Mechanism[ThreadsState]):
 
 
 def holes_of(truth: Truth) -> tuple[Thread, ...]:
-    """The thread states of the base's tapped holes, in the order of the carriers."""
+    """Return the thread states of the tapped holes of the base, in the order of the carriers."""
     state = truth.states[Threads.name]
     assert isinstance(state, ThreadsState)
     return state.holes

@@ -1,4 +1,4 @@
-"""The true state of a simulated cell: for the referee, the trace and tests, never for the working phase."""
+"""The true state of a simulated cell. It is for the referee, the trace and tests, never for the working phase."""
 
 import copy
 from collections.abc import Mapping
@@ -14,18 +14,18 @@ from handeye.cell.mechanism import Mechanism
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Truth:
-    """The simulator's live state; it must not be changed."""
+    """The live state of the simulator, which must not be changed."""
 
     model: mujoco.MjModel
     data: mujoco.MjData
     drawn: mujoco.MjModel
     """The scene in its initial state."""
     states: Mapping[str, msgspec.Struct]
-    """States of the cell's mechanisms, by name, at the time of the request."""
+    """States of the mechanisms of the cell, by name, at the time when the truth was requested."""
     mechanisms: tuple[Mechanism[Any], ...]
 
     def copy(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
-        """A copy of the state for experiments, with all bodies awake and without shortcuts for speed."""
+        """Copy the state for experiments. In the copy all bodies are awake, and the shortcuts for speed are off."""
         kind = int(mujoco.mjtState.mjSTATE_INTEGRATION)
         state = np.empty(mujoco.mj_stateSize(self.model, kind))
         mujoco.mj_getState(self.model, self.data, state, kind)

@@ -19,27 +19,29 @@ GAMMA: Final = 0.7
 NOISE: Final = 1.0  # sigma, levels
 PEAK: Final = 12.5  # level of the bright parts
 BRIGHT: Final = 97  # percentile that counts as the bright parts
-"""Percentile of the signal that counts as the bright parts. This and the constants above are the signal chain of
-the vision study, section 0.1; its numbers are placeholders that give a realistic picture.
+"""Percentile of the signal that counts as the bright parts. This value and the constants above are the signal chain
+of the vision study, section 0.1. Its numbers are placeholders that give a realistic picture.
 """
 GAIN_WINDOW: Final = 0.6
-"""Fraction of width and height, about the centre, for which the target voltage is adjusted. Placeholder."""
+"""The target voltage is adjusted for this fraction of the width and of the height of the picture, about its centre.
+Placeholder.
+"""
 
 F_NUMBER: Final = 2.8
 PITCH: Final = RASTER[0] / COLUMNS  # m
-"""Width of a picture point on the target, m, for the blur of focus; the aperture is a placeholder."""
+"""Width (m) of a picture point on the target, used for the blur of defocus. The aperture is a placeholder."""
 
 
 class Vidicon:
-    """The tube and the digitiser, which keeps its gain (target voltage) from picture to picture."""
+    """The tube and its digitiser. The digitiser keeps its gain (target voltage) from picture to picture."""
 
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
         self.gain: float | None = None  # the target voltage of the last picture; None before the first
 
     def expose(self, light: Luminance, *, disc: float = 0.0, hold_target: bool = False) -> Picture:
-        """Digitise light that is out of focus by a disc of diameter `disc` (points); `hold_target` keeps the gain
-        of the last picture.
+        """Digitise light that is out of focus by a disc of diameter `disc` (points). If `hold_target` is True, the
+        gain of the last picture is kept.
         """
         image = _defocused(light, disc) if disc > 0.5 else light
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1]), np.float32)
@@ -53,8 +55,8 @@ class Vidicon:
 
 
 def blur_disc(focal_length: float, focused: float, distance: float) -> float:
-    """Diameter (points) of the image of a point at `distance` when the lens is focused at `focused`; both in m, or
-    infinite.
+    """Return the diameter (points) of the image of a point at `distance` when the lens is focused at `focused`.
+    Both distances are in m, or infinite.
     """
     spread = 1 / distance if math.isinf(focused) else abs(focused - distance) / (distance * focused)
     lens = 1 if math.isinf(focused) else focused / (focused - focal_length)
@@ -68,7 +70,7 @@ def _shading() -> Luminance:
 
 
 def _defocused(image: Luminance, disc: float) -> Luminance:
-    """The image averaged over a disc, with a border resolved to an eighth of a point."""
+    """Average the image over a disc, whose border is resolved to an eighth of a point."""
     fine = 8
     n = 2 * math.ceil(disc / 2) + 3
     y, x = (np.mgrid[0 : n * fine, 0 : n * fine] + 0.5) / fine - n / 2

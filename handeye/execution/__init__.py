@@ -1,1 +1,1 @@
-"""The working phase: executes a plan in a cell through the cell's device interfaces."""
+"""The working phase: executes a plan in a cell, through the device interfaces of the cell."""

@@ -1,8 +1,8 @@
-"""Camera-arm calibration by observation: the arm carries its lamp through the camera's view.
+"""Calibrates the camera to the arm: the arm carries its lamp through the view of the camera.
 
-The camera is calibrated once when it is set up, before pumps are made, so the duration is not in the table of 1973.
-The calibration uses the position of the hand by the arm's own sensors. The same arm grasps later, so errors common
-to calibration and grasping cancel.
+The camera is calibrated once when it is set up, before any pump is made, so the time for it is not in the table of
+1973. The position of the hand is measured by the sensors of the arm. The same arm grasps the parts later, so errors
+common to calibration and grasping cancel.
 """
 
 import math
@@ -47,9 +47,9 @@ def calibrate_camera(
 ) -> Calibration:
     """Show the lamp to the camera, and fit the camera model to the positions of the hand.
 
-    `state` has the arm's measurements of itself, `drawing` is the design of the camera, and `viewed` is called with
-    the number and the count of the views. Raises CalibrationFailed if the lamp is seen too few times or the picture
-    does not change, and Halted on panic.
+    `state` holds the arm's measurements of itself, and `drawing` is the design of the camera. `viewed` is called
+    with the number of the view and the number of all views. Raises CalibrationFailed if the lamp is seen too few
+    times or the picture does not change, and Halted if the panic button is pressed.
     """
     drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt, arithmetic=arithmetic)
     home = drive.state.q.copy()
@@ -93,8 +93,8 @@ def _camera(drive: ArmDrive) -> TvCamera:
 
 
 def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: float) -> Iterator[Sighting]:
-    """Show the lamp at a place to a camera that is ready at time `ready` (s); yields nothing if the arm cannot
-    reach the place, or the camera does not see the lamp.
+    """Show the lamp at a place to a camera that is ready at time `ready` (s), and yield the sighting. Yields
+    nothing if the arm cannot reach the place, or if the camera does not see the lamp.
     """
     camera = _camera(drive)
     assert drive.arm.hand.lamp is not None

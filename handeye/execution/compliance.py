@@ -1,7 +1,7 @@
 """Compliant straight motions, in which the measured force moves the set-point.
 
-This is admittance control: the speed of the set-point follows the force. Every joint stays under its position
-servo, so that an error of the gravity model does not make the hand drift, as it would with slack joints.
+This is admittance control: the speed of the set-point depends on the force. Every joint stays under its position
+servo. With slack joints, an error of the gravity model would make the hand drift.
 """
 
 import math
@@ -15,7 +15,7 @@ from handeye.core.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
-    """A straight path, and its response to force; vectors are in W."""
+    """A straight path, and how the hand responds to force along it. Vectors are in W."""
 
     compliance: ComplianceModel
     direction: Array  # unit vector, (3,)
@@ -23,34 +23,36 @@ class Course:
     speed: float  # m/s, if not pressing
     force: float | None = None  # force to press with, N; None: move at `speed`
     free: Array = field(default_factory=lambda: np.zeros(3))
-    """for each axis of W along which the hand yields to force, else 0, shape (3,)."""
+    """1 for each axis of W along which the hand yields to force, and 0 for the others, shape (3,)."""
     moment: Array = field(default_factory=lambda: np.zeros(3))
     """Moment to exert about the tool centre point while turning, N m, shape (3,)."""
     spin: Array = field(default_factory=lambda: np.zeros(3))
-    """for each axis of W about which the hand yields to moment, else 0, shape (3,)."""
+    """1 for each axis of W about which the hand yields to moment, and 0 for the others, shape (3,)."""
     friction: Array = field(default_factory=lambda: np.zeros(6))
-    """Sensed joint friction along and about each axis of W, N and N m, shape (6,): the dead band of the compliance.
-
+    """Joint friction that is sensed along and about each axis of W, shape (6,), N and N m. It is the dead band of
+    the compliance.
     """
 
     def patience(self, pressing: int, period: float) -> int:
-        """Greatest number of servo periods for the motion: those of an unhindered motion, and `pressing` more."""
+        """Return the greatest number of servo periods for the motion: the periods of an unhindered motion, and
+        `pressing` more.
+        """
         return pressing + math.ceil(self.distance / self.speed / period)
 
     def advance(self, wrench: Array, tick: int) -> float:
-        """Speed along the path (m/s) for an external wrench, in the servo period numbered `tick`."""
+        """Return the speed along the path (m/s) under an external wrench, in the servo period numbered `tick`."""
         if self.force is None:
             return self.speed * min(1.0, (tick + 1) / self.compliance.ramp)
         felt, k = float(-wrench[:3] @ self.direction), self.compliance
         return float(np.clip((self.force - felt) * k.gain, -k.speed, k.speed))
 
     def yielding(self, wrench: Array) -> Array:
-        """Velocity with which the hand yields to a wrench (m/s), shape (3,)."""
+        """Return the velocity (m/s) with which the hand yields to a wrench, shape (3,)."""
         k = self.compliance
         return np.clip(_beyond(self.free * wrench[:3], self.friction[:3]) * k.gain, -k.speed, k.speed)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
-        """Rotation vector (rad) of the hand one servo period (s) after it was `turn`, shape (3,)."""
+        """Return the rotation vector of the hand (rad), shape (3,), one servo period (s) after it was `turn`."""
         felt, k = wrench[3:], self.compliance
         missing = _beyond(self.spin * felt, self.friction[3:])
         wanted = float(np.linalg.norm(self.moment))
@@ -62,5 +64,5 @@ class Course:
 
 
 def _beyond(felt: Array, deadband: Array) -> Array:
-    """A force or moment reduced by a dead band on each axis."""
+    """Reduce a force or moment by a dead band on each axis."""
     return np.asarray(np.sign(felt) * np.maximum(np.abs(felt) - deadband, 0.0))

@@ -1,4 +1,4 @@
-"""The context of a working phase: plan, arm, cell, and the state that all operations share."""
+"""The context of a working phase: plan, arm and cell, and the state that all operations share."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -23,14 +23,14 @@ from handeye.vision.camera_model import CameraModel
 
 @dataclass(slots=True)
 class Stopwatch:
-    """Adds up the seconds for which it runs, by a given clock; without a clock it stays at zero."""
+    """Adds up the seconds for which it runs, by a given clock. Without a clock it stays at zero."""
 
     clock: Callable[[], float] = lambda: 0.0
     seconds: float = 0.0
 
     @contextmanager
     def running(self) -> Iterator[None]:
-        """In this context, the stopwatch runs."""
+        """Run the stopwatch while the context is open."""
         begun = self.clock()
         try:
             yield
@@ -40,7 +40,9 @@ class Stopwatch:
 
 @dataclass(slots=True, kw_only=True)
 class ExecutionContext:
-    """Plan, arm and cell of a working phase. The drive and the world model keep their state in parts of its state."""
+    """Plan, arm and cell of a working phase. The drive and the world model keep their state in parts of the state
+    of the context.
+    """
 
     plan: Plan
     arm: ArmModel
@@ -51,7 +53,7 @@ class ExecutionContext:
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # what computes an arm at one posture
     vision: Stopwatch = field(default_factory=Stopwatch)
-    """CPU time of vision, s; the working phase itself reads no host clock."""
+    """CPU time of vision, s. The working phase itself reads no clock of the computer."""
     state: ExecutionState = field(init=False)
     drive: ArmDrive = field(init=False)
     world: WorldModel = field(init=False)
@@ -65,19 +67,21 @@ class ExecutionContext:
 
     @property
     def time(self) -> float:
-        """Time on the cell's clock, s, rounded to its period so that it prints the same on every computer."""
+        """Time on the cell's clock, s, rounded to the period of the clock so that it is printed the same on every
+        computer.
+        """
         period = self.arm.servo.period
         return round(round(self.drive.sensed.time / period) * period, 6)
 
     @property
     def felt_friction(self) -> Array:
-        """The wrench sensed at the present configuration because of each joint's measured friction, as columns,
-        shape (6, n); see `arm.friction`.
+        """The wrenches that are sensed at the present configuration because of the measured friction of each joint:
+        one column for each joint, shape (6, n). See `arm.friction`.
         """
         return felt_friction(self.arm, self.drive.state.q, self.drive.state.friction)
 
     def watching(self, guards: Guards) -> Guards:
-        """The guards whose senses are switched on."""
+        """Return the guards whose sensors are switched on."""
         return tuple(guard for guard in guards if guard.sense() not in self.without)
 
     @property
@@ -90,18 +94,18 @@ class ExecutionContext:
 
     @property
     def planned(self) -> PlannedMotion:
-        """The planned motion of the present step; the step must have one."""
+        """The planned motion of the present step. Steps without a motion have none."""
         assert self.state.at is not None
         return self.plan.motions[self.state.at]
 
     def restore(self, state: ExecutionState) -> None:
-        """Restore a state; the cell must have been restored to the same moment. Raises BadFile if the state does
-        not fit the plan.
+        """Restore a state. The cell must already have been restored to the same moment. Raises BadFile if the state
+        does not fit the plan.
         """
         check_fits(state, self.plan, self.arm)
         put_back(self.state, state)
 
 
 Action = Callable[[ExecutionContext, Any], Fault | None]
-"""Executes an operation, and returns the error that the operation raises, or None."""
+"""Function that executes an operation. It returns the error that the operation raises, or None."""
 Decision = Callable[[ExecutionContext, Any], bool]  # True if the step takes its branch

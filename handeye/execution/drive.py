@@ -1,4 +1,4 @@
-"""Drives a single arm: executes motions of its servo loop and lets time pass."""
+"""Drives a single arm: executes the motions of its servo loop, and lets time pass."""
 
 from collections.abc import Callable
 from contextlib import closing
@@ -14,15 +14,17 @@ from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.touch.guards import Monitor
 
 _STANDS: Final = 0.1
-"""Time, s, in which the brakes bring the arm to rest. Chosen."""
+"""Time (s) in which the brakes bring the arm to rest. Chosen."""
 
 
 @dataclass(slots=True, kw_only=True)
 class ArmDrive(ServoLoop):
-    """A servo loop that is alone under its clock; only here does the working phase let time pass."""
+    """The servo loop of an arm that is the only arm under its clock. In the working phase, only this class lets
+    time pass.
+    """
 
     def brake(self, seconds: float) -> None:
-        """Set the brakes and let time pass; the set-point becomes the arm's position at the end."""
+        """Set the brakes and let time pass. The position of the arm at the end becomes the set-point."""
         self._pass(self.braking(seconds))
 
     def stop(self) -> None:
@@ -30,7 +32,7 @@ class ArmDrive(ServoLoop):
         self.brake(_STANDS)
 
     def float(self, seconds: float) -> None:
-        """Release the arm and let time pass: gravity and load are balanced, so that a push moves the hand."""
+        """Release the arm and let time pass. The drives balance gravity and load, so that a push moves the hand."""
         self._pass(self.floating(seconds))
 
     def follow(
@@ -40,7 +42,7 @@ class ArmDrive(ServoLoop):
         direction: Array | None = None,
         beside: Callable[[int], None] = lambda _: None,
     ) -> Outcome:
-        """Follow set-points; end early if `guard` trips. See `following`."""
+        """Follow set-points. The motion ends early if `guard` trips. See `following`."""
         return self._pass(self.following(samples, guard, direction, beside))
 
     def glide(
@@ -50,15 +52,17 @@ class ArmDrive(ServoLoop):
         return self._pass(self.gliding(samples, guard, direction))
 
     def comply(self, course: Course, guard: Monitor | None) -> Outcome:
-        """Move along a straight course, pressing, turning or yielding as it says; end early if `guard` trips."""
+        """Move along a straight course, pressing, turning or yielding as the course says. The motion ends early if
+        `guard` trips.
+        """
         return self._pass(self.complying(course, guard))
 
     def shift(self, here: Dynamics, X_WT: Pose) -> Outcome:
-        """Move for one servo period towards a pose nearby."""
+        """Move for one servo period towards a nearby pose."""
         return self._pass(self.shifting(here, X_WT))
 
     def zero(self) -> Outcome:
-        """Hold still, and take the sensed force as zero. See `zeroing`."""
+        """Hold still, and take the force sensed now as zero. See `zeroing`."""
         return self._pass(self.zeroing())
 
     def hold(self, ticks: int) -> None:

@@ -1,4 +1,6 @@
-"""The executor: executes the steps of a plan one by one, and follows error tests to the next step."""
+"""The executor: executes the steps of a plan one by one. After a step that tests for an error, it continues with
+the step that the test selects.
+"""
 
 from dataclasses import dataclass
 from typing import Final, Literal
@@ -54,7 +56,7 @@ ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | HAND_ACTIONS | 
 
 @dataclass(slots=True, kw_only=True)
 class Executor:
-    """Executes a plan on a cell, a step at a time."""
+    """Executes a plan in a cell, one step at a time."""
 
     run: ExecutionContext
 
@@ -64,7 +66,9 @@ class Executor:
         return self.run.state
 
     def step(self) -> None:
-        """Execute one step, or reverse one; an error that the next step does not test calls the operator."""
+        """Execute one step, or reverse one. If a step raises an error and the next step does not test for it, call
+        the operator.
+        """
         if self.state.undoing is not None:
             stopped = undo_last(self.run)
             if stopped is not None:
@@ -103,7 +107,7 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Continue after a call of the operator, or with `proceed` after a reversal."""
+        """Continue after the operator was called, or with `proceed` after a reversal."""
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"
         going_on = {"proceed": self.state.onward}
@@ -118,8 +122,8 @@ class Executor:
         self._leave("skipped" if choice == "skip" else "done")
 
     def undo(self, undoing: ReversalOrder) -> None:
-        """Order the reversal of executed steps, the last first, until `undoing.left` remain; raises Refused if
-        there are none to reverse.
+        """Order the reversal of executed steps, the last first, until `undoing.left` steps remain. Raises Refused
+        if there are no steps to reverse.
         """
         if undoing.asked_by == "person":
             self.state.unwound.clear()
@@ -128,7 +132,7 @@ class Executor:
         self.run.emit(UndoOrdered(time=self.run.time, left=left, halts=halts, asked_by=asked_by))
 
     def finish(self) -> bool:
-        """End the run; True if the program has been completed."""
+        """End the run. Returns True if the program has been completed."""
         run = self.run
         if self.state.stage is not None:
             stage = run.plan.program.stages[self.state.stage]
@@ -138,7 +142,7 @@ class Executor:
         return completed
 
     def _perform(self, step: Step) -> int | None:
-        """Execute the operation of a step; returns the number of the next step."""
+        """Execute the operation of a step. Returns the number of the next step, or None if the program has ended."""
         operation = step.operation
         if operation.branch is not None:
             taken = DECISIONS[type(operation)](self.run, operation)
@@ -159,19 +163,21 @@ class Executor:
         return step.next
 
     def _past(self, number: int | None) -> int | None:
-        """The step itself, or the first step after it if it belongs to calls of macros that the run leaves out."""
+        """Return the number of the step, or of the first step after it if the step belongs to the call of a macro
+        that the run leaves out.
+        """
         steps = self.run.plan.program.steps
         while number is not None and steps[number].called in self.run.without:
             number = number + 1 if number + 1 < len(steps) else None
         return number
 
     def _tests(self, number: int | None) -> bool:
-        """True if a step tests for an error."""
+        """Return True if a step tests for an error."""
         branch = None if number is None else self.run.plan.program.steps[number].operation.branch
         return branch is not None and branch.error is not None
 
     def _first(self, stage: int) -> int | None:
-        """The first step of a stage, or of the next stage that has steps; None after the last."""
+        """Return the first step of a stage, or of the next stage that has steps, or None after the last stage."""
         steps = self.run.plan.program.steps
         return next((number for number, step in enumerate(steps) if step.stage >= stage), None)
 

@@ -1,4 +1,4 @@
-"""Actions of program flow and memory: tests, counters, searches, saved differences and positions, load and
+"""Actions that do not move the arm: tests, counters, searches, saved differences and positions, load and
 screwdriver.
 """
 
@@ -30,7 +30,7 @@ from handeye.program.world_model import rounded_place
 
 
 def test_error(run: ExecutionContext, operation: Test) -> bool:
-    """Test for an error of the last action, and clear it; True if that error was raised."""
+    """Test for an error of the last action and clear it. Returns True if that error was raised."""
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
     if TESTED.get(operation.number) in run.without:
@@ -58,18 +58,18 @@ def assign(run: ExecutionContext, operation: Assign) -> None:
 
 
 def count_down(run: ExecutionContext, operation: Countdown) -> bool:
-    """Decrement a counter; True while the counter is positive."""
+    """Decrement a counter. Returns True if the counter is still positive."""
     left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
     return left > 0
 
 
 def search(run: ExecutionContext, operation: Search) -> None:
-    """Start a search; the present place is its first place."""
+    """Start a search. The present place becomes the first place of the search."""
     run.state.search = SearchState(step=operation.step, limit=operation.limit, along=operation.along)
 
 
 def advance(run: ExecutionContext, _: Advance) -> Fault | None:
-    """Advance to the next place of the search, for the next searching motion."""
+    """Advance to the next place of the search, for the next motion of the search."""
     state = run.state.search
     if state is None:
         return Fault(number=errors.SEARCH_EXHAUSTED, cause=NoSearch())
@@ -85,7 +85,9 @@ def advance(run: ExecutionContext, _: Advance) -> Fault | None:
 
 
 def save(run: ExecutionContext, operation: Save) -> None:
-    """Save the difference between the present hand position and the goal of the last motion to a position."""
+    """Save the difference between the present hand position and a goal position. The goal is that of the last
+    motion to a position.
+    """
     difference = run.drive.hand()[:3, 3] - run.state.goal
     if operation.name in run.state.restored:  # what it has added already still belongs to it
         difference = difference + run.state.restored[operation.name]
@@ -111,7 +113,7 @@ def where(run: ExecutionContext, _: Where) -> None:
 
 
 def load(run: ExecutionContext, operation: Load) -> None:
-    """Tell the servo to compensate a weight in the hand."""
+    """Make the servo compensate a weight in the hand."""
     run.drive.state.load = operation.weight
 
 
@@ -122,7 +124,7 @@ def tool(run: ExecutionContext, operation: Tool) -> None:
 
 
 def nothing(_: ExecutionContext, __: Operation) -> None:
-    """Do nothing; for operations that only determine the next step or call the operator."""
+    """Do nothing. Used for operations that only select the next step or call the operator."""
 
 
 FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {

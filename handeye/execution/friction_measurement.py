@@ -1,11 +1,11 @@
-"""Measures joint friction and link weights with the arm itself, before the first instruction.
+"""Measures joint friction and link weights with the arm itself, before the first step of the program.
 
 This is the textbook method: each joint moves slowly out and back over the same range at a constant rate. The drive
 torque beyond weight and inertia changes sign between out and back, so half the difference is friction. A second,
 quicker pass removes the part of friction that is proportional to the rate: the line through both passes gives the
 Coulomb friction at rate 0 (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, on identification).
-All joints move at once, because the friction of each joint appears only in that joint's torque. The mean of out and
-back is the weight torque, whatever the friction.
+All joints move at the same time, because the friction of a joint appears only in the torque of that joint. The mean
+of the torques out and back is the weight torque, whatever the friction.
 """
 
 from collections.abc import Callable, Sequence
@@ -30,17 +30,17 @@ from handeye.program.diagnosis.cause_text import cause_sentence
 RAMP: Final = 0.1  # s to the constant rate, and again until the servo has taken friction up; chosen
 MIN_TRAVEL: Final = 0.5  # fraction of its range that a joint must move, or it is stuck; chosen
 MAX_RATIO: Final = 1.8
-"""Greatest plausible ratio of measured friction to the friction in the joint's data.
+"""Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
-Chosen between sound joints and drives that give half of their torque. Measured: sound joints reach 1.61 in sixty
-worlds, and 1.87 in eighty worlds with twice the errors, of which one exceeds the limit; with half a drive the ratio
-is 1.4 to 2.3.
+Chosen between the ratios of sound joints and of drives that give half of their torque. Measured: sound joints reach
+1.61 in sixty worlds. In eighty worlds with twice the errors they reach 1.87, and one joint exceeds the limit. With
+half a drive the ratio is 1.4 to 2.3.
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pass:
-    """A motion out and back at a constant rate; torques are averaged over `seconds` in each direction."""
+    """A motion out and back at a constant rate. Torques are averaged over `seconds` in each direction."""
 
     rate: float
     seconds: float
@@ -48,8 +48,8 @@ class Pass:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointMeasurement:
-    """Coulomb friction of each joint (N m, or N if prismatic), and link weights divided by the model's, shape (n,)
-    each.
+    """Coulomb friction of each joint (N m, or N if prismatic), and measured link weights divided by the weights in
+    the model. Each array has shape (n,).
     """
 
     friction: Array
@@ -58,8 +58,8 @@ class JointMeasurement:
 
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
-"""The quick pass. Chosen: about twenty steps of a 12-bit tachometer, as slow as the hand presses; it takes 3.3 s
-and a range of about 2 in.
+"""The quick pass. Chosen: the rate is about twenty steps of a 12-bit tachometer, which is as slow as the hand
+presses. The pass takes 3.3 s and a range of about 2 in.
 """
 
 
@@ -70,10 +70,11 @@ def measure_joints(
     halt: Callable[[], bool] = lambda: False,
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas,
 ) -> JointMeasurement:
-    """Measure joint friction and link weights; the arm ends where it began.
+    """Measure joint friction and link weights. The arm ends where it began.
 
     The arm moves about the set-point in `state`. Raises FrictionUnknown if a joint does not move as commanded or
-    takes far more torque than its friction, or if a link weight is implausible; raises Halted on panic.
+    takes far more torque than its friction, or if a link weight is implausible. Raises Halted if the panic button
+    is pressed.
     """
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt, arithmetic=arithmetic)
@@ -86,10 +87,11 @@ def measure_joints(
 
 
 def at_rest(slow: Array, quick: Array) -> Array:
-    """Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the passes.
+    """Compute the Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the two
+    passes.
 
-    Friction cannot fall with the rate here; where it seems to, the mean of both passes is used, weighted by their
-    duration.
+    Friction cannot fall with the rate here. Where it seems to fall, the mean of the two passes is used, weighted by
+    their durations.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)
@@ -108,7 +110,7 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
 
 
 def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
-    """Raise FrictionUnknown if a joint takes far more torque than its data say; joints without friction data are
+    """Raise FrictionUnknown if a joint takes far more torque than its data say. Joints without friction data are
     not checked.
     """
     stated = np.array(arm.compliance.friction)
@@ -123,14 +125,14 @@ def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PassTorques:
-    """Torques beyond the arm model in a pass, split into friction and weight, shape (n,)."""
+    """Torques beyond the arm model in a pass, separated into friction and weight, each of shape (n,)."""
 
     rubbing: Array  # opposing the motion
     weight: Array  # equal out and back
 
 
 def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> _PassTorques:
-    """Execute a pass and return its torques; `periods` receives the servo periods."""
+    """Execute a pass and return its torques. The servo periods of the pass are appended to `periods`."""
     k, share = constants(drive.arm), _profile(way, drive.period)
     inwards = np.where(drive.state.q < (k.lower + k.upper) / 2, 1.0, -1.0)
     first, ramp = drive.state.q, round(RAMP / drive.period)
@@ -146,14 +148,18 @@ def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> _PassTorque
 
 
 def _profile(way: Pass, period: float) -> Array:
-    """The rate at the end of each servo period, as a fraction of the constant rate; symmetric in time."""
+    """Return the rate at the end of each servo period, as a fraction of the constant rate. The profile is symmetric
+    in time.
+    """
     ramp, measured = round(RAMP / period), round(way.seconds / period)
     rise = np.linspace(0.0, 1.0, ramp + 1)
     return np.concatenate((rise[1:], np.ones(measured + 2 * ramp), rise[-2::-1]))
 
 
 def _stroke(q: Array, rate: Array, share: Array, period: float) -> Samples:
-    """Set-points from rest at `q` to rest, at fractions `share` of a rate for each joint, shape (n,)."""
+    """Return the set-points of a motion from rest at `q` to rest. The rate of each joint is a fraction `share` of
+    `rate`, shape (n,).
+    """
     before = np.concatenate(([0.0], share[:-1]))
     gone = np.cumsum((before + share) / 2) * period
     shares = (gone, share, (share - before) / period)
@@ -162,7 +168,7 @@ def _stroke(q: Array, rate: Array, share: Array, period: float) -> Samples:
 
 
 def _go(drive: ArmDrive, samples: Samples, periods: Sequence[ServoPeriod]) -> None:
-    """Follow set-points; raises FrictionUnknown if the motion fails."""
+    """Follow set-points. Raises FrictionUnknown if the motion fails."""
     outcome = drive.follow(samples)
     if len(periods) >= len(samples):
         _check_moved(drive.arm, samples, periods)
@@ -182,7 +188,7 @@ def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]
 
 
 def _unexplained(arm: ArmModel, periods: Sequence[ServoPeriod], period: float) -> Array:
-    """Mean torque beyond weight and inertia, shape (n,), from the end of the first servo period on."""
+    """Return the mean torque beyond weight and inertia, shape (n,), from the end of the first servo period on."""
     before, *after = periods
     q = np.array([each.sensed.q for each in after])
     efforts = np.array([each.effort for each in after])

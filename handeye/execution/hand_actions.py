@@ -1,4 +1,4 @@
-"""Actions of the hand: opening, closing and centring, with checks of the hand's sensors."""
+"""Actions of the hand: opening, closing and centring, with checks of the sensors of the hand."""
 
 from typing import Final
 
@@ -66,8 +66,8 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close the fingers until both switches close, or the gap is too small for any object; then check what the hand
-    holds.
+    """Close the fingers until both switches close, or until the gap is too small for any object. Then check that
+    the hand holds the expected object.
     """
     fault = _begin_to_close(run)
     if fault is not None:
@@ -143,7 +143,7 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
 
 
 def _touch(run: ExecutionContext) -> tuple[bool, bool]:
-    """State of the finger switches; (False, False) if touch is switched off."""
+    """Return the state of the finger switches, or (False, False) if touch is switched off."""
     return (False, False) if "touch" in run.without else run.drive.sensed.touch
 
 
@@ -151,7 +151,7 @@ def _touch(run: ExecutionContext) -> tuple[bool, bool]:
 
 
 def _begin_to_close(run: ExecutionContext) -> Fault | None:
-    """Check that no switch is closed before closing; if a finger touches an object, the hand first opens a little."""
+    """Check before closing that no switch is closed. If a finger touches an object, the hand first opens a little."""
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
     if already or not any(_touch(run)):
@@ -163,13 +163,13 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
 
 
 def _driven(start: float, goal: float) -> float:
-    """Distance (m) for which the fingers were driven, at most until they are closed."""
+    """Return the distance (m) for which the fingers were driven, at most until they are closed."""
     return start - max(goal, 0.0)
 
 
 def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
-    """Check that the gap has changed after the fingers were driven by `driven` (m); without touch the check is left
-    out.
+    """Check that the gap changed while the fingers were driven by `driven` (m). If touch is switched off, nothing
+    is checked.
     """
     if "touch" in run.without or not stood_still(start - run.drive.sensed.gap, driven):
         return None
@@ -177,7 +177,7 @@ def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
 
 
 def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault | None:
-    """Check by the gap and both switches that the hand holds an object."""
+    """Check by the gap and by both switches that the hand holds an object."""
     gap, touching = run.drive.sensed.gap, all(_touch(run)) or "touch" in run.without
     unlike = _unlike(run, least, maximum) if all(_touch(run)) else None
     if unlike is not None:
@@ -193,10 +193,10 @@ def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault |
 
 
 def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUnlike | None:
-    """Compare the gap with the nominal thickness of the object held here; None if they agree.
+    """Compare the gap with the nominal thickness of the object held here. Returns None if they agree.
 
-    A gap outside the program's limits is passed over the first time, because the hand may hold another object, or
-    hold it askew. If the next grasp reads the same gap, it is reported.
+    A gap outside the limits that the program gives is not reported the first time, because the hand may hold
+    another object, or hold the object askew. If the next grasp reads the same gap, it is reported.
     """
     state, gap = run.state, run.drive.sensed.gap
     objects = run.plan.program.held.items()

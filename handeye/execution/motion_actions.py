@@ -55,7 +55,7 @@ PLAN_TOLERANCE: Final = 1e-4  # a goal or start within this (m, rad) of its plan
 
 
 def move(run: ExecutionContext, operation: Move) -> Fault | None:
-    """Move to a position at its measured place, shifted by saved differences and the search offset."""
+    """Move to a position at its measured place, shifted by saved differences and by the offset of the search."""
     X_WT = run.world.position(operation.goal)
     run.state.restored = {}
     for restore in operation.restore:
@@ -85,7 +85,9 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
 def _trajectory(
     run: ExecutionContext, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
-    """The planned trajectory if all poses are as planned, else an adjusted trajectory."""
+    """Return the planned trajectory if all poses are as planned, or else an adjusted trajectory. Returns the reason
+    if a pose is out of reach.
+    """
     motion = run.planned
     knots = np.array(motion.knots)
     as_planned = np.abs(knots[0] - run.drive.state.q).max() < PLAN_TOLERANCE
@@ -101,7 +103,7 @@ def _trajectory(
 
 
 def change(run: ExecutionContext, operation: Change) -> Fault | None:
-    """Move straight from the present place; guards on force or torque end the motion, and the hand presses if the
+    """Move straight from the present place. Guards on force or torque end the motion, and the hand presses if the
     operation says so.
     """
     start = run.drive.hand()[:3, 3]
@@ -143,7 +145,7 @@ def _course(run: ExecutionContext, operation: Change) -> Course:
 
 
 def _axes(wanted: Vector3 | None) -> Array:
-    """1 for each wanted axis, else 0."""
+    """Return 1 for each wanted axis and 0 for the others."""
     return np.zeros(3) if wanted is None else (np.array(wanted) != 0).astype(float)
 
 
@@ -161,8 +163,8 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
 
 
 def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
-    """Report, once per statement, a guard that is hard to distinguish from friction; the motion begins in direction
-    `along`, (3,), W.
+    """Report a guard that is hard to distinguish from friction, once for each statement. The motion begins in
+    direction `along`, shape (3,), W.
     """
     assert run.state.at is not None
     place = run.plan.program.steps[run.state.at].place
@@ -179,7 +181,9 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
-    """The error of a motion: none if a guard tripped, and the guards' error if none did."""
+    """Return the error of a motion. A motion has no error if one of its guards tripped; if none tripped, it has the
+    error of its guards.
+    """
     if outcome.error is not None:
         cause = outcome.cause
         if isinstance(cause, HandAstray | JointBehind):
@@ -201,10 +205,10 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
 
 
 def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow | None:
-    """Compare the current of the screwdriver's motor with the known torques, of starting and of the clutch.
+    """Compare the current of the screwdriver's motor with the known torques of starting and of the clutch.
 
-    The motor may start against a resistance and then takes more torque; it never takes less, nor more than its
-    clutch transmits.
+    If the motor starts against a resistance, it takes more torque than usual. It never takes less, and never more
+    than its clutch transmits.
     """
     drive, least = run.drive.state, STARTING_TORQUE - 4 * CURRENT_NOISE / math.sqrt(STARTING_PERIODS)
     if drive.current > STALLED_TORQUE + 5 * CURRENT_NOISE:
@@ -222,11 +226,11 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
 
 
 def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """The error of a motor that is held fast: its torque of the last second is high, but below the torque of the
-    guard.
+    """Return the error if the motor is held fast: its torque of the last second is high, but below the torque of
+    the guard.
 
-    No thread and no slipping bit takes that much torque for that long; a motor held fast takes the torque of its
-    clutch.
+    No thread and no slipping bit takes as much torque for so long. A motor that is held fast takes the torque of
+    its clutch.
     """
     lately, asked = run.drive.state.lately, min(each.torque for each in guards if isinstance(each, Torque))
     enough = len(lately) >= round(PLATEAU / run.drive.period) and asked <= STALLED_TORQUE

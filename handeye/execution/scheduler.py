@@ -1,4 +1,4 @@
-"""Tasks that run together under one clock: each waits for a time or a condition, and their order is deterministic.
+"""Runs tasks together under one clock. Each task waits for a time or a condition, and their order is deterministic.
 
 Time is counted exactly, in rational seconds or whole microseconds, so that periods of 10 ms and 1/60 s do not drift
 apart.
@@ -27,7 +27,7 @@ _MOST_AT_ONCE: Final = 1_000_000  # turns of a task at one moment
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Until:
-    """Wait for a condition. The condition is tested after another task has acted, time has passed, or an event of
+    """A wait for a condition. The condition is tested after another task has acted, time has passed, or an event of
     the clock was handled.
     """
 
@@ -40,7 +40,7 @@ Task = Generator[Wait, None, T]
 
 
 class Deadlock(HandeyeError):
-    """All remaining tasks wait for conditions, and none of the conditions is met."""
+    """Raised when all remaining tasks wait for conditions, and no condition is met."""
 
     def __init__(self, waiting: dict[str, str]) -> None:
         said = ", ".join(f"{task} waits for {what}" for task, what in waiting.items())
@@ -51,15 +51,16 @@ class Deadlock(HandeyeError):
 class Agenda(MutableRecord, Generic[Time], kw_only=True):
     """The order and times at which tasks continue, as a record that a system can keep in its state.
 
-    The task that is due first continues. Of several tasks due at once, the first in `due` continues, but no task
-    continues twice before the others.
+    The task that is due first continues. If several tasks are due at the same time, the first in `due` continues,
+    but no task continues twice before the others have continued.
     """
 
     now: Time
     due: dict[str, tuple[Time, int]] = msgspec.field(default_factory=dict)
-    """For each task: the time since which it is due or waits, and how often it has continued at that time."""
+    """For each task, the time since which it has been due or waiting, and how often it has continued at that time.
+    """
     waits: dict[str, str] = msgspec.field(default_factory=dict)
-    """The tasks that wait for a condition, each with the condition's name."""
+    """The tasks that wait for a condition, each with the name of its condition."""
 
     def add(self, task: str) -> None:
         """Add a task that begins now, after the tasks already due."""
@@ -71,11 +72,12 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         pass_until: Callable[[Time], Time],
         next_event: Callable[[], Time | None] = lambda: None,
     ) -> str | None:
-        """The task that continues next, for which the caller must then call `sleep`, `wait` or `end`; None if all
-        tasks have ended.
+        """Return the task that continues next, or None if all tasks have ended. The caller must then call `sleep`,
+        `wait` or `end` for the task.
 
-        `met` tells whether the condition of a waiting task is met; `pass_until` lets time pass at least until a
-        given time and returns the new time; `next_event` gives the time of the next event for which tasks may wait.
+        `met` returns True if the condition of a waiting task is met. `pass_until` lets time pass at least until the
+        given time, and returns the new time. `next_event` returns the time of the next event for which tasks may
+        wait.
         """
         while self.due:
             ready = [
@@ -116,15 +118,16 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
 
 
 def microseconds(count: int) -> Fraction:
-    """A whole number of microseconds as a duration, s."""
+    """Convert a whole number of microseconds to a duration, s."""
     return Fraction(count, 1_000_000)
 
 
 def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> list[T]:
-    """Run tasks together under one clock, each when it is due; returns the result of each.
+    """Run tasks together under one clock, each when it is due. Returns the result of each task.
 
-    An arm whose motion has ended is no longer driven while other arms move, so its watchdog sets its brakes.
-    `names` are the names of the tasks in a deadlock, by default `task 1`, `task 2` and so on.
+    When the motion of an arm has ended, the arm is no longer driven while other arms move, so its watchdog sets its
+    brakes. `names` are the names of the tasks in the message of a deadlock, by default `task 1`, `task 2` and so
+    on.
     """
     names = names or [f"task {number + 1}" for number in range(len(tasks))]
     running = dict(zip(names, tasks, strict=True))
@@ -166,7 +169,7 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
 
 @lru_cache(maxsize=64)
 def _exact(seconds: float | Fraction) -> Fraction:
-    """The exact duration that a floating-point number stands for: 1/60 s for 0.016666666666666666."""
+    """Return the exact duration that a floating-point number stands for: 1/60 s for 0.016666666666666666."""
     if isinstance(seconds, Fraction):
         return seconds
     if not isfinite(seconds):

@@ -1,4 +1,4 @@
-"""The servo of an arm: one servo period, in which torques are commanded and the force on the hand is estimated.
+"""The servo of an arm. In each servo period it commands torques and estimates the force on the hand.
 
 The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
 forces from the residual of the joint torques. A period does not let time pass itself: it yields after commanding
@@ -33,30 +33,30 @@ class ServoPeriod(Record, frozen=True, kw_only=True):
 
     sensed: Sensed  # readings of all devices at its end
     effort: Array
-    """Commanded joint torques, shape (n,), N m (N if prismatic); zero under brakes, and for servos outside the
-    computer.
+    """Commanded joint torques, shape (n,), N m (N if prismatic). They are zero under brakes, and for servos outside
+    the computer.
     """
     wrench: Array | None = None
-    """Force (N) of the hand on the world and moment (N m) about its tool centre point in W, shape (6,), as
-    estimated; or only the force, shape (3,), from a sensor; None if not estimated, or only for the tare.
+    """Estimated force (N) of the hand on the world and moment (N m) about its tool centre point, in W, shape (6,).
+    If a sensor measures the force, only the force, shape (3,). None if nothing was estimated, or only the tare.
     """
     guards: tuple[ActiveGuard, ...] = ()  # guards that watch at its end
 
 
 T = TypeVar("T")
 Motion = Generator[float, None, T]
-"""A motion in progress: a generator that yields the time, s, after which it must be resumed, and returns its
-result.
+"""A motion in progress: a generator that yields the time (s) after which it must be resumed, and returns the result
+of the motion.
 """
 
 
 class Halted(Exception):
-    """The panic button was pressed: drives are off and brakes set since this servo period."""
+    """Raised when the panic button is pressed. The drives are off and the brakes set since this servo period."""
 
 
 @dataclass(slots=True, kw_only=True)
 class Servo:
-    """The servo of one arm, and the commands that it sends to its cell with every torque."""
+    """The servo of one arm, and the commands that it sends to the cell together with every torque."""
 
     cell: Workcell
     arm: ArmModel
@@ -80,7 +80,7 @@ class Servo:
 
     @property
     def chain(self) -> ArmArithmetic:
-        """The arithmetic for the model `built`."""
+        """The kinematics and dynamics of the model `built`."""
         built = self.built
         if self._chain is None or self._chain[0] is not built:
             self._chain = built, self.arithmetic(built)
@@ -94,15 +94,15 @@ class Servo:
         return self.cell.sense()
 
     def hand(self) -> Pose:
-        """The hand pose `X_WT` by the arm's own sensors."""
+        """Return the hand pose `X_WT`, measured by the sensors of the arm."""
         return self.chain.forward(self.state.here)
 
     def dynamics(self) -> Dynamics:
-        """Mass matrix, bias torques and Jacobian at rest, at the present set-point."""
+        """Return the mass matrix, bias torques and Jacobian at rest at the present set-point."""
         return self.chain.at_rest(self.state.q)
 
     def _reading(self, direction: Array) -> Reading:
-        """The sensor reading for the guards."""
+        """Return the sensor readings for the guards."""
         sensed = self.sensed
         return Reading(
             force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
@@ -122,7 +122,7 @@ class Servo:
         dither: Array | float = 0.0,
         guards: tuple[ActiveGuard, ...] = (),
     ) -> Motion[Array]:
-        """One servo period towards a set-point nearby; see `_servo`."""
+        """Run one servo period towards a nearby set-point; see `_servo`."""
         qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
         spare = yield from self._servo(
             here, self.state.q, qd, rest,
@@ -144,12 +144,12 @@ class Servo:
         sense: Array | float = 0.0,
         dither: Array | float = 0.0,
     ) -> Motion[Array]:
-        """One servo period in which the arm should begin at `q` with rates `qd`.
+        """Run one servo period in which the arm should begin at `q` with rates `qd`.
 
-        If `estimate` is set, the force on the hand is estimated at the end of the period, for `guards` or, if
-        `taring`, for the tare. `sense` is the direction in which each joint slides, -1 to 1: friction against it is
-        compensated and not sensed as force. `dither` are torques in addition to those of the servo. Returns the
-        torque residual, (n,), beyond weight, inertia and load, with friction included.
+        If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
+        `taring` is True, for the tare. `sense` is the direction in which each joint slides, from -1 to 1; friction
+        against it is compensated, so that it is not sensed as force. `dither` are torques in addition to those of
+        the servo. Returns the torque residual, shape (n,), beyond weight, inertia and load; it includes friction.
         """
         q_was, before = self.state.here, self.sensed
         load = here.J[2] * self.state.load
@@ -178,9 +178,10 @@ class Servo:
         taring: bool = False,
         periods: int = 1,
     ) -> Motion[Sensed]:
-        """One servo period with torques `tau`, or several under brakes (None); `feel` estimates the force at its end.
+        """Run one servo period with torques `tau`, or if `tau` is None, several periods under brakes. At the end,
+        `feel` estimates the force.
 
-        Returns the readings at its end.
+        Returns the readings at the end.
         """
         halted = self.halt()
         if halted:

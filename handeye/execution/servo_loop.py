@@ -1,8 +1,8 @@
 """The servo loop: motions of an arm along set-points, one servo period at a time, watched by guards.
 
-A motion does not let time pass itself. It is a generator that yields after commanding all devices for a period, and
-reads the cell when it is resumed; in between, the caller advances the clock. Any number of arms can thus move under
-one clock.
+A motion does not let time pass itself. It is a generator that yields after commanding all devices for a servo
+period, and reads the cell when it is resumed. In between, the caller advances the clock, so any number of arms can
+move under one clock.
 """
 
 from collections.abc import Callable, Sequence
@@ -40,35 +40,35 @@ from handeye.touch.guards import ActiveGuard, Monitor, Trip
 from handeye.touch.senses import FREE_FORCE, off_zero
 
 DITHER = 2.0
-"""Torque that shakes a joint, as a multiple of its friction. Chosen: half of it overcomes friction, the other half
-moves the joint.
+"""Torque that shakes a joint, as a multiple of its friction. Chosen: half of the torque overcomes friction, the
+other half moves the joint.
 """
 _FRESH = 0.25  # weight of the last servo period in the mean over the last few; chosen
 _AT_ONCE = 15
-"""Greatest number of servo periods for which an arm under brakes is not served; the panic button then waits up to
+"""Greatest number of servo periods for which an arm under brakes is not served. The panic button then waits up to
 .25 s.
 """
 LIGHT = 5.0
-"""Greatest load (N) with which the drag of joints is judged: the loss of a heavier load would be sensed as just as
-much drag. Chosen.
+"""Greatest load (N) with which the drag of joints is judged. Losing a heavier load would look like drag above the
+limit. Chosen.
 """
 SWING = 0.3
-"""Fraction of the limit by which a swinging joint is off its set-point on both sides; a joint that is stopped is
-off on one side. Chosen.
+"""A joint swings if it has been off its set-point on both sides by at least this fraction of the limit. A joint
+that is stopped is off only on one side. Chosen.
 """
 PRESS_TIME = 10.0
-"""Time, s, after which a pressing motion ends if it neither advances nor meets its guard. Chosen."""
+"""Time (s) after which a pressing motion ends if it neither advances nor meets its guard. Chosen."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """The outcome of a motion."""
+    """How a motion ended."""
 
     trip: Trip | None = None  # the guard that ended it
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say of it
     off: float = 0.0
-    """Distance of the hand from its set-points in the middle of the motion, m, if the hand ended too far from the
+    """Distance (m) of the hand from its set-points in the middle of the motion, if the hand ended too far from the
     last set-point.
     """
 
@@ -82,13 +82,13 @@ class ServoLoop(Servo):
     """The motions of one arm, and the checks that end them."""
 
     def _periods(self, seconds: float) -> int:
-        """Number of servo periods in a time (s): at least one if the time is positive."""
+        """Return the number of servo periods in a time (s), at least one if the time is positive."""
         return max(1, round(seconds / self.period)) if seconds > 0 else 0
 
     # -- motions, a servo period at a time -----------------------------------------------------------
 
     def braking(self, seconds: float) -> Motion[None]:
-        """Set the brakes; the set-point becomes the arm's position at the end."""
+        """Set the brakes. The position of the arm at the end becomes the set-point."""
         left = self._periods(seconds)
         while left:
             periods = 1 if left == self._periods(seconds) else min(left, _AT_ONCE)
@@ -99,8 +99,8 @@ class ServoLoop(Servo):
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
-        """Carry only gravity and load, so that a push moves the hand; the set-point becomes the arm's position at
-        the end.
+        """Balance only gravity and load, so that a push moves the hand. The position of the arm at the end becomes
+        the set-point.
         """
         for _ in range(self._periods(seconds)):
             here = self.chain.at_rest(self.state.here)
@@ -116,10 +116,10 @@ class ServoLoop(Servo):
         beside: Callable[[int], None] = lambda _: None,
         taken: list[Exertion] | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points; end early if `guard` trips. `taken` records the torques.
+        """Follow set-points. The motion ends early if `guard` trips. The torques are appended to `taken`.
 
-        The guard watches along `direction`, unit vectors in W, shape (3,) or (N, 3); `beside` sets further commands
-        of a servo period, by the number of its set-point.
+        The guard watches along `direction`, unit vectors in W, shape (3,) or (N, 3). `beside` is called with the
+        number of each set-point, to give further commands for that servo period.
         """
         if len(samples) == 0:
             return REACHED
@@ -163,10 +163,10 @@ class ServoLoop(Servo):
         return REACHED if guard is not None else self._arrived(off, met, swing)
 
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
-        """Follow set-points through free air; see `following`.
+        """Follow set-points through free air. See `following`.
 
-        The hand's distance from its set-points in the middle tells two errors apart: a hand that is stopped is off
-        from there on, a hand on which a force acts is off all the way.
+        The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand
+        that is stopped is off from that point on; a hand on which a force acts is off all the way.
         """
         held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it comes from what it pressed on
         self.state.in_air = False
@@ -186,7 +186,8 @@ class ServoLoop(Servo):
         return outcome
 
     def complying(self, course: Course, guard: Monitor | None) -> Motion[Outcome]:
-        """Move along a straight course, pressing, turning or yielding as it says; end early if `guard` trips.
+        """Move along a straight course, pressing, turning or yielding as the course says. The motion ends early if
+        `guard` trips.
 
         The arm stays under a position servo whose set-point is moved by the measured force, so that no joint needs
         to be slack.
@@ -230,14 +231,16 @@ class ServoLoop(Servo):
         return Outcome(error=errors.SERVO_LAG, cause=HandStuck(moved=round(gone, 6)))
 
     def _sense(self, X_WT: Pose, course: Course) -> Array:
-        """Direction in which each joint slides on a course that begins at a pose, shape (n,); see `sliding`."""
+        """Return the direction in which each joint slides on a course that begins at a pose, shape (n,); see
+        `sliding`.
+        """
         ahead = solve(self.arm, translated(X_WT, course.speed * self.period * course.direction), self.state.q)
         goal = self.state.q if ahead.q is None else ahead.q
         return sliding(self.arm, (goal - self.state.q) / self.period)
 
     def shifting(self, here: Dynamics, X_WT: Pose, *, feeling: bool = False) -> Motion[Outcome]:
-        """Move for one servo period towards a pose nearby; with `feeling`, the force on the hand is estimated at
-        the end.
+        """Move for one servo period towards a nearby pose. If `feeling` is True, the force on the hand is estimated
+        at the end.
         """
         self.state.met = None
         step = solve(self.arm, X_WT, self.state.q)
@@ -248,14 +251,14 @@ class ServoLoop(Servo):
         return CUT if self.state.cut else REACHED
 
     def holding(self, ticks: int) -> Motion[Array]:
-        """Hold the set-point; returns the mean torque residual, shape (n,)."""
+        """Hold the set-point. Returns the mean torque residual, shape (n,)."""
         here, met = self.dynamics(), np.zeros(len(self.state.q))
         for _ in range(ticks):
             met += yield from self._approach(here, self.state.q, estimate=False)
         return met / max(ticks, 1)
 
     def zeroing(self) -> Motion[Outcome]:
-        """Hold still and take the present force as zero; in free air the force is close to zero.
+        """Hold still and take the present force as zero. In free air the force is close to zero.
 
         If friction is known, dither first keeps the joints sliding to and fro. Without dither, the joints could
         rest anywhere within their friction, and the tare would contain that friction.
@@ -277,17 +280,17 @@ class ServoLoop(Servo):
 
     @property
     def height(self) -> float:
-        """Height in W (m) at which the hand has stopped, by its set-point.
+        """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
-        The steps of the converters are up to .05 in at the hand, and a set-point has no steps. A moving arm passes
-        many readings, over which the steps average out, so two motions that end on the same force end at the same
+        The converter steps are up to .05 in at the hand, while a set-point has no steps. A moving arm passes many
+        readings, over which the steps average out. Two motions that end on the same force therefore end at the same
         mean height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
-        """Hold the hand at its present place along `direction`, with zero reference velocity, so that it is not
+        """Hold the hand at its present place along `direction` with zero reference velocity, so that it is not
         kicked back.
         """
         self.state.met = self.chain.forward(self.state.q)[:3, 3]
@@ -297,10 +300,10 @@ class ServoLoop(Servo):
         self.state.q = self.state.here.copy() if held.q is None else held.q
 
     def _arrived(self, on_the_way: Array, met: Array, swing: Array) -> Outcome:
-        """Check that the hand has reached its set-point.
+        """Check that the hand has reached its set-point. Returns the error if it has not.
 
-        `on_the_way`, shape (n,): deviation of the joints from their set-points during the motion; `met`, (n,):
-        torque residual; `swing`: see `_lagging`.
+        `on_the_way`, shape (n,), is the deviation of the joints from their set-points during the motion. `met`,
+        shape (n,), is the torque residual. For `swing` see `_lagging`.
         """
         off = float(np.linalg.norm(self.hand()[:3, 3] - self.chain.forward(self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
@@ -315,11 +318,11 @@ class ServoLoop(Servo):
     # -- doubting -----------------------------------------------------------------------------------
 
     def _unloaded(self) -> Array:
-        """Force on the hand by the last tare, without the load that the servo carries, shape (3,), N."""
+        """Return the force on the hand at the last tare, without the load that the servo carries, shape (3,), N."""
         return np.asarray(self.state.tare[:3] + np.array((0.0, 0.0, self.state.load)))
 
     def _force_in_air(self) -> Outcome:
-        """The error if the force taken as zero at the last tare is too large for free air."""
+        """Return the error of a force that was taken as zero at the last tare, but is too large for free air."""
         x, y, z = (round(float(component), 6) for component in self._unloaded())
         cause = ForceInAir(force=(x, y, z), limit=FREE_FORCE, load=self.state.load)
         return Outcome(error=errors.FORCE_WRONG, cause=cause)
@@ -329,8 +332,8 @@ class ServoLoop(Servo):
         return JointAgreement(arm=self.arm, start=self.sensed.q, rate=self.sensed.qd)
 
     def _doubted(self, sensors: JointAgreement) -> Outcome | None:
-        """Compare the sensors of the joints; if they disagree, the set-point becomes the measured position of the
-        arm.
+        """Compare the sensors of the joints. If they disagree, return the error, and make the measured position of
+        the arm the set-point.
         """
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
@@ -351,8 +354,8 @@ class ServoLoop(Servo):
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 
     def _behind(self, met: Array, swing: Array) -> Outcome | None:
-        """Check that every joint follows its set-point; if one does not, the set-point becomes the arm's position.
-        See `_lagging`.
+        """Check that every joint follows its set-point. If one does not, return the error, and make the measured
+        position of the arm the set-point. See `_lagging`.
         """
         joint, lag = self._lagging(swing)
         if lag <= 1.0:
@@ -362,9 +365,9 @@ class ServoLoop(Servo):
         return self._alone(met) or Outcome(error=errors.SERVO_LAG, cause=cause)
 
     def _lagging(self, swing: Array) -> tuple[int, float]:
-        """The joint whose following error is largest relative to its limit, and the ratio.
+        """Find the joint whose following error is largest relative to its limit. Returns the joint and this ratio.
 
-        `swing`, shape (2, n), records the largest such ratio of each joint to either side.
+        `swing`, shape (2, n), records the largest ratio of each joint to either side.
         """
         off = (self.state.here - self.state.q) / constants(self.arm).lag
         for side, by in zip(swing, (off, -off), strict=True):
@@ -373,8 +376,8 @@ class ServoLoop(Servo):
         return joint, abs(float(off[joint]))
 
     def _dragging(self, taken: Sequence[Exertion], lagging: str = "") -> Outcome | None:
-        """Check that no joint took far more torque than its friction in a motion through free air, if friction is
-        known.
+        """Check that in a motion through free air no joint took far more torque than its friction. Without known
+        friction, nothing is checked.
 
         If a joint lagged behind, no other joint is blamed.
         """
@@ -389,7 +392,7 @@ class ServoLoop(Servo):
         return Outcome(error=errors.JOINT_STIFF, cause=cause)
 
     def _off_balance(self, taken: Sequence[Exertion]) -> Outcome | None:
-        """Compare the torques of a motion through free air with the arm's present estimate of its weight."""
+        """Compare the torques of a motion through free air with the present estimate of the arm's weight."""
         borne = jacobian(self.arm, taken[len(taken) // 2].q)[2] * self.state.load
         self.state.weights, found = balanced(
             self.built, taken, self.state.friction, self.state.weights, borne
@@ -403,7 +406,9 @@ class ServoLoop(Servo):
         return Outcome(error=errors.FORCE_WRONG, cause=cause)
 
     def _alone(self, met: Array) -> Outcome | None:
-        """The error of the joint that alone keeps the arm from its set-point; None if a force on the hand does."""
+        """Return the error of the joint that alone keeps the arm from its set-point, or None if a force on the hand
+        explains the torques.
+        """
         joint = alone(self.arm, jacobian(self.arm, self.state.here), met)
         if joint is None:
             return None
@@ -416,5 +421,5 @@ class ServoLoop(Servo):
 
 
 def _active(guard: Monitor | None, direction: Array) -> tuple[ActiveGuard, ...]:
-    """The active guards of a motion in a servo period, while the motion goes along the unit vector `direction`."""
+    """Return the guards that are active in a servo period while the motion goes along the unit vector `direction`."""
     return () if guard is None else guard.active(direction)

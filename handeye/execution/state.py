@@ -1,4 +1,4 @@
-"""The state of a working phase: one record for executor, actions, servo loop and world model.
+"""The state of a working phase: one record for the executor, actions, servo loop and world model.
 
 Plan, arm and cell are not part of the state: they are given again when a run is resumed. A snapshot is a copy of
 the record (`handeye.core.mutable_records`).
@@ -45,13 +45,14 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     ended: GuardKind | None = None  # the guard that ended it
     risen: float = 0.0  # rise of the hand, m, while its screw was being turned out, if that was interrupted
     remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
-    """Fields of the program's memory that the step changed, with their values before it; see `undo.memory`."""
+    """Fields of the program's memory that the step changed, with their values before the step; see `undo.memory`.
+    """
     enters: bool = False  # first of its stage
     called: bool = False  # called the operator
 
 
 class ReversalOrder(Record, frozen=True, kw_only=True):
-    """An order to reverse executed steps until `left` remain."""
+    """An order to reverse executed steps until `left` steps remain."""
 
     left: Natural
     halts: bool = False  # the run ends there
@@ -75,14 +76,16 @@ class SearchState(MutableRecord, kw_only=True):
     along: float | None = None  # direction of its line, rad from table x; None: a pattern
 
     def offset(self, pattern: SearchPattern) -> tuple[float, float]:
-        """Horizontal offset of the present place of the search, m."""
+        """Return the horizontal offset (m) of the present place of the search."""
         found = self.place(pattern, self.count)
         if found is None:
             raise Refused(f"the search is at its place {self.count}, which its pattern does not have")
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
-        """Horizontal offset of a place on the line or in a pattern, m; None after the last place."""
+        """Return the horizontal offset (m) of a place of the search, on its line or in the pattern, or None after
+        the last place.
+        """
         if number >= self.limit:
             return None
         found = pattern(number) if self.along is None else line(number, self.along)
@@ -99,7 +102,7 @@ class Shot:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VisionResult:
-    """The findings of vision in a picture."""
+    """What vision found in a picture."""
 
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
@@ -108,7 +111,7 @@ class VisionResult:
     match: PartMatch | None = None
 
     def marks(self) -> list[Mark]:
-        """Marks for the findings in the picture."""
+        """Return marks for the findings in the picture."""
         return marks(
             general=self.general,
             specific=self.specific,
@@ -119,7 +122,7 @@ class VisionResult:
 
 
 class DriveState(MutableRecord, kw_only=True):
-    """State of the servo loop; joint arrays have shape (n,), rad and m."""
+    """State of the servo loop. Joint arrays have shape (n,), in rad and m."""
 
     q: Array  # set-point
     here: Array  # position by potentiometers and tachometers
@@ -128,27 +131,29 @@ class DriveState(MutableRecord, kw_only=True):
     grip: float  # finger force limit, N
     load: float = 0.0  # compensated weight, N
     links: Array | None = None
-    """Link weights that the arm has measured, divided by the model's, shape (n,); None: not measured."""
+    """Link weights that the arm has measured, divided by the weights in the model, shape (n,); None if not
+    measured.
+    """
     weights: Array | None = None
-    """Later estimate of the errors of links and drives with its covariance, (3n, 1 + 3n), see `arm.torque_balance`;
-    None: none yet.
+    """Later estimate of the errors of links and drives with its covariance, shape (3n, 1 + 3n), see
+    `arm.torque_balance`; None if not yet estimated.
     """
     tool: float = 0.0  # screwdriver speed, rad/s
     current: float = 0.0  # its greatest torque since that speed was set, N m
     starting: list[float] = msgspec.field(default_factory=list)
-    """Torques of the screwdriver in the first servo periods since it was switched, N m."""
+    """Torques of the screwdriver, N m, in the first servo periods since its motor was switched."""
     lately: list[float] = msgspec.field(default_factory=list)
-    """Torques of the screwdriver in the last second since it was switched, N m."""
+    """Torques of the screwdriver, N m, in the last second since its motor was switched."""
     leapt: GapJumped | None = None  # the first servo period since the last step in which the gap did
     magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
     cut: bool = False  # the watchdog has cut the drives and set the brakes
     met: Array | None = None  # hand set-point in W (m) where a guard ended the last motion
     rest: Array | None = None
-    """Potentiometer readings at rest under the brakes; None while the arm moves or is driven."""
+    """Potentiometer readings at rest under the brakes. None while the arm moves or is driven."""
     crept: Array | None = None  # their change until it was driven again; None once a motion has checked it
     jump: Disagreement | None = None
-    """A reading that has jumped since the last motion; None once a motion has reported it."""
+    """A jump of a reading since the last motion. None once a motion has reported it."""
     in_air: bool = False  # the last motion was a MOVE without contact
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
@@ -156,19 +161,19 @@ class DriveState(MutableRecord, kw_only=True):
 
     @classmethod
     def holding(cls, sensed: Sensed, arm: ArmModel) -> "DriveState":
-        """The state that holds arm and fingers in place with full grip."""
+        """Make the state that holds the arm and the fingers in place with full grip."""
         q = sensed.q
         return cls(q=q.copy(), here=q.copy(), friction=np.zeros(len(q)), gap=sensed.gap, grip=arm.hand.grip)
 
     def hold_anew(self, sensed: Sensed, arm: ArmModel) -> None:
-        """Reset the state to hold the arm, but keep the arm's measurements of itself."""
+        """Reset the state to hold the arm in place, but keep the arm's measurements of itself."""
         anew = DriveState.holding(sensed, arm)
         anew.friction, anew.links, anew.weights = self.friction, self.links, self.weights
         put_back(self, anew)
 
 
 class ExecutionState(SystemState, kw_only=True):
-    """The whole memory of a working phase from step to step."""
+    """The whole memory of a working phase between two steps."""
 
     pending: Fault | None = None  # an error that the next step may test
     idle: int = 0  # steps since time last passed
@@ -179,7 +184,7 @@ class ExecutionState(SystemState, kw_only=True):
     search: SearchState | None = None
     restored: dict[str, Array] = msgspec.field(default_factory=dict)  # added to the goal of the last Move
     goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
-    """Goal of the last Move without search offset, in W, m."""
+    """Goal of the last Move, without the offset of the search, m in W."""
     place: str = ""  # its name
     travel: float = 0.0  # m, of the last straight motion
     finger_line: Array | None = None  # unit vector, if the last action was a Center
@@ -198,18 +203,22 @@ class ExecutionState(SystemState, kw_only=True):
     """Executed steps that have not been reversed, in order."""
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
-    """Index of the step that took the screw now turned out; when that step is reversed, it leaves the screw there."""
+    """Index of the step that took the screw which has now been turned out. When that step is reversed, it leaves
+    the screw in its place.
+    """
     held: float | None = None
-    """Gap, m, at which the arm holds an object while it reverses; None if it holds nothing, or the program has
-    continued.
+    """Gap (m) at which the hand holds an object during a reversal. None if it holds no object, or if the program
+    has continued.
     """
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
-    """Number of reversals of the present stage begun at each of its steps; a reversal does not reduce it."""
+    """For each step of the present stage, the number of reversals that began at the step. A reversal does not
+    reduce it.
+    """
     drive: DriveState
 
 
 def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
-    """Raise BadFile unless all references, sizes and numbers of a state fit plan and arm."""
+    """Raise BadFile unless all references, sizes and numbers of a state fit the plan and the arm."""
     if not _finite(state):
         raise BadFile("the state of the run holds a value that is not a finite number")
     if not (_fits_program(state, plan) and _fits_sizes(state, arm)):
@@ -247,7 +256,7 @@ def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
 
 
 def _finite(value: object) -> bool:
-    """True if all numbers in a value are finite."""
+    """Return True if all numbers in a value are finite."""
     match value:
         case float() | np.ndarray():
             return bool(np.isfinite(value).all())
@@ -261,6 +270,6 @@ def _finite(value: object) -> bool:
 
 
 def vector(p: Array) -> tuple[float, float, float]:
-    """A vector for an event, rounded to a micrometre."""
+    """Convert a vector for an event, rounded to a micrometre."""
     x, y, z = (round(float(c), 6) + 0.0 for c in p)
     return x, y, z

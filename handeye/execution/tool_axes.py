@@ -1,4 +1,4 @@
-"""Presents an arm whose servo runs in the computer as a machine of axes: the axes of its tool, and the gap of its
+"""Presents an arm whose servo runs in the computer as a machine of axes: the axes of the tool, and the gap of the
 hand.
 """
 
@@ -26,18 +26,18 @@ _AXES: Final = ("x", "y", "z", "o", "a", "t")
 
 
 class ToolAxes(Axes):
-    """The axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m), with the force that the hand exerts on
-    the world as a channel.
+    """The axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m). A channel gives the force that the
+    hand exerts on the world.
 
-    For each goal, the arm is driven for one servo period towards the goal, at most at the speed of each axis. No
-    path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is
-    estimated well if the drive knows the joints' friction (`measure_joints`), relative to the last call of `tare`.
-    The estimate is one period late: a descent on the table that should stop at 6 N stops at 6.1 to 7.5 N at .01
-    m/s, but at 17 N at .025 m/s and at 34 N at .05 m/s.
+    For each goal, the arm is driven for one servo period towards the goal, at most at the speed limit of each axis.
+    No path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is
+    measured relative to the last call of `tare`. It is estimated well if the drive knows the friction of the joints
+    (`measure_joints`). The estimate is one period late: a descent on the table that should stop at 6 N stops at 6.1
+    to 7.5 N at .01 m/s, at 17 N at .025 m/s, and at 34 N at .05 m/s.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
-        """Take an arm that is held in place; goals may be up to `reach` (m) from the origin of W, if the arm can
+        """Take an arm that is held in place. Goals may be up to `reach` (m) from the origin of W, if the arm can
         reach them.
         """
         self.name, self._drive = name, drive
@@ -64,7 +64,7 @@ class ToolAxes(Axes):
         return self._drive.period
 
     def tare(self) -> None:
-        """Hold still for some periods, and take the sensed force as zero."""
+        """Hold still for some servo periods, and take the force sensed then as zero."""
         self._finish()
         self._goal = self._start if self._motion is not None else self._goal
         self._end(self._drive.zero())
@@ -78,7 +78,7 @@ class ToolAxes(Axes):
         return AxesReading(time=sensed.time, q=q, channels=dict(zip(parts, map(float, values), strict=True)))
 
     def put(self, goal: Array) -> None:
-        """Drive the arm for one period towards a goal; raises Refused if the arm cannot go there."""
+        """Drive the arm for one servo period towards a goal. Raises Refused if the arm cannot go there."""
         if np.shape(goal) != (count := len(self._specs),):
             raise BadArgument(f"a goal of {self.name} is {count} numbers, one for each axis")
         if not np.isfinite(goal).all():
@@ -97,7 +97,7 @@ class ToolAxes(Axes):
         self._go_on(self._motion)
 
     def _finish(self) -> None:
-        """Process the readings of the last period if it has passed."""
+        """Process the readings of the last servo period if it has passed."""
         if self._motion is not None and self._drive.cell.clock.now > self._put_at:
             self._go_on(self._motion)
 
@@ -114,7 +114,7 @@ class ToolAxes(Axes):
             raise Refused(f"{self.name} does not reach its goal: {ERRORS[outcome.error]}")
 
     def _pose(self, q: Array) -> Array:
-        """x, y, z, O, A, T of the tool at joint positions `q`, shape (6,)."""
+        """Return x, y, z (m) and O, A, T (rad) of the tool at joint positions `q`, shape (6,)."""
         X_WT = forward(self._drive.arm, q)
         return np.array([*X_WT[:3, 3], *hand_angles(X_WT)])
 

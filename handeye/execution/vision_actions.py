@@ -1,4 +1,4 @@
-"""Actions of the camera, and of vision on its pictures."""
+"""Actions of the camera, and of vision on the pictures of the camera."""
 
 import math
 from collections.abc import Callable
@@ -40,13 +40,13 @@ Found = TypeVar("Found")
 
 
 def _tv(run: ExecutionContext) -> TvCamera:
-    """The cell's camera; every plan that takes pictures requires one."""
+    """Return the camera of the cell. Every plan that takes pictures requires a camera."""
     assert run.cell.camera is not None
     return run.cell.camera
 
 
 def _known(run: ExecutionContext) -> CameraModel:
-    """The calibrated camera model."""
+    """Return the calibrated camera model."""
     assert run.camera is not None
     return run.camera
 
@@ -59,7 +59,7 @@ def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
 
 
 def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
-    """Turn the camera to a part's face or to a hand position, and focus there."""
+    """Turn the camera to the face of a part or to a hand position, and focus there."""
     p_W = _target(run, operation.target)
     pan, tilt = _known(run).aim(p_W, run.state.lens)
     _start(run, "aim", _tv(run).aim(pan, tilt))
@@ -81,7 +81,7 @@ def _target(run: ExecutionContext, name: str) -> Array:
 
 
 def look(run: ExecutionContext, operation: Look) -> Fault | None:
-    """Take a picture as soon as the camera's mechanism is ready."""
+    """Take a picture as soon as the mechanism of the camera is ready."""
     _wait(run, "wait", run.state.camera_ready - run.time)
     _wait(run, "digitise", DIGITISE)
     picture = _tv(run).digitise(hold_target=operation.hold_target)
@@ -98,7 +98,7 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
-    """The reason why a picture cannot be from a sound live camera, or None."""
+    """Return the reason why a picture cannot come from a sound live camera, or None if it can."""
     if blank(picture):
         return PictureBlank(picture=name)
     for earlier, shot in run.state.shots.items():
@@ -111,7 +111,7 @@ def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | No
 
 
 def _start(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Extend the time at which the camera will be ready; its mechanism does one action after another."""
+    """Add to the time at which the camera will be ready. Its mechanism performs one action after another."""
     if seconds <= 0:
         return
     run.state.camera_ready = max(run.state.camera_ready, run.time) + seconds
@@ -119,7 +119,7 @@ def _start(run: ExecutionContext, action: str, seconds: float) -> None:
 
 
 def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Wait for the camera with the brakes set, in whole servo periods."""
+    """Wait for the camera with the brakes set, for a whole number of servo periods."""
     period = run.drive.period
     periods = math.ceil(round(seconds / period, 6))
     if periods <= 0:
@@ -134,7 +134,7 @@ def _no_picture(number: int, picture: str) -> Fault:
 
 
 def general(run: ExecutionContext, operation: General) -> Fault | None:
-    """Locate a part roughly; the result becomes its measured place."""
+    """Locate a part roughly. The result becomes the measured place of the part."""
     if "vision" in run.without:
         return None
     part = run.world.parts[operation.part]
@@ -209,8 +209,8 @@ Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
 def _compared(
     run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
 ) -> Found | Fault | None:
-    """Examine two pictures, the earlier first: returns the finding, or error `number`, or None if vision is
-    switched off.
+    """Examine two pictures, the earlier first. Returns the finding; or error `number` if the examination fails; or
+    None if vision is switched off.
     """
     if "vision" in run.without:
         return None
@@ -225,7 +225,7 @@ def _compared(
 
 
 def just_found(run: ExecutionContext) -> tuple[str, list[Mark]]:
-    """The name of the picture that the present step examined, with its marks."""
+    """Return the name of the picture that the present step examined, and the marks for it."""
     assert run.state.at is not None
     name = run.plan.program.steps[run.state.at].operation.examines
     assert name is not None

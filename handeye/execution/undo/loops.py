@@ -1,13 +1,14 @@
-"""Finds steps that changed nothing but the program's memory; one lift of the hand reverses them all.
+"""Finds executed steps that changed only the memory of the program. One lift of the hand reverses all of them.
 
 Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is taken
-to be in the same state as then, if in between no stage began and the operator was not called, the hand holds what
-it held, every object put down was taken up at the same place (or the other way round), and every screw driven in
-was backed out. Rounds that carry objects elsewhere do not count and are reversed one by one.
+to be in the state in which it was after that step, under these conditions: since then no stage began and the
+operator was not called; the hand holds the same object; every object put down was taken up at the same place (or
+the other way round); and every screw driven in was backed out. Rounds that carry objects to another place do not
+meet the conditions and are reversed step by step.
 
-A touch is a motion of an empty hand that ended on contact, with the motion that left the object. Reversed step by
-step, the hand would touch the object a second time, and a finger that had moved to the object's side would descend
-on its edge if the object has been pushed since.
+A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. Reversed
+step by step, the hand would touch the object a second time. If the object has been pushed since, a finger that had
+moved to its side would descend on its edge.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -21,20 +22,21 @@ from handeye.program.guards import GuardKind
 
 SAME_GAP: Final = 5e-4  # m, of an unchanged hold
 SAME_PLACE: Final = (0.005, 0.02)
-"""Tolerance, m, sideways and in height, between putting an object down and taking it up: fingers slide on an
-object.
+"""Tolerance (m), sideways and in height, between the places of putting an object down and of taking it up. Fingers
+slide on an object.
 """
 
 
 def loop_entry(
     done: Sequence[ExecutedStep], hand: Callable[[int], Array | None], *, grasping: bool | None = None
 ) -> int | None:
-    """Index of the step to which the last jump back returned, with the cell as that step had left it.
+    """Return the index of the step to which the last jump back returned, if the cell is in the state in which that
+    step left it. Returns None if there is no such step.
 
-    It counts only while the hand has moved through free air since then: the way back of a MOVE to the next place of
-    a search would end in contact with what the hand met at the place before. `hand` gives the position of the hand
-    after a step, by index, shape (3,), W, or None if the hand had not moved yet. `grasping`: whether the fingers
-    were last closed; None: as before the last step.
+    The jump counts only if the hand has moved only through free air since that step. The way back of a MOVE to the
+    next place of a search would end in contact with the object that the hand met at the place before. `hand`
+    returns the position of the hand after a step, given by its index, shape (3,), in W, or None if the hand had not
+    moved yet. `grasping` is True if the fingers were last closed; None means as before the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -52,7 +54,7 @@ def loop_entry(
 
 
 def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
-    """True if the hand holds the same object after a step as before.
+    """Return True if the hand holds the same object before and after a step.
 
     A grasp at the beginning of a loop does not count, because each round may hold another object.
     """
@@ -64,10 +66,10 @@ def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None)
 
 
 def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
-    """Index of the step after which an empty hand went to the touch that the last step left; -1: before the first
-    step.
+    """Return the index of the step before a touch: an empty hand then went to the object and left it in the last
+    step. Returns -1 if the touch began with the first step, or None if the last step left no touch.
 
-    None if the last step left no touch. `grasping`: whether the fingers were last closed.
+    `grasping` is True if the fingers were last closed.
     """
     last = len(done) - 1
     if grasping or last < 1 or not _goes_empty(done[last]):
@@ -82,13 +84,13 @@ def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
 
 
 def _goes_empty(done: ExecutedStep) -> bool:
-    """True if the step moved an empty hand, and did not move its fingers."""
+    """Return True if the step moved an empty hand, and did not move its fingers."""
     before, after = done.gap
     return bool(done.way) and not done.grasping and not done.tool and abs(after - before) < SAME_GAP
 
 
 def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | None]) -> Iterator[int]:
-    """Indices of steps in the order of reversal, without the rounds that are skipped."""
+    """Yield the indices of steps in the order of reversal, without the rounds that are skipped."""
     index = len(done) - 1
     while index >= 0:
         yield index
@@ -98,14 +100,16 @@ def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | N
 
 
 def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
-    """True if both are the same step, with the same hold before and after, and the screwdriver off."""
+    """Return True if two executed steps are the same step, with the same hold before and after, and with the
+    screwdriver off.
+    """
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
     gaps = zip(one.gap, other.gap, strict=True)
     return same and one.tool == other.tool == 0.0 and all(abs(a - b) < SAME_GAP for a, b in gaps)
 
 
 def _undone_itself(done: Sequence[ExecutedStep], entry: int, hand: Callable[[int], Array | None]) -> bool:
-    """True if nothing but memory has changed since the step at `entry` was first executed."""
+    """Return True if only memory has changed since the step at `entry` was first executed."""
     rounds = range(entry, len(done) - 1)
     if any(done[index].called or done[index + 1].enters for index in rounds):
         return False

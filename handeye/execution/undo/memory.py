@@ -1,4 +1,4 @@
-"""The program's memory, stored with each executed step as far as the step changed it.
+"""The memory of the program. With each executed step, the values that the step changed are stored.
 
 Pictures are not restored, because a program that continues takes them again before it examines them. Lens and aim
 of the camera are not restored either, because a reversal moves only the arm.
@@ -22,24 +22,26 @@ REMEMBERED: Final = (
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
-"""Fields that steps do not store. They are replaced by empty ones for the check, because they are large and known
+"""Fields that steps do not store. They are replaced by empty fields for the check, because they are large and known
 to be valid.
 """
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 
 
 def memory(state: ExecutionState) -> dict[str, bytes]:
-    """The program's present memory, by field."""
+    """Return the present memory of the program, by field."""
     return {name: encoded(getattr(state, name)) for name in REMEMBERED}
 
 
 def changed(before: dict[str, bytes], after: dict[str, bytes]) -> dict[str, bytes]:
-    """The old values of the fields that have changed."""
+    """Return the old values of the fields that have changed."""
     return {name: old for name, old in before.items() if after[name] != old}
 
 
 def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
-    """Memory by field of the state; raises ValueError if it does not fit the running program."""
+    """Decode stored memory. Returns values by field of the state. Raises ValueError if they do not fit the running
+    program.
+    """
     if not before.keys() <= set(REMEMBERED):
         raise ValueError("it remembers what no program does")
     found = {name: decoded(data, _TYPES[name]) for name, data in before.items()}
@@ -51,7 +53,7 @@ def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
 
 
 def remember(state: ExecutionState, found: Memory) -> None:
-    """Restore memory in a state."""
+    """Put stored memory back into a state."""
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):
@@ -87,7 +89,7 @@ def before(run: ExecutionContext) -> StateBefore:
 
 
 def noted(run: ExecutionContext, found: StateBefore, *, step: int, enters: bool) -> ExecutedStep:
-    """The record of a finished step; `enters` marks the first of its stage."""
+    """Make the record of a finished step. `enters` is True for the first step of its stage."""
     drive, state = run.drive, run.state
     way = drive.track.way(drive.state.q, drive.state.gap)
     operation = run.plan.program.steps[step].operation

@@ -1,9 +1,10 @@
-"""The reverse path of a step, from its end to its beginning, and the guards that stop it.
+"""The reverse path of a step, from the end of the step to its beginning, and the guards that stop the arm on this
+path.
 
-The path is stopped by force that has built up in any direction since the reversal began, and by early contact of
+The arm is stopped by force that has built up in any direction since the reversal began, and by early contact of
 closing fingers. Fingers close on the middle of the hand. An object beside the middle is touched by one finger
-first, while the gap is still too wide. Fingers that closed on it would push the object to the middle, or push the
-arm, and the final gap would look right.
+first, while the gap is still too wide. If the fingers closed on it, they would push the object to the middle, or
+push the arm, and the final gap would look right.
 """
 
 from collections.abc import Callable
@@ -27,20 +28,20 @@ from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
-"""Least force limit of a reversal, N. Measured: lifting a top off the pins is sensed as at most 11 N; with a screw
-left in it, as 36 N and then 108 N.
+"""Least force limit of a reversal, N. Measured: lifting a top off the pins is sensed as at most 11 N. With a screw
+left in the top, it is sensed as 36 N and then 108 N.
 """
 SHARE: Final = 1.5  # of the force that the step itself met
 
 
 def allowed(met: float) -> float:
-    """Force at which a reversal stops, N, given the greatest force in the step itself."""
+    """Return the force (N) at which a reversal stops, given the greatest force (N) in the step itself."""
     return max(ALLOWED, SHARE * met)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Resistance:
-    """Trips when the force on the hand exceeds `limit`, N."""
+    """Trips when the force on the hand exceeds `limit` (N)."""
 
     limit: float
 
@@ -54,7 +55,7 @@ class Resistance:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EarlyContact:
-    """Trips when a finger touches while the gap is still too wide."""
+    """Trips when a finger touches an object while the gap is still too wide."""
 
     gap: Callable[[], float]  # present gap, m
     kept: float  # gap when the step was executed, m
@@ -70,19 +71,19 @@ class EarlyContact:
         return Trip(guard=GuardKind.TOUCH, value=float(first + 2 * second), limit=3.0)
 
     def cause(self, trip: Trip) -> MetEarly:
-        """The cause of a trip, while the fingers are where the trip stopped them."""
+        """Return the cause of a trip, while the fingers are where the trip stopped them."""
         closed = int(trip.value)
         fingers = bool(closed & 1), bool(closed & 2)
         return MetEarly(fingers=fingers, gap=round(self.gap(), 6), kept=self.kept, holding=self.holding)
 
 
 RAMP: Final = 8
-"""Servo periods for speeding up and for slowing down. Chosen: a motion that was ended by a force ended at full
-speed.
+"""Number of servo periods for speeding up and for slowing down. Chosen: a motion that was ended by a force ended at
+full speed.
 """
 JOIN: Final = 5e-4
-"""Speed of a joint, rad or m per servo period, to the end of the path, because brakes and guards have left the arm
-beside the path.
+"""Speed (rad or m per servo period) at which a joint moves to the end of the path first, because brakes and guards
+have left the arm beside the path.
 """
 
 
@@ -98,11 +99,11 @@ class ReturnPath:
 def retracing(
     arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly: bool, feeling: bool = False
 ) -> ReturnPath:
-    """The reverse path from the present position of arm and fingers; with `slowly`, at most at the speed of guarded
-    motions.
+    """Make the reverse path from the present position of the arm and the fingers. If `slowly` is True, it is at
+    most as fast as guarded motions.
 
-    With `feeling`, the fingers close at most at the speed of centring. Faster fingers would push a loose object
-    ahead, with their switches open at most readings.
+    If `feeling` is True, the fingers close at most at the speed of centring. Faster fingers would push a loose
+    object ahead, with their switches open at most readings.
     """
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)
@@ -131,18 +132,19 @@ def retracing(
 
 
 FALLEN: Final = 0.31 * INCH
-"""Distance, m, by which a held object may have fallen. It follows from the pump's gasket: the fingers reach .25 in
-through the gasket (`[gasket_stand]`), which is .06 in thick; if it had fallen much farther, the fingers could not
-hold it again. Measured: 6.0 and 6.7 mm in seeds 8128 and 8124. In seed 8724 the gasket fell 8.05 mm and was still
-held, but this limit stops the reversal, because the arm's height is not exact.
+"""Distance (m) by which a held object may have fallen. It follows from the gasket of the pump: the fingers reach
+.25 in through the gasket (`[gasket_stand]`), which is .06 in thick. If it had fallen much farther, the fingers
+could not hold it again. Measured: 6.0 and 6.7 mm in the worlds of seeds 8128 and 8124. In the world of seed 8724
+the gasket fell 8.05 mm and was still held, but this limit stops the reversal, because the height of the arm is not
+exact.
 """
 
 
 def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """True if the resistance shows that the held object stands on something: the path leads to the object's grasp,
-    and the hand is nearly there.
+    """Return True if the resistance shows that the held object stands on a surface: the path leads to the grasp of
+    the object, and the hand is nearly there.
 
-    `grasps` tells whether a step grasps an object, or grips it more firmly.
+    `grasps` returns True if a step grasps an object, or grips it more firmly.
     """
     if not run.state.grasping or not _grasped_before(run, grasps):
         return False
@@ -151,12 +153,12 @@ def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedS
 
 
 def where_the_hand_is(run: ExecutionContext, way: RecordedPath) -> RecordedPath:
-    """The path of a grasp, shifted to the present position of the arm, which may be higher."""
+    """Shift the path of a grasp to the present position of the arm, which may be higher."""
     return RecordedPath(q=way.q + (run.drive.state.q - way.q[-1]), gap=way.gap)
 
 
 def _grasped_before(run: ExecutionContext, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """True if only the fingers moved between the grasp and the last step."""
+    """Return True if only the fingers moved between the grasp and the last step."""
     for done in reversed(run.state.done[:-1]):
         if not done.way:
             continue

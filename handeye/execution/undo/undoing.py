@@ -1,4 +1,4 @@
-"""Reverses executed steps, the last first; the method depends on the operation."""
+"""Reverses executed steps, the last first. The method depends on the operation of the step."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -45,22 +45,22 @@ from handeye.touch.senses import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
 SUPPORT_SHARE: Final = 0.5  # of the force when a screw was taken, to support the hand that returns it
 STRAIGHTER: Final = 2 * 1.1e-3
-"""Distance, m, by which a carried object may straighten between the fingers. Chosen: twice the largest measured
-value.
+"""Distance (m) by which the gap may change because a carried object straightens between the fingers. Chosen: twice
+the largest measured value.
 """
 SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UndoFailure:
-    """The reason why a reversal was interrupted; the run stops there."""
+    """Why a reversal was interrupted. The run stops there."""
 
     error: int | None = None
     cause: Cause | None = None
 
 
 def order(state: ExecutionState, undoing: ReversalOrder) -> None:
-    """Order a reversal; raises Refused if there is nothing to reverse."""
+    """Order a reversal. Raises Refused if there are no steps to reverse."""
     if undoing.left >= len(state.done):
         raise Refused("there is nothing to undo")
     if not state.grasping:
@@ -72,14 +72,15 @@ def order(state: ExecutionState, undoing: ReversalOrder) -> None:
 
 
 def end(state: ExecutionState) -> None:
-    """End a reversal, with the magnet on, as programs leave it."""
+    """End a reversal. The magnet is switched on, as programs leave it."""
     state.undoing, state.drive.magnet = None, True
 
 
 def undo_last(run: ExecutionContext) -> UndoFailure | None:
-    """Reverse the last executed step, or all steps that one lift reverses, and remove them from the list.
+    """Reverse the last executed step, or all the steps that one lift reverses, and remove them from the list of
+    executed steps.
 
-    Returns None, or the reason for stopping, with the last step partly reversed.
+    Returns None, or the reason for stopping. In that case the last step is only partly reversed.
     """
     state = run.state
     first = _first_of_lift(run)
@@ -106,7 +107,7 @@ def undo_last(run: ExecutionContext) -> UndoFailure | None:
 
 
 def _first_of_lift(run: ExecutionContext) -> int:
-    """Index of the first step that is reversed together with the last one."""
+    """Return the index of the first step that is reversed together with the last step."""
     state = run.state
     assert state.undoing is not None
     last = len(state.done) - 1
@@ -119,9 +120,10 @@ def _first_of_lift(run: ExecutionContext) -> int:
 
 
 def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> list[ExecutedStep]:
-    """Restore the memory from before the step at an index; removes and returns all steps from there on.
+    """Restore the memory from before the step at index `first`. Removes this step and all later steps from the
+    executed steps, and returns them.
 
-    `remembered` is the memory before each of these steps, as far as the step changed it.
+    `remembered` holds, for each of these steps, the memory before the step as far as the step changed it.
     """
     state, undone = run.state, run.state.done[first:]
     for memory in reversed(remembered):
@@ -134,7 +136,7 @@ def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> 
 
 
 def _proceed(run: ExecutionContext, undone: list[ExecutedStep]) -> None:
-    """Report the place in the program, and set the next step."""
+    """Report the new place in the program, and set the next step."""
     state = run.state
     assert state.undoing is not None
     assert state.stage is not None
@@ -191,11 +193,12 @@ def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 
 
 def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a grasp: open the fingers to the earlier gap; an object they held before, they grip again as firmly.
+    """Reverse a grasp: open the fingers to the earlier gap. If they held an object before the step, they grip it
+    again as firmly as before.
 
     Before opening, the fingers must hold the object that they grasped: the gap must be that of the grasp, or of a
-    later one in the reversal. A carried object may straighten between the fingers: one base of seed 1 did by 1.1
-    mm. More than twice that means another object, or none.
+    later grasp in the reversal. A carried object may straighten between the fingers; in the world of seed 1, one
+    base changed the gap by 1.1 mm. A change of more than twice that means another object, or no object.
     """
     kept = done.gap[1]
     held = kept if run.state.held is None else run.state.held
@@ -216,7 +219,7 @@ def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 
 
 def _take_again(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse an opening: close the fingers on the object that they held there."""
+    """Reverse an opening: close the fingers on the object that they held before the step."""
     stopped = _fingers_back(run, done)
     if stopped is None and done.grasping:
         run.state.held = run.drive.sensed.gap
@@ -244,10 +247,10 @@ def _press(run: ExecutionContext, gap: float) -> None:
 
 
 def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a step with the screwdriver on: turn out the screw that the step drove home; the screw then hangs
+    """Reverse a step with the screwdriver on: turn out the screw that the step drove home. The screw then hangs
     from the bit.
 
-    A screw that was already driven, and that the step only tightened, stays in.
+    If the step only tightened a screw that was already driven, the screw stays in.
     """
     if done.tool < 0:
         return UndoFailure(cause=BackingOut())
@@ -269,7 +272,7 @@ def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 def _off_hold(
     run: ExecutionContext, kept: float, closer: float, wider: float, *, holding: bool = True
 ) -> UndoFailure | None:
-    """Check that the gap is that of the executed step, at most `closer` less and `wider` more (m)."""
+    """Check that the gap is that of the executed step, at most `closer` less and at most `wider` more (m)."""
     gap = run.drive.sensed.gap
     if as_before(gap, kept, closer, wider):
         return None
@@ -281,8 +284,8 @@ _UNDOING: Final[dict[type[Operation], Callable[[ExecutionContext, ExecutedStep],
     Close: _let_go,
     Center: _let_go,
 }
-"""Methods of reversal by operation. All other motions retrace their set-points; steps without motion only restore
-memory.
+"""Method of reversal for each operation. All other motions retrace their set-points, and steps without motion only
+restore memory.
 """
 
 
@@ -292,7 +295,7 @@ memory.
 def _go(
     run: ExecutionContext, done: ExecutedStep, way: RecordedPath, meeting: EarlyContact | None = None
 ) -> UndoFailure | None:
-    """Retrace a path under guards; if it is stopped, the rest of the path remains to be reversed."""
+    """Retrace a path under guards. If a guard stops the arm, the rest of the path remains to be reversed."""
     drive = run.drive
     back = retracing(
         run.arm, drive.state.q, drive.state.gap, way, slowly=done.force > 0, feeling=meeting is not None
@@ -330,7 +333,7 @@ def _lift(run: ExecutionContext, entry: int) -> UndoFailure | None:
 
 
 def _met(run: ExecutionContext, outcome: Outcome, meeting: EarlyContact | None = None) -> UndoFailure | None:
-    """The failure of a motion that ends the reversal, or None."""
+    """Return the failure if a motion ends the reversal, or None if it does not."""
     if outcome.error is not None:
         return UndoFailure(error=outcome.error, cause=outcome.cause)
     if outcome.trip is None:
@@ -343,7 +346,7 @@ def _met(run: ExecutionContext, outcome: Outcome, meeting: EarlyContact | None =
 
 
 def _joints_behind(run: ExecutionContext, index: int) -> Array | None:
-    """Set-point of the arm after a step, shape (n,); None if the arm had not moved yet."""
+    """Return the set-point of the arm after a step, shape (n,), or None if the arm had not moved yet."""
     moved = next((done for done in reversed(run.state.done[: index + 1]) if done.way), None)
     if moved is not None:
         return np.asarray(_way(run, moved).q[-1])

@@ -18,17 +18,17 @@ from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
-"""Speed of turning out, as a multiple of the speed of driving in: a motor that stalls at its speed's torque must
-give the loosening torque.
+"""Speed of turning out, as a multiple of the speed of driving in. A motor stalls at a torque in proportion to its
+commanded speed, so it needs this speed to give the loosening torque.
 """
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
-"""Tolerance, m, by which the rise may be less than the descent: one and a half turns of the thread, because the
+"""Tolerance (m) by which the rise may be less than the descent: one and a half turns of the thread, because the
 start of the thread is not sensed.
 """
 TIGHTENED: Final = 3 * 0.00127
-"""Height of three turns of the thread, m; a screw that rises less was only tightened. A screw driven from the mouth
-of its thread goes five turns.
+"""Height (m) of three turns of the thread. A screw that rises less was only tightened. A screw driven from the
+mouth of its thread makes five turns.
 """
 QUIET: Final = 20  # servo periods without rising that show the end; a thread lifts a screw by 3 mm in as many
 RISING: Final = 2e-4  # m that count as risen
@@ -36,14 +36,14 @@ PATIENCE: Final = 120  # servo periods within which a screw must begin to rise
 
 
 LOWER: Final = 0.002
-"""Greatest descent, m, made in one second, to check for a screw under the bit: half the height of the screw's head.
-
+"""Greatest descent (m), made in one second, to check that there is a screw under the bit: half the height of the
+head of the screw.
 """
 
 
 @dataclass(slots=True, kw_only=True)
 class ScrewMonitor:
-    """Trips when the screw is out, or does not rise."""
+    """Trips when the screw is out, or when it does not rise."""
 
     height: Callable[[], float]  # of the hand, m
     rise: float  # least rise of a screw that is out, m
@@ -82,13 +82,13 @@ class ScrewMonitor:
 
 
 def descent(run: ExecutionContext, way: RecordedPath) -> float:
-    """Descent of the hand along a path, m."""
+    """Return the descent (m) of the hand along a path."""
     begin, end = forward(run.arm, way.q[[0, -1]])[:, 2, 3]
     return float(begin - end)
 
 
 def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tuple[Outcome, ScrewMonitor]:
-    """Turn out the screw that a step drove in, until the screw is out or does not rise.
+    """Turn out the screw that a step drove in, until the screw is out or stops rising.
 
     Returns the outcome of the motion, and the monitor of the screw.
     """
@@ -104,13 +104,15 @@ def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tup
 
 
 def lower(run: ExecutionContext, force: float) -> Outcome:
-    """Lower the hand a little until a force (N) supports it, yielding sideways; no trip if there is no support."""
+    """Lower the hand a little until a force (N) supports it, yielding sideways. If the hand finds no support, the
+    outcome has no trip.
+    """
     course = replace(_course(run), distance=LOWER, speed=LOWER, force=None)
     return run.drive.comply(course, Resistance(limit=force))
 
 
 def _course(run: ExecutionContext) -> Course:
-    """The course of the hand: press on the screw, yielding upwards and sideways."""
+    """Return the course of the hand: press on the screw, and yield upwards and sideways."""
     return Course(
         compliance=run.arm.compliance,
         direction=np.array((0.0, 0.0, -1.0)),
@@ -123,10 +125,10 @@ def _course(run: ExecutionContext) -> Course:
 
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
-    """Index of the step that took the screw which a step drives in: the step ended on the head of the screw, before
-    the hand moved.
+    """Return the index of the step that took the screw which another step drives in. That step ended on the head of
+    the screw, before the hand moved again. Returns None if there is none.
 
-    `backwards` are indices of steps, from the driving one backwards.
+    `backwards` gives the indices of steps, from the driving step backwards.
     """
     done, moved = run.state.done, False
     for index in backwards:

@@ -1,7 +1,7 @@
 """The path of a step: set-points of joints and fingers, one per servo period.
 
-On disk, the path is stored in whole millionths of a radian or metre, whose second differences compress to less than
-a byte each.
+On disk, the path is stored in whole millionths of a radian or metre, because the second differences of whole
+numbers compress to less than a byte each.
 """
 
 import zlib
@@ -29,7 +29,7 @@ class RecordedPath:
 
 @dataclass(slots=True)
 class Track:
-    """Records the set-points of a step, and the greatest force during it."""
+    """Records the set-points of a step, and the greatest force during the step."""
 
     force: float = 0.0  # greatest so far, N
     _q: list[Array] = field(default_factory=list)
@@ -49,7 +49,9 @@ class Track:
         self.force = max(self.force, float(np.linalg.norm(wrench[:3])))
 
     def way(self, q: Array, gap: float) -> RecordedPath | None:
-        """The recorded path, ending at the given set-points; None if nothing moved."""
+        """Return the recorded path, ending at the given set-points, or None if neither the arm nor the fingers
+        moved.
+        """
         way = RecordedPath(q=np.array([*self._q, q]), gap=np.array([*self._gap, gap]))
         rows = _rows(way)
         moved = np.flatnonzero((rows[1:] != rows[:-1]).any(axis=1))
@@ -60,14 +62,14 @@ class Track:
 
 
 def packed(way: RecordedPath) -> bytes:
-    """A path as bytes, rounded to `GRAIN`."""
+    """Encode a path as bytes, rounded to `GRAIN`."""
     first = np.diff(_rows(way), axis=0, prepend=np.int32(0))
     return zlib.compress(np.diff(first, axis=0, prepend=np.int32(0)).T.tobytes(), 6)
 
 
 def unpacked(data: bytes, joints: int) -> RecordedPath:
-    """The path from bytes made by `packed`; raises ValueError if it does not belong to an arm with that many
-    joints.
+    """Decode a path from bytes made by `packed`. Raises ValueError if the path does not belong to an arm with that
+    many joints.
     """
     inflater = zlib.decompressobj()
     try:
@@ -84,5 +86,5 @@ def unpacked(data: bytes, joints: int) -> RecordedPath:
 
 
 def _rows(way: RecordedPath) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
-    """Joints and gap in units of `GRAIN`, shape (N, n + 1)."""
+    """Return the joint positions and the gap in units of `GRAIN`, shape (N, n + 1)."""
     return np.rint(np.column_stack([way.q, way.gap]) / GRAIN).astype("<i4")
