@@ -130,7 +130,9 @@ def test_a_late_riser_acts_on_bytes_that_were_meant_for_another() -> None:
 def test_a_strobe_shorter_than_a_poll_is_missed_by_some_and_misread_by_none() -> None:
     bus = LoggedBus("long-strobe:4")
     bus.send(limit_speed("X1", 500))
+    bus.pass_to(bus.now + 100)
     assert 2 <= len(bus.taken()) < 10
+    assert all(event.noticed < 4_000_000 for event in bus.taken(*AXES, "HAND1", "HAND2"))  # while it was low
     assert {event.frame for event in bus.taken()} == {limit_speed("X1", 500).frame}
 
 

@@ -91,8 +91,6 @@ def test_a_line_that_no_test_shows_is_reported_as_not_decidable(fault: str) -> N
 @pytest.mark.parametrize(
     ("fault", "part"),
     [
-        ("address:HAND1:1", "microcomputer HAND1"),  # Y1 answers at the same time
-        ("address:FORCE2:1", "microcomputer FORCE2"),  # always busy
         ("clock:Y2:-60", "microcomputer Y2"),  # no byte is misread
         ("status-a:Z1:0", "status line A of Z1"),
         ("status-b:X2:0", "status line B of X2"),
@@ -103,6 +101,15 @@ def test_a_line_that_no_test_shows_is_reported_as_not_decidable(fault: str) -> N
 )
 def test_the_right_part_is_named_though_another_one_suffers(fault: str, part: str) -> None:
     assert of_bus(fault).part == part
+
+
+@pytest.mark.sigma_row(38)
+@pytest.mark.parametrize(
+    ("name", "number", "seed"),
+    [("HAND1", 1, 2), ("Z1", 0, 4), ("FORCE2", 1, 3)],  # a wrist is always busy; the seeds garble the answers
+)
+def test_of_two_that_answer_to_one_number_the_stranger_is_named(name: str, number: int, seed: int) -> None:
+    assert of_bus(f"address:{name}:{number}", seed).part == f"microcomputer {name}"
 
 
 def test_a_spare_microcomputer_brings_its_own_converter_and_leaves_the_gauges() -> None:

@@ -66,6 +66,20 @@ def test_wait_leaves_flags_set_and_wants_all_of_them() -> None:
     assert "line 60, waits for flags A and B" in ran.fault
 
 
+def test_tasks_take_turns_a_statement_each() -> None:
+    left, right = "40 A = 1\n45 B = 1\n50 C = 1", "70 D = 1\n75 E = 1\n80 F = 1"
+    assert carried_out(TWO_TASKS.format(left=left, right=right)).statements == [
+        10,
+        40,
+        70,
+        20,
+        45,
+        75,
+        50,
+        80,
+    ]
+
+
 @pytest.mark.sigma_row(35)
 def test_in_the_hand_over_the_arms_are_never_both_at_the_assembly_place() -> None:
     ran, nearest = begun(mal("handover")), 0.0
@@ -214,6 +228,7 @@ def test_a_subroutine_returns_behind_its_gosub_also_from_within_an_if() -> None:
 
 def test_functions_of_numbers_are_those_of_basic() -> None:
     assert carried_out("10 PRINT INT(-1.5); SGN(-3); SGN(0); ABS(-2); SQR(16)").printed == ["-2-1024"]
+    assert carried_out("10 PRINT 7 / 2; 2 - 5; -3 * 2").printed == ["3.5-3-6"]
 
 
 @pytest.mark.parametrize(("value", "printed"), [(1, ["ONE", "END"]), (2, ["OTHER", "END"]), (3, ["THREE"])])
