@@ -1,1 +1,1 @@
-"""The stepper: people step runs with commands, breakpoints and views."""
+"""The stepper, with which users step through runs with commands, breakpoints and views."""

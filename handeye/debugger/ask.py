@@ -1,4 +1,4 @@
-"""Asks the person at the terminal when the program calls the operator."""
+"""Asks the person at the terminal what to do when the program calls the operator."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ _CHOICES: Final[dict[str, Choice | Literal["abort"]]] = {
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """Asks in words; the end of the input means `abort`."""
+    """An operator who asks the person at the terminal. The end of the input means `abort`."""
 
     lines: Iterator[str]
     write: Callable[[str], None]  # puts out lines of text; the end of the last one is not in them
@@ -42,8 +42,8 @@ class Ask:
         return "abort"
 
     def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:
-        """The choice in a line; None if the line only asked to see something. Raises InvalidInput for any other
-        line.
+        """Return the choice that a line states, or None if the line only asked to show information. Raises
+        InvalidInput for any other line.
         """
         if word in ("b", "back"):
             return Back(stage=_begun(runner, rest))
@@ -67,7 +67,8 @@ class Ask:
 
 
 def _begun(runner: Runner, text: str) -> int:
-    """Index of the stage that the user names, by default the present one; raises InvalidInput if it has not begun."""
+    """Return the index of the stage that the user names, or of the present stage by default. Raises
+    InvalidInput if that stage has not begun."""
     present = runner.stage
     stage = present if not text and present is not None else stage_number(text, runner.listing)
     if stage not in beginnings(runner):

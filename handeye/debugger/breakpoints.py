@@ -1,4 +1,5 @@
-"""Breakpoints as users name them: an error, a line, a label, an instruction, a stage, a step."""
+"""Breakpoints in the form in which users name them: an error, a line, a label, an instruction, a stage or a
+step."""
 
 import re
 from collections.abc import Iterable
@@ -21,11 +22,12 @@ _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", r
 
 
 def breakpoint(text: str, listing: Listing) -> AnyStop:
-    """The breakpoint for a text; raises InvalidInput if there is no such place, or if no step can raise that error.
+    """Return the breakpoint that a text names. Raises InvalidInput if there is no such place, or if no step can
+    raise that error.
 
-    The text is `error:23`; a line of the source, or `pins.al:3` (the line's first step, or the first step after the
-    line); a label; an instruction word (every step that begins with it); or a stage, by its name or a part of the
-    name.
+    The text is one of: `error:23`; a line of the source, such as `12` or `pins.al:3`, which means the first
+    step on the line or after it; a label; an instruction word, which means every step that begins with that
+    word; a stage, by its name or a part of the name.
     """
     text = text.strip()
     if not text:
@@ -50,15 +52,15 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 
 def stage_number(text: str, listing: Listing) -> int:
-    """The index of a stage, given by its number from 1, its name, or a part that only its name contains; raises
-    InvalidInput.
+    """Return the index of a stage. The user gives the stage's number from 1, its name, or a part of the name
+    that no other stage's name contains. Raises InvalidInput.
     """
     return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
-    """The index of a step, given by its number in the plan, or by a label that only this step has; raises
-    InvalidInput.
+    """Return the index of a step. The user gives the step's number in the plan, or a label that no other step
+    has. Raises InvalidInput.
     """
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):
@@ -76,9 +78,10 @@ def step_number(text: str, listing: Listing) -> int:
 
 
 def meant(name: str, known: Iterable[str]) -> str:
-    """`; did you mean ...` with the nearest known name, if at least half of `name` is right; else an empty text.
+    """Return `; did you mean ...` with the nearest known name, or an empty text if less than half of `name` is
+    right.
 
-    Names typed at the stepper are short: `L9` may be meant for `L1`.
+    Names typed at the stepper are short, so half is enough: a user who types `L9` may mean `L1`.
     """
     near = nearest(name, known, (len(name) + 1) // 2)
     return f"; did you mean {quoted(near)}?" if near else ""
@@ -133,7 +136,8 @@ def _at_stage(text: str, listing: Listing) -> AnyStop | None:
 
 
 def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
-    """True if a task of a run that begins at `start` can still reach the place of a stop; errors can always occur."""
+    """Return True if a task of a run that begins at `start` can still reach the place of a stop. Errors can
+    always occur."""
     listing = listing_of(start.setup)
     wanted, ways = _steps(stop, listing), [step.ways for step in listing.steps]
     if wanted is None:
@@ -143,7 +147,7 @@ def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
 
 
 def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:
-    """The steps before which a condition stops; None if the condition is no place."""
+    """Return the steps before which a condition stops, or None if the condition is not a place."""
     match stop:
         case AtSteps():
             return frozenset(stop.steps)

@@ -1,4 +1,4 @@
-"""Commands of a prompt, and the table of commands as help."""
+"""Defines the commands of a prompt, and shows the table of commands as help."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ Act = TypeVar("Act", bound=Callable[..., Any])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Command(Generic[Act]):
-    """A command and its action."""
+    """A command of a prompt, with the function that executes it."""
 
     usage: str
     act: Act
@@ -36,14 +36,15 @@ class Command(Generic[Act]):
 
 
 def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
-    """Raise BadArgument if an operand follows a command without operands; `named` are the commands of one name."""
+    """Raise BadArgument if an operand follows a command that takes none. `named` are all commands with the name
+    that was typed."""
     commands = list(named)
     if rest and all(command.bare for command in commands):
         raise BadArgument(f"`{commands[0].name}` takes no operand; remove {quoted(rest)}")
 
 
 def rows(commands: Iterable[Command[Any]]) -> list[str]:
-    """The commands as lines of help, by group."""
+    """Return the commands as lines of help, by group."""
     table = list(commands)
     width = max(len(command.shown) for command in table)
     lines: list[str] = []

@@ -1,4 +1,4 @@
-"""The stepper's commands as a table, from which parsing and help are derived."""
+"""The table of the stepper's commands, from which both parsing and help are derived."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -18,8 +18,8 @@ StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
 
 def find(line: str) -> tuple[StepperCommand, str]:
-    """The command in a line, and its operand; raises InvalidInput if there is no such command, or the operand is
-    not allowed.
+    """Return the command in a line, and its operand. Raises InvalidInput if there is no such command, or if the
+    operand is not allowed.
     """
     word, _, rest = line.strip().partition(" ")
     name, _, more = _SHORT.get(word.casefold(), word.casefold()).partition(" ")
@@ -35,7 +35,7 @@ def find(line: str) -> tuple[StepperCommand, str]:
 
 
 def commands_of(runner: Runner) -> tuple[StepperCommand, ...]:
-    """The commands that have an effect in a run, with their help for that run."""
+    """Return the commands that have an effect in a run, each with the help text for that run."""
     words, can = runner.kind.words, runner.kind.entry.can
     unable = {name for name, capability in _ASKING.items() if capability not in can}
     return tuple(
@@ -57,7 +57,7 @@ def _settings(command: StepperCommand, runner: Runner) -> list[StepperCommand]:
 
 
 def manual(runner: Runner) -> str:
-    """The manual: all commands that have an effect in this run."""
+    """Return the manual of all commands that have an effect in this run."""
     words = runner.kind.words
     return "\n".join(
         [

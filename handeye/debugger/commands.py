@@ -1,4 +1,4 @@
-"""Actions of the stepper's commands on a session; each gets the text after the command word.
+"""The functions that execute the stepper's commands on a session. Each gets the text after the command word.
 
 The table of commands describes each command.
 """
@@ -220,7 +220,7 @@ def checkpoint(session: DebugSession, rest: str) -> CommandResult:
 
 
 def _file(name: str) -> Path:
-    """The path of a file; raises InvalidInput for an impossible name."""
+    """Return the path of a file. Raises InvalidInput if the text cannot be a file name."""
     try:
         path = Path(name).expanduser()
         path.exists()
@@ -245,8 +245,8 @@ MAX_NUMBER: Final = 1000.0
 
 
 def _set(runner: Runner, text: str) -> None:
-    """Set a value given by kind, name and numbers, such as `saved H 0 0 .1`; raises InvalidInput if it cannot be
-    set.
+    """Set a value. The user gives its kind, name and numbers, such as `saved H 0 0 .1`. Raises InvalidInput if
+    the value cannot be set.
     """
     kind, _, rest = text.strip().partition(" ")
     settables = runner.system.settables()
@@ -262,7 +262,7 @@ def _set(runner: Runner, text: str) -> None:
 
 
 def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
-    """The name and the numbers in a text, without brackets and commas."""
+    """Return the name and the numbers in a text. Brackets and commas are ignored."""
     name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
     if not name or len(words) not in (settable.fewest, len(settable.units)):
         raise BadArgument(f"write `set {kind} {settable.usage}`")

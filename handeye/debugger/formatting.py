@@ -25,7 +25,7 @@ _ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in Command
 
 
 def as_json(reply: Reply) -> str:
-    """The reply as a JSON object on one line."""
+    """Return the reply as a JSON object on one line."""
     fields = {name: getattr(reply, name) for name in _ORDER}
     told = {name: msgspec.to_builtins(value) for name, value in fields.items() if value is not UNSET}
     if reply.pause is not None:
@@ -39,7 +39,8 @@ def as_json(reply: Reply) -> str:
 
 
 def as_text(reply: Reply, most: int | None = None) -> str:
-    """The reply as text, without a final newline; if many steps were done, only the last `most`."""
+    """Return the reply as text without a final newline. If more than `most` steps were executed, only the last
+    `most` are shown."""
     if reply.error is not None:
         return reply.error
     lines = [*summary_lines(reply.did, most), _standing(reply)]
@@ -64,14 +65,14 @@ def _standing(reply: Reply) -> str:
 
 
 def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[str]:
-    """The executed steps as lines of text, at most the last `most`."""
+    """Return the executed steps as lines of text, but at most the last `most`."""
     left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {counted(left_out, 'line')} before these" if left_out else ""][: left_out and 1]
     return head + [told_row(step) for step in did[left_out:]]
 
 
 def told_row(step: StepSummary) -> str:
-    """An executed step, or an event between two steps, as a line of text."""
+    """Return an executed step, or an event between two steps, as a line of text."""
     if step.line is None:
         return f"      — {step.text}"
     return f"{line_name(step.line, step.file):>5} {step.text:{STATEMENT_COLUMNS}} {step.outcome}".rstrip()
@@ -81,7 +82,7 @@ def told_row(step: StepSummary) -> str:
 
 
 def shown_lines(shown: RunViews) -> list[str]:
-    """The reply to a `show` command, as lines of text."""
+    """Return the reply to a `show` command as lines of text."""
     lines: list[str] = []
     for field, tell in _LINES.items():
         value, title = getattr(shown, field), field.partition("_")[0]

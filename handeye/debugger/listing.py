@@ -1,4 +1,4 @@
-"""The program as users see it: stages and steps, the source around a line, and the places that users name."""
+"""Shows the program to users: its stages and steps, the source around a line, and the places that users name."""
 
 import re
 from bisect import bisect_left
@@ -19,7 +19,7 @@ _PLACE: Final = re.compile(r"(?:(?P<file>[^:]+):)?(?P<line>[0-9]{1,9})")
 
 
 class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """A step, by its number in the plan."""
+    """A step, which users select by its number in the plan."""
 
     step: int
     file: str = ""  # the required file its line is in; empty: the script itself
@@ -28,7 +28,7 @@ class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """A stage, by its number from 1."""
+    """A stage, which users select by its number, counted from 1."""
 
     number: int
     name: str
@@ -51,7 +51,7 @@ class SourceLine(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 def listing(program: Listing) -> tuple[ListedStage, ...]:
-    """The stages of a plan with their steps."""
+    """Return the stages of a plan with their steps."""
     listed: list[list[ListedStep]] = [[] for _ in program.stages]
     for number, step in enumerate(program.steps):
         shown = ListedStep(step=number, file=step.file, line=step.line, text=one_line(step.text))
@@ -64,7 +64,7 @@ def listing(program: Listing) -> tuple[ListedStage, ...]:
 
 
 def listing_text(program: Listing) -> list[str]:
-    """The stages of a plan and their steps as lines of text."""
+    """Return the stages of a plan and their steps as lines of text."""
     found = listing(program)
     width = max(len(stage.name) for stage in found)
     out = []
@@ -91,7 +91,8 @@ def excerpt(
     file: str = "",
     tasks: Sequence[TaskView] = (),
 ) -> tuple[SourceLine, ...]:
-    """`around` lines of a text before and after `line`; the line `here`, and the lines of the tasks, are marked."""
+    """Return `around` lines of a text before and after `line`. The line `here` and the present lines of the
+    tasks are marked."""
     standing: dict[int, list[str]] = {}
     for each in tasks:
         if each.file == file:
@@ -112,8 +113,8 @@ def excerpt(
 
 
 def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]:
-    """An excerpt as lines of text: `mark` before the present line of the run, `·` before lines at which only other
-    tasks are.
+    """Return an excerpt as lines of text. `mark` precedes the present line of the run; `·` precedes the present
+    lines of other tasks.
     """
     width = len(str(lines[-1].line)) if lines else 0
     head = [f"    {printable(lines[0].file.expandtabs())}"] if lines and lines[0].file else []
@@ -125,12 +126,12 @@ def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]
 
 
 def numbered_stage(program: Listing, stage: int) -> str:
-    """A stage with its number, such as `stage 4, insert the aligning pins`."""
+    """Return a stage with its number, such as `stage 4, insert the aligning pins`."""
     return f"stage {stage + 1}, {program.stages[stage]}"
 
 
 def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> ListedStage:
-    """A stage; `own` are the steps that do not come from a macro."""
+    """Return a stage. `own` are the steps that do not come from a macro."""
     here = [step for step in steps if step.step in own] or steps
     file = here[0].file if here else ""
     lines = [step.line for step in here if step.file == file]
@@ -139,7 +140,7 @@ def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> Li
 
 
 def lines_of(program: Listing, file: str) -> Mapping[int, str]:
-    """The lines of a required file, or of the script itself, by number."""
+    """Return the lines of a required file, or of the script itself, by number."""
     if program.numbered and not file:
         return program.numbered
     text = program.required[file] if file else program.source
@@ -148,7 +149,8 @@ def lines_of(program: Listing, file: str) -> Mapping[int, str]:
 
 
 def named_place(text: str, program: Listing) -> Place | None:
-    """The place for `12` or `pins.al:12`, None for another form; raises InvalidInput if there is no such file."""
+    """Return the place that `12` or `pins.al:12` names, or None if the text has another form. Raises
+    InvalidInput if there is no such file."""
     given = _PLACE.fullmatch(text.strip())
     if given is None:
         return None

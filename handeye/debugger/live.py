@@ -1,4 +1,5 @@
-"""A run in progress at the terminal: its pace, its steps printed as they begin, and lines that are typed meanwhile."""
+"""Shows a run at the terminal while it goes on: limits its pace, prints each step when it begins, and reads
+lines that the user types meanwhile."""
 
 import re
 import time
@@ -28,7 +29,8 @@ _LATE_S: Final = (
 
 @dataclass(slots=True, eq=False)
 class Pace(Observer):
-    """Limits the pace of a run to `factor` times real time by waiting; the run itself is not affected."""
+    """Limits the pace of a run to `factor` times real time by waiting. This does not change the course of the
+    run."""
 
     factor: float | None = None  # simulated seconds per second; None: as fast as it goes
     clock: Callable[[], float] = time.monotonic
@@ -48,7 +50,7 @@ class Pace(Observer):
             self._keep(self.factor, period.sensed.time)
 
     def _keep(self, factor: float, time: float) -> None:
-        """Wait until the cell's time is due."""
+        """Wait until the host's clock has caught up with the cell's time."""
         now = self.clock()
         if self._kept is None or self._kept[0] != factor or time < self._kept[2]:
             self._kept = factor, now, time
@@ -61,7 +63,7 @@ class Pace(Observer):
 
 
 def factor(text: str) -> float | None:
-    """Parse a pace: `1x`, `4x`, `.5x`, or `free`, which gives None; raises InvalidInput."""
+    """Parse a pace: `1x`, `4x` or `.5x`, or `free`, for which it returns None. Raises InvalidInput."""
     if text.casefold() == FREE:
         return None
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())
@@ -77,7 +79,7 @@ _OUTCOME_INDENT: Final = 8  # columns, where it has a line of its own
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Live:
-    """The terminal during a run."""
+    """The terminal as a run uses it: reads typed lines, and writes text."""
 
     typed: Callable[[], str | None]  # a line that was typed already; None: there is none
     put: Callable[[str], None]  # puts out a piece of a line
@@ -86,7 +88,8 @@ class Live:
 
 @dataclass(slots=True, eq=False)
 class LineInput(Observer):
-    """Reads lines that are typed during a run, at every servo period and step."""
+    """Reads the lines that the user types during a run. It checks for them in every servo period and at every
+    step."""
 
     typed: Callable[[], str | None]
     answer: Callable[[str], None]
@@ -106,7 +109,7 @@ class LineInput(Observer):
 
 @dataclass(slots=True, eq=False)
 class LiveJson(Observer):
-    """Prints each step as it begins, as a JSON object on one line."""
+    """Prints each step when it begins, as a JSON object on one line."""
 
     runner: Runner
     write: Callable[[str], None]
@@ -118,7 +121,8 @@ class LiveJson(Observer):
 
 @dataclass(slots=True, eq=False)
 class LiveText(Observer):
-    """Prints each step as it begins, and its outcome when the next step begins, on the same line if there is room."""
+    """Prints each step when it begins. The step's outcome is printed when the next step begins, on the same
+    line if there is space."""
 
     runner: Runner
     write: Callable[[str], None]  # puts out a line, without its end
@@ -128,7 +132,7 @@ class LiveText(Observer):
     _open: str = ""  # text of a line that has not ended
 
     def begin(self) -> None:
-        """Print the events from now on."""
+        """Start to print: only events that happen from now on are shown."""
         self.told = len(self.runner.events)
 
     def event(self, event: AnyEvent) -> None:
@@ -141,19 +145,19 @@ class LiveText(Observer):
             self.put(self._open)
 
     def leave_line(self, *, ended: bool = False) -> None:
-        """End an open line; `ended`: the user's Enter has already ended it."""
+        """End an unfinished line. If `ended`, the user's Enter key has already ended it."""
         if self._open and not ended:
             self.put("\n")
         self._open = ""
 
     def end(self) -> None:
-        """Print the remaining events; the line of a step that was rolled back stays as it is."""
+        """Print the remaining events. The line of a step that was rolled back is left unchanged."""
         self._tell(self.runner.events[self.told :])
         self.leave_line()
         self.begin()
 
     def _tell(self, events: list[AnyEvent]) -> None:
-        """Print complete steps."""
+        """Print the outcomes of complete steps."""
         for summary in step_summaries(events, self.runner.listing, self.runner.task.measures):
             row = told_row(summary)
             outcome = row.removeprefix(self._open)

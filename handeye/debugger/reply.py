@@ -1,4 +1,5 @@
-"""The stepper's reply to a command: a record for programs and people, with a summary of each executed step."""
+"""Defines the stepper's reply to a command. It is a record for programs and people, with a summary of each
+executed step."""
 
 from collections.abc import Iterable, Sequence
 from typing import Final
@@ -78,7 +79,8 @@ def _outcome(
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:
-    """The end position of a step without other events; empty if the step took no time."""
+    """Return where the hand or the fingers were at the end of a step without other events. Empty if the step
+    took no time."""
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
@@ -88,14 +90,14 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
 
 
 class Break(Record, frozen=True, kw_only=True):
-    """A breakpoint, with the number by which it is deleted."""
+    """A breakpoint with its number, by which the user can delete it."""
 
     number: int
     stop: AnyStop
 
 
 class CommandResult(Record, frozen=True, kw_only=True):
-    """Result of a command; fields without content are left out."""
+    """The result of a command. Fields without content are left out."""
 
     said: str | UnsetType = UNSET
     pause: Pause | None = None  # why the run pauses, if the command made it go
@@ -106,7 +108,7 @@ class CommandResult(Record, frozen=True, kw_only=True):
 
 
 class UnderWay(Record, frozen=True, kw_only=True):
-    """A step that begins; the field names are those of `Reply`."""
+    """A step that has just begun. The field names are those of `Reply`."""
 
     position: int
     time: float
@@ -119,7 +121,7 @@ class UnderWay(Record, frozen=True, kw_only=True):
 
 
 class Reply(CommandResult, frozen=True, kw_only=True):
-    """The reply to a command: the present place of the run, and the result of the command."""
+    """The reply to a command: where the run is now, and the result of the command."""
 
     command: str
     position: int  # steps done

@@ -1,4 +1,4 @@
-"""A debugging session: the runner, the breakpoints, and the places where states are kept."""
+"""A debugging session, which has the runner, the breakpoints, and access to the stored states of the run."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -36,10 +36,11 @@ class DebugSession:
         keep: Callable[[Checkpoint], Path | None],
         pictures: Path | None,
     ) -> None:
-        """Take control of a run, which also pauses at `stops`, not only at breakpoints.
+        """Take control of a run. The run pauses at breakpoints and also at `stops`.
 
-        `kept` finds the newest checkpoint on disk with at most that many steps done; `keep` writes a checkpoint, if
-        the run keeps them; `pictures` is the folder to which the last picture is written when it is shown.
+        `kept` finds the newest checkpoint on disk that has at most a given number of steps done. `keep` writes
+        a checkpoint, if the run stores checkpoints. `pictures` is the folder to which the last picture is
+        written when the user asks for it.
         """
         self.runner = runner
         self.stops = stops
@@ -58,18 +59,19 @@ class DebugSession:
 
     @property
     def program(self) -> Listing:
-        """Stages and steps of the run's program."""
+        """The stages and steps of the run's program."""
         return self.runner.listing
 
     @property
     def idle(self) -> bool:
-        """True if no step has been done, or all were rolled back."""
+        """True if no step has been executed, or all executed steps were rolled back."""
         return tuple(self.runner.events) == self._begun
 
     # -- breaks ---------------------------------------------------------------------------------------
 
     def add_break(self, text: str) -> Break:
-        """Set a breakpoint; a breakpoint that is already set stays. Raises InvalidInput if there is no such place."""
+        """Set a breakpoint. A breakpoint that is already set keeps its number. Raises InvalidInput if there is
+        no such place."""
         stop = breakpoint(text, self.program)
         number = next((number for number, there in self.breaks.items() if there == stop), None)
         if number is None:
@@ -80,10 +82,10 @@ class DebugSession:
     # -- going ----------------------------------------------------------------------------------------
 
     def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
-        """Continue to the next of these stops or a breakpoint, or for `steps` steps.
+        """Continue until the next of these stops or breakpoints, or for `steps` steps.
 
-        A step that is interrupted by the panic button or a failure is rolled back. Raises InvalidInput if the run
-        cannot continue.
+        A step that is interrupted by the panic button or a failure is rolled back. Raises InvalidInput if the
+        run cannot continue.
         """
         refusal = self.at_its_end()
         if refusal is not None:
@@ -91,8 +93,8 @@ class DebugSession:
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
-        """Have the arm undo steps until `left` remain, and end there if `halts`; raises InvalidInput if the arm
-        cannot.
+        """Let the arm undo steps until `left` executed steps remain. With `halts`, the run ends there. Raises
+        InvalidInput if the arm cannot undo them.
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
@@ -112,7 +114,7 @@ class DebugSession:
         return pause
 
     def ask_pause(self) -> None:
-        """Request a pause of a moving run after the present step; raises InvalidInput if the run is paused."""
+        """Make a moving run pause after the present step. Raises InvalidInput if the run is already paused."""
         if self.going is None:
             raise Refused("the run is already paused")
         if self.going == "back":
@@ -121,7 +123,7 @@ class DebugSession:
 
     @contextmanager
     def _attended(self, going: Literal["on", "back"], *observers: Observer) -> Iterator[None]:
-        """In this context, the run is in progress, with these observers."""
+        """Within this context, the run is in progress with these observers."""
         self.going = going
         self.runner.observers += observers
         try:
@@ -138,7 +140,7 @@ class DebugSession:
         return Pause(kind="break", next=self.runner.at, met=ByHand())
 
     def at_its_end(self) -> str | None:
-        """The reason why the run cannot continue without the operator; None if it can."""
+        """Return the reason why the run cannot continue without the operator, or None if it can."""
         runner = self.runner
         if not runner.ended:
             return None
@@ -150,7 +152,7 @@ class DebugSession:
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
-        """Go back to the state with `position` steps done; raises Refused if no such state was kept, or if the
+        """Go back to the state with `position` steps done. Raises Refused if no such state is stored, or if the
         panic button is pressed.
         """
         try:
@@ -165,15 +167,15 @@ class DebugSession:
             ) from None
 
     def first(self) -> int:
-        """Number of steps done in the earliest state to which the run can go back."""
+        """Return the number of steps done in the earliest state to which the run can go back."""
         first = self.runner.history[0].position
         while first > 0 and (before := self.kept(first - 1)) is not None:
             first = before.position
         return first
 
     def stage_began(self) -> int | None:
-        """Number of steps done when the present stage began, or between stages the previous stage; None before the
-        first stage.
+        """Return the number of steps that were done when the present stage began, or the previous stage if the
+        run is between stages. None before the first stage.
         """
         return next(reversed(beginnings(self.runner).values()), None)
 
@@ -181,21 +183,21 @@ class DebugSession:
 
     @property
     def stage(self) -> int | None:
-        """Index of the present or next stage; None after the last stage."""
+        """Index of the present or next stage, or None after the last stage."""
         step = self.runner.next
         present = self.runner.stage
         return present if present is not None or step is None else step.stage
 
     @property
     def place(self) -> Place:
-        """File and line of the next step; at an end, of the last step that began."""
+        """File and line of the next step or, if no step follows, of the last step that began."""
         step, events = self.runner.next, reversed(self.runner.events)
         if step is not None:
             return step.file, step.line
         return next(((event.file, event.line) for event in events if isinstance(event, StepStarted)), ("", 1))
 
     def source(self, place: Place | None = None, around: int = LINES_AROUND) -> tuple[SourceLine, ...]:
-        """The script around a line, by default around the present line."""
+        """Return the lines of the script around a line, or around the present line by default."""
         file, line = place or self.place
         here = self.place[1] if self.place[0] == file else None
         return excerpt(self.program, line, here, around, file, task_views(self.runner))

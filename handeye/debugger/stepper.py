@@ -1,4 +1,4 @@
-"""The interactive stepper: executes commands, returns each reply as a record, and prints replies."""
+"""The interactive stepper. It executes commands, returns each reply as a record, and prints the replies."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -33,7 +33,8 @@ class Stepper:
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
         pictures: Path | None = None,
     ) -> None:
-        """Take control of a run, like `DebugSession`; raises InvalidInput if one of `breaks` is no place."""
+        """Take control of a run, like `DebugSession`. Raises InvalidInput if one of `breaks` does not name a
+        place."""
         self.session = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:
             self.session.add_break(text)
@@ -45,7 +46,7 @@ class Stepper:
 
     @property
     def over(self) -> bool:
-        """True if the session was left, or the user ended the run."""
+        """True if the user left the session or ended the run."""
         return self.session.over
 
     @property
@@ -53,7 +54,7 @@ class Stepper:
         return self.session.pause
 
     def do(self, line: str) -> Reply:
-        """Execute a command; an invalid command changes nothing."""
+        """Execute a command. An invalid command changes nothing."""
         line = line.strip()
         happened = len(self.session.runner.events)
         try:
@@ -66,7 +67,7 @@ class Stepper:
         return self._reply(line, told, happened)
 
     def meanwhile(self, line: str) -> Reply:
-        """Answer a line that was typed during a run; most commands are refused then."""
+        """Answer a line that was typed during a run. Most commands are refused while the run moves."""
         line, happened = line.strip(), len(self.session.runner.events)
         try:
             command, rest = find(line)
@@ -81,7 +82,7 @@ class Stepper:
         return self._reply(line, told, happened)
 
     def standing(self) -> Reply:
-        """The reply before the first command, with the place at which the run is paused."""
+        """Return the reply that is shown before the first command. It says where the run is paused."""
         runner = self.session.runner
         steps = counted(len(self.session.program.steps), "step")
         said = f"{self.session.program.name}, {steps}; `help` lists the commands"
@@ -90,7 +91,7 @@ class Stepper:
         return self._reply("", told, len(runner.events))
 
     def _reply(self, line: str, told: CommandResult, happened: int, error: str | None = None) -> Reply:
-        """The reply to a line, with the events after the first `happened` events."""
+        """Return the reply to a line, with the events after the first `happened` events."""
         session = self.session
         runner, step, stage = session.runner, session.runner.next, session.stage
         events = runner.events[happened:]
@@ -122,14 +123,14 @@ def interact(
     most: int | None = None,
     live: Live | None = None,
 ) -> Pause:
-    """Execute commands, one per line, until the session is left; returns the reason of the run's pause. The end of
-    the lines means `quit`.
+    """Execute commands, one per line, until the user leaves the session. The end of the lines means `quit`.
+    Returns the reason why the run paused.
 
     Args:
-        write: prints lines of text, given without the final newline.
+        write: prints lines of text, which it gets without the final newline.
         json: answer each command with one JSON object on one line, and print nothing else.
         prompt: print a prompt for each line; an empty line repeats the last command that advanced the run.
-        most: greatest number of executed steps to print; None: all.
+        most: greatest number of executed steps to print; all if None.
         live: print each step as it begins, and answer lines that are typed during the run.
     """
     face = as_json if json else partial(as_text, most=most)
@@ -156,7 +157,8 @@ def interact(
 def _attend(
     stepper: Stepper, live: Live, write: Callable[[str], None], *, json: bool, echoed: bool
 ) -> LiveText | None:
-    """Print steps and answer lines during the run; returns the text printer, or None for JSON."""
+    """Print steps and answer lines during the run. Returns the object that prints steps as text, or None for
+    JSON."""
     runner, text = stepper.session.runner, None
     if json:
         stepper.session.output = LiveJson(runner, write)

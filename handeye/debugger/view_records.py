@@ -1,4 +1,4 @@
-"""Views of a paused run, as plain records in inches, degrees and ounces."""
+"""The views of a paused run as records with values in inches, degrees and ounces."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ Six = tuple[float, float, float, float, float, float]
 
 
 class JointView(Record, frozen=True, kw_only=True):
-    """Position of a joint."""
+    """The position of a joint."""
 
     name: str
     value: float
@@ -18,7 +18,7 @@ class JointView(Record, frozen=True, kw_only=True):
 
 
 class HandView(Record, frozen=True, kw_only=True):
-    """Pose of the hand in W; the angles are O, A, T."""
+    """The pose of the hand in W. Its angles are O, A, T."""
 
     at_in: Vector3
     angles_deg: Vector3
@@ -32,7 +32,7 @@ class ErrorView(Record, frozen=True, kw_only=True):
 
 
 class SearchView(Record, frozen=True, kw_only=True):
-    """A search in progress; places count from 1."""
+    """A search in progress. Places are numbered from 1."""
 
     place: int
     places: int
@@ -40,14 +40,14 @@ class SearchView(Record, frozen=True, kw_only=True):
 
 
 class PartPose(Record, frozen=True, kw_only=True):
-    """Pose of an upright part in W."""
+    """The pose of an upright part in W."""
 
     at_in: Vector3
     yaw_deg: float
 
 
 class PartShown(Record, frozen=True, kw_only=True):
-    """Planned and measured pose of a part, and their difference."""
+    """The planned and the measured pose of a part, and their difference."""
 
     planned: PartPose
     measured: PartPose | None
@@ -55,7 +55,7 @@ class PartShown(Record, frozen=True, kw_only=True):
 
 
 class PositionView(Record, frozen=True, kw_only=True):
-    """A position in the frame it was taught in: x, y, z (in), O, A, T (deg)."""
+    """A position in the frame in which it was taught: x, y, z (in), and O, A, T (deg)."""
 
     at: Six
     of: str | None
@@ -63,14 +63,14 @@ class PositionView(Record, frozen=True, kw_only=True):
 
 
 class PictureShown(Record, frozen=True, kw_only=True):
-    """The last picture, with the findings in it."""
+    """The last picture, with what vision found in it."""
 
     name: str
     file: str | None
 
 
 class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """The place of one of several tasks."""
+    """Where one of several tasks is in the program."""
 
     task: str
     step: int  # the step that it does next
@@ -81,7 +81,7 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class RunViews(Record, frozen=True, kw_only=True):
-    """The requested views; all others are left out."""
+    """The views that the user asked for. All other fields are left out."""
 
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET

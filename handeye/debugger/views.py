@@ -1,4 +1,4 @@
-"""Views of a paused run."""
+"""Shows the state of a paused run in views."""
 
 from collections.abc import Collection
 from pathlib import Path
@@ -16,7 +16,8 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunViews:
-    """Views for topics, given by their beginnings (empty: all topics except `positions`); raises InvalidInput.
+    """Return the views for the topics in `what`, which may be abbreviated. If `what` is empty, all topics
+    except `positions` are shown. Raises InvalidInput.
 
     The last picture is written to the folder `pictures`, if one is given.
     """
@@ -33,7 +34,7 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunVie
 
 
 def task_views(runner: Runner) -> tuple[TaskView, ...]:
-    """The place of each task; empty if the tasks have no names, as in a system with one task."""
+    """Return where each task is in the program. Empty if the tasks have no names, as in a system with one task."""
     steps = runner.listing.steps
     return tuple(
         TaskView(
@@ -50,8 +51,8 @@ def task_views(runner: Runner) -> tuple[TaskView, ...]:
 
 
 def write_picture(runner: Runner, file: Path) -> str:
-    """Write the last picture, with its marks, as a PNG file; returns its name. Raises InvalidInput if there is
-    none.
+    """Write the last picture with its marks as a PNG file. Returns the name of the picture. Raises InvalidInput
+    if there is no picture.
     """
     last = last_picture(runner)
     if last is None:
@@ -69,7 +70,7 @@ def _topic(what: str, topics: Collection[str]) -> str:
 
 
 def last_picture(runner: Runner) -> str | None:
-    """The name of the last picture that still exists; None if there is none."""
+    """Return the name of the last picture that still exists, or None."""
     taken = [event.picture for event in runner.events if isinstance(event, PictureTaken)]
     return next((name for name in reversed(taken) if name in runner.system.shots), None)
 

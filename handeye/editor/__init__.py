@@ -1,1 +1,1 @@
-"""Editor services for the arm language: pure functions on a text, and a language server that uses them."""
+"""Editor services for the arm language: functions that work on a text, and a language server that uses them."""

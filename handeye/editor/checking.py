@@ -1,4 +1,4 @@
-"""Checks of a script by the planner, for the default task."""
+"""Checks a script with the planner, for the default task."""
 
 from handeye.al import AL
 from handeye.arm.model import ArmModel
@@ -9,10 +9,10 @@ from handeye.tasks import task
 
 
 def arm() -> ArmModel:
-    """The arm for which scripts are checked."""
+    """Return the arm for which scripts are checked."""
     return task().arm
 
 
 def planning(program: Program) -> list[Diagnostic]:
-    """The planner's diagnostics for a program."""
+    """Return the planner's diagnostics for a program."""
     return plan_program(program, arm(), AL)[1]

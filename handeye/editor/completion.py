@@ -1,4 +1,4 @@
-"""Completion: proposals for the next word."""
+"""Proposes completions for the next word."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from handeye.editor.places import expected, instruction
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Proposal:
-    """A proposed word; `kind` is `instruction`, `word`, `number`, or the kind of a name."""
+    """A proposed word. `kind` is `instruction`, `word`, `number`, or the kind of a name."""
 
     text: str
     kind: str
@@ -26,7 +26,7 @@ class Proposal:
 
 
 def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
-    """Proposals for an offset, and the span that they would replace."""
+    """Return proposals for an offset, and the span of text that a proposal would replace."""
     number, column = document.source.position(offset)
     start = offset - column + 1
     before = document.source.line(number)[: column - 1]
@@ -64,7 +64,7 @@ def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
 
 
 def names(document: Document, kind: str) -> dict[str, str]:
-    """Names of one kind, each with its origin."""
+    """Return the names of one kind, each with its origin."""
     found = dict.fromkeys(document.taught_of(kind), f"taught {kind}")
     for name in document.names:
         if name.kind == kind and name.makes:

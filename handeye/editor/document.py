@@ -1,4 +1,4 @@
-"""A script in an editor: its text, its taught file, and the results computed from both."""
+"""A script in an editor: its text, its taught file, and the results computed from them."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, kw_only=True)
 class Document:
-    """A script. Offsets count characters of its text; all results are computed on demand."""
+    """A script. Offsets count characters of its text. All results are computed when they are needed."""
 
     source: Source
     taught: Taught = field(default_factory=Taught)
@@ -33,17 +33,17 @@ class Document:
 
     @cached_property
     def whole(self) -> Source:
-        """The script with all texts that it requires."""
+        """The script together with all texts that it requires."""
         return self.source if self.read is None else sewn(self.source, self.read)
 
     @cached_property
     def lines(self) -> list[Line]:
-        """Lines as tokens."""
+        """The lines of the script as tokens."""
         return scan(self.text)
 
     @cached_property
     def macros(self) -> dict[str, MacroBody]:
-        """Macros of the script and its required texts, by name."""
+        """The macros of the script and of the texts that it requires, by name."""
         required = [macros_of(text.text) for text in self.whole.required]
         return {word: macro for each in (*required, self._own_macros) for word, macro in each.items()}
 
@@ -58,13 +58,13 @@ class Document:
 
     @cached_property
     def required_names(self) -> list[tuple[Source, Occurrence]]:
-        """Occurrences of names in required texts, with their text; spans are offsets in that text."""
+        """Occurrences of names in required texts, each with its text. Spans are offsets in that text."""
         parts = self.taught.parts
         return [(text, o) for text in self.whole.required for o in occurrences(text.text, parts, self.macros)]
 
     @cached_property
     def taught_names(self) -> list[Occurrence]:
-        """Occurrences of names in the taught file; spans are offsets in that file."""
+        """Occurrences of names in the taught file. Spans are offsets in that file."""
         return taught_occurrences(self.taught_text)
 
     @cached_property
@@ -74,40 +74,41 @@ class Document:
 
     @cached_property
     def positions(self) -> dict[str, Position]:
-        """Hand positions by name: taught ones, and those written on lines without errors."""
+        """Hand positions by name: those in the taught file, and those written on error-free lines of the
+        script."""
         script = parse_whole(self.whole)[0]
         statements = as_called(script, expand(script, lambda _: None))
         written = [s for s in statements if s.word is not None and s.word.text == "TRANS"]
         return {**self.taught.positions, **dict(position(s) for s in written if not s.broken)}
 
     def taught_of(self, kind: str) -> Collection[str]:
-        """Taught names of a kind."""
+        """Return the names of one kind in the taught file."""
         if kind == POSITION:
             return self.taught.positions.keys()
         return self.taught.parts.keys() if kind == PART else ()
 
     def macro_at(self, offset: int) -> MacroBody | None:
-        """The macro of the script that contains an offset."""
+        """Return the macro of the script that contains an offset, or None."""
         line = self.line_at(offset)
         return next((macro for macro in self._own_macros.values() if line in macro.lines), None)
 
     def line_at(self, offset: int) -> Line | None:
-        """The line that contains an offset; None after the last line."""
+        """Return the line that contains an offset, or None after the last line."""
         number = self.source.position(offset)[0]
         return self.lines[number - 1] if number <= len(self.lines) else None
 
     def line_of(self, offset: int) -> Line:
-        """The line that contains an offset; the offset must be in the text."""
+        """Return the line that contains an offset. The offset must be in the text."""
         line = self.line_at(offset)
         assert line is not None
         return line
 
     def name_at(self, offset: int) -> Occurrence | None:
-        """The name at an offset, including the offset just after the name."""
+        """Return the name at an offset, or just before it, or None."""
         return next((name for name in self.names if name.span.start <= offset <= name.span.end), None)
 
     def whole_line(self, number: int) -> Span:
-        """Span of a line with its line end."""
+        """Return the span of a line, including its line end."""
         return Span(start=self._start(number), end=self._start(number + 1))
 
     def _start(self, number: int) -> int:

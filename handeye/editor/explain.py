@@ -1,4 +1,5 @@
-"""Explanations of codes, instructions and error numbers: what raises each error, and how a script can handle it."""
+"""Explains codes, instructions and error numbers: which instructions raise each error, and how a script can
+handle it."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -32,7 +33,8 @@ _MAX_FILES = 2  # required files of an example that are shown
 
 
 def explanation(word: str) -> str:
-    """The explanation of a code, error number or instruction; raises NoSuchName with the nearest name."""
+    """Return the explanation of a code, error number or instruction. Raises NoSuchName, which suggests the
+    nearest name."""
     if word in CODES:
         return _code(word)
     if word.upper() in EXPLAINED:
@@ -52,7 +54,7 @@ def explanation(word: str) -> str:
 
 
 def listing() -> str:
-    """All codes with their meaning, separated into errors and warnings, and all error numbers."""
+    """Return all codes with their meaning, divided into errors and warnings, and all error numbers."""
     width = max(map(len, CODES))
     out = []
     for severity in ("error", "warning"):
@@ -105,7 +107,8 @@ def _shortened(lines: list[str], most: int = 16) -> list[str]:
 
 @cache
 def example(code: str) -> tuple[Source, Diagnostic | None]:
-    """The example of a code, and its diagnostic; None if the example alone does not cause the diagnostic."""
+    """Return the example of a code, and the diagnostic that it causes. The diagnostic is None if the example
+    alone does not cause it."""
     source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
     if program is not None:
@@ -261,7 +264,7 @@ ACTIONS: Final = "\n".join(
 
 @cache
 def raised_by() -> dict[int, tuple[str, ...]]:
-    """The instructions that raise each error, by error number."""
+    """Return the instructions that can raise each error, by error number."""
     program, _ = compile_text(Source(name="actions.al", text=ACTIONS), SAMPLE)
     assert program is not None
     raising = {(number, step.word) for step in program.steps for number in step.operation.raises}
@@ -269,7 +272,7 @@ def raised_by() -> dict[int, tuple[str, ...]]:
 
 
 def error_text(number: int) -> str:
-    """The explanation of an error number, without a final newline."""
+    """Return the explanation of an error number, without a final newline."""
     tested = (
         f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Without a "
         f"test, the error sets the brakes and calls the operator."

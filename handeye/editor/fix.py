@@ -1,4 +1,4 @@
-"""Fixes of diagnostics, and helpers for making them."""
+"""Defines fixes for diagnostics, and helpers for making them."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from handeye.editor.places import instruction, places
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fix:
-    """A fix; `choice` marks one of several equally plausible fixes."""
+    """A fix for a diagnostic. `choice` is True if the fix is one of several equally plausible ones."""
 
     title: str
     edits: tuple[Edit, ...]
@@ -22,39 +22,40 @@ class Fix:
 
 
 def cured(text: str, fix: Fix) -> str:
-    """The text of a script after a fix."""
+    """Return the text of a script after a fix."""
     for edit in sorted(fix.edits, key=lambda edit: edit.span, reverse=True):
         text = text[: edit.span.start] + edit.text + text[edit.span.end :]
     return text
 
 
 def replace(span: Span, text: str, title: str, *, choice: bool = False) -> Fix:
-    """A fix that replaces one span."""
+    """Return a fix that replaces one span."""
     return Fix(title=title, edits=(Edit(span=span, text=text),), choice=choice)
 
 
 def insert(at: int, text: str, title: str) -> Fix:
-    """A fix that inserts a text."""
+    """Return a fix that inserts a text."""
     return replace(Span(start=at, end=at), text, title)
 
 
 def at(offset: int) -> Span:
-    """The empty span at an offset."""
+    """Return the empty span at an offset."""
     return Span(start=offset, end=offset)
 
 
 def line_of(document: Document, diagnostic: Diagnostic) -> Line:
-    """The line of a diagnostic."""
+    """Return the line at which a diagnostic begins."""
     return document.line_of(diagnostic.primary.span.start)
 
 
 def word_of(line: Line) -> str:
-    """The instruction word of a line."""
+    """Return the instruction word of a line."""
     return line.split()[1][0].text.upper()
 
 
 def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Token | None]:
-    """The operand that a diagnostic concerns, and its token unless the operand is a vector."""
+    """Return the operand to which a diagnostic refers, and the operand's token. The token is None if the
+    operand is a vector."""
     definition, tokens = instruction(line)
     if definition is not None:
         for place in places(definition, tokens[1:]):
@@ -65,7 +66,7 @@ def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Toke
 
 
 def with_blanks_before(document: Document, span: Span) -> Span:
-    """A span extended to the blanks before it."""
+    """Extend a span to the blanks before it."""
     start = span.start
     while start and document.text[start - 1] in " \t":
         start -= 1

@@ -66,7 +66,7 @@ def label_first(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Replace SKIPE n, modifier, motion by SKIPN n, JUMP label, modifier, motion, label."""
+    """Yield a fix that replaces SKIPE n, modifier, motion by SKIPN n, JUMP label, modifier, motion, label."""
     line = line_of(document, diagnostic)
     word = document.text[diagnostic.primary.span.start : diagnostic.primary.span.end].upper()
     opposite = {"SKIPE": "SKIPN", "SKIPN": "SKIPE"}[word]
@@ -86,7 +86,7 @@ def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def _behind_motion(document: Document, number: int) -> int | None:
-    """Start of the line after the next motion and the motion's RESTOREs."""
+    """Return the start of the line after the next motion and its RESTOREs, or None."""
     moved = False
     for line in document.lines[number:]:
         definition, _ = instruction(line)
@@ -98,15 +98,16 @@ def _behind_motion(document: Document, number: int) -> int | None:
 
 
 def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Remove the test, only for SKIPE, which then never skips. SKIPN of an impossible error always skips, so there
-    is no plausible fix.
+    """Yield a fix that removes the test, but only for SKIPE, which never skips here. SKIPN of an impossible
+    error always skips, so there is no plausible fix for it.
     """
     if word_of(line_of(document, diagnostic)) == "SKIPE":
         yield from remove_line(document, diagnostic)
 
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Remove blank lines between a modifier at the end of a macro and its motion, if the macro then still ends."""
+    """Yield a fix that removes the blank lines between a modifier at the end of a macro and its motion, if the
+    macro still ends after that."""
     behind = document.line_of(diagnostic.secondary[0].span.start)
     body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))
     words = {word_of(line) for line in body if line.split()[1]}
@@ -117,7 +118,7 @@ def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Insert a SEARCH, with the step of 1973, before the label of an AOJ."""
+    """Yield a fix that inserts a SEARCH, with the step of 1973, before the label to which an AOJ jumps."""
     line = line_of(document, diagnostic)
     label = next(
         (n for n in document.names if n.kind == LABEL and line.start <= n.span.start < line.end), None

@@ -1,4 +1,4 @@
-"""Fixes within a line: marks, names, numbers."""
+"""Fixes that change marks, names or numbers within a line."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -66,7 +66,8 @@ def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def remove_parameter(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Remove a parameter and its operands in all calls, unless the operands are separated by commas."""
+    """Yield a fix that removes a parameter and its operands in all calls, unless the operands are separated by
+    commas."""
     name = document.name_at(diagnostic.primary.span.start)
     macro = None if name is None else document.macros.get(name.scope)
     if name is None or macro is None:

@@ -1,5 +1,5 @@
-"""Fixes of diagnostics: diagnostics with `meant` contain their fix as data; for all others there is a table by
-code.
+"""Finds fixes for diagnostics. A diagnostic with `meant` contains its fix as data; for all others, there is a
+table by code.
 """
 
 from collections.abc import Callable, Iterator
@@ -12,7 +12,7 @@ from handeye.editor.fix import Fix, replace
 
 
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
-    """Fixes for a diagnostic of the document; empty if none are known."""
+    """Return the fixes for a diagnostic of the document; empty if there are none."""
     if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
         return []  # some of it stands in a required file
     cure = _CURES.get(diagnostic.code)
@@ -21,7 +21,7 @@ def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
 
 
 def _meant(diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Fixes that replace a name by a similar one."""
+    """Yield fixes that replace a name by a similar one."""
     span = diagnostic.primary.span
     match diagnostic.meant:
         case SimilarName(name):

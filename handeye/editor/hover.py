@@ -1,4 +1,4 @@
-"""Hover help for the word under the pointer, as Markdown."""
+"""Shows help, as Markdown, for the word under the pointer."""
 
 import math
 from dataclasses import dataclass
@@ -36,14 +36,14 @@ SI: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hover:
-    """A text in Markdown for a span."""
+    """A help text in Markdown, and the span to which it belongs."""
 
     span: Span
     text: str
 
 
 def hover(document: Document, offset: int) -> Hover | None:
-    """Help for the token at an offset."""
+    """Return help for the token at an offset, or None."""
     line = document.line_at(offset)
     if line is None:
         return None
@@ -68,7 +68,7 @@ def _text(document: Document, line: Line, token: Token) -> str | None:
 
 
 def about_instruction(definition: Instruction) -> str:
-    """Usage, meaning and origin of an instruction."""
+    """Return the usage, meaning and origin of an instruction."""
     return f"`{definition.usage}`\n\n{definition.help}\n\n*{definition.origin}*"
 
 
@@ -95,7 +95,7 @@ def _about_value(definition: Instruction, place: OperandToken) -> str | None:
 
 
 def in_both_units(value: float, unit: OperandUnit) -> str:
-    """A quantity as written, and converted to the other system of units."""
+    """Return a quantity both as written and converted to the other system of units."""
     if unit.name not in SI:
         return f"{value:g} {unit.name}".rstrip()
     other, scale = SI[unit.name]
@@ -138,7 +138,8 @@ def _position(document: Document, name: str) -> list[str]:
 
 
 def joints(arm: ArmModel, X_WT: Pose) -> str:
-    """Joint positions for a hand pose, solved from mid-range, or the reason why there are none."""
+    """Return the joint positions for a hand pose, or the reason why there are none. They are solved from the
+    middle of the joint ranges."""
     result = solve(arm, X_WT, arm.middle)
     if result.q is None:
         return f"out of the arm's reach: {result.message(arm)}"

@@ -1,4 +1,4 @@
-"""Macros of unfinished texts, and the instructions in which the operands of macro calls are used."""
+"""Finds macros in unfinished texts, and the instructions in which the operands of macro calls are used."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from handeye.editor.places import instruction, places
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MacroBody:
-    """A macro's head and lines."""
+    """The head and the lines of a macro."""
 
     head: MacroHead
     lines: Sequence[Line]
@@ -24,7 +24,7 @@ class MacroBody:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Use:
-    """An operand of an instruction in which an operand of a macro call is used."""
+    """An operand of an instruction that takes its value from an operand of a macro call."""
 
     definition: Instruction
     operand: Operand
@@ -34,7 +34,7 @@ Macros = Mapping[str, MacroBody]
 
 
 def macros_of(text: str) -> dict[str, MacroBody]:
-    """Macros of a text by name."""
+    """Return the macros of a text by name."""
     found: dict[str, MacroBody] = {}
     lines = scan(text)
     for number, line in enumerate(lines):
@@ -45,19 +45,21 @@ def macros_of(text: str) -> dict[str, MacroBody]:
 
 
 def ends(line: Line) -> bool:
-    """True for a blank line or another head, which end a macro."""
+    """Return True if a line ends a macro because it is blank or the head of another macro."""
     return line.is_blank or any(token.text.upper() == "DEFINE" for token in line.split()[1][:1])
 
 
 def called(line: Line, macros: Macros) -> Instruction | None:
-    """The macro that a line calls, as an instruction; None if it calls none, or a macro whose head has an error."""
+    """Return the macro that a line calls, as an instruction. Returns None if the line calls no macro, or if the
+    macro's head has an error."""
     tokens = line.split()[1]
     macro = macros.get(tokens[0].text.upper()) if tokens else None
     return None if macro is None else macro.head.usage
 
 
 def uses(macros: Macros, macro: str, parameter: str, seen: frozenset[str] = frozenset()) -> Iterator[Use]:
-    """Operands of instructions in which an operand of a call is used, also through nested calls."""
+    """Yield the operands of instructions that take their values from a parameter of a macro, directly or
+    through nested calls."""
     if macro in seen or macro not in macros:
         return
     for line in macros[macro].lines:

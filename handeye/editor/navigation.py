@@ -1,4 +1,4 @@
-"""Finds definitions and references, and renames."""
+"""Finds the definitions and references of names, and renames them."""
 
 import re
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ _NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """A span in the script, in the taught file, or in a required file given by its key."""
+    """A span in the script, in the taught file, or in a required file, which `file` names."""
 
     span: Span
     taught: bool = False
@@ -29,13 +29,14 @@ class Place:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edit(Place):
-    """A replacement at a place."""
+    """A replacement of a span."""
 
     text: str
 
 
 def definition(document: Document, offset: int) -> list[Place]:
-    """Definitions of the name at an offset: for a difference every SAVE, for a required file its start."""
+    """Return the definitions of the name at an offset. For a difference, these are all SAVEs; for a required
+    file, its start."""
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
         if file.span.start <= offset <= file.span.end:
@@ -46,13 +47,13 @@ def definition(document: Document, offset: int) -> list[Place]:
 
 
 def references(document: Document, offset: int) -> list[Place]:
-    """Occurrences of the name at an offset."""
+    """Return the occurrences of the name at an offset."""
     name = document.name_at(offset)
     return [] if name is None else [found for _, found in _all(document, name)]
 
 
 def renamable(document: Document, offset: int) -> Occurrence:
-    """The name at an offset; raises Refused if it cannot be renamed."""
+    """Return the name at an offset. Raises Refused if it cannot be renamed."""
     name = document.name_at(offset)
     if name is None:
         raise Refused("there is no name here")
@@ -66,7 +67,8 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Edits in all files that rename the name at an offset; raises BadArgument if the new name is not possible."""
+    """Return edits in all files that rename the name at an offset. Raises BadArgument if the new name is not
+    possible."""
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise BadArgument(
@@ -89,7 +91,8 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
-    """True if a name would clash with the new one; AIM takes positions and parts alike."""
+    """Return True if a name would clash with the new one. Positions and parts share their names, because AIM
+    takes both."""
     if name.kind == PARAMETER:
         return False
     if name.kind == LABEL:
@@ -100,7 +103,7 @@ def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
 
 
 def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, Place]]:
-    """Every occurrence of a name, with its place."""
+    """Return every occurrence of a name, with its place."""
     own = [(o, Place(span=o.span)) for o in document.names]
     taught = [(o, Place(span=o.span, taught=True)) for o in document.taught_names]
     required = [(o, Place(span=o.span, file=text.key)) for text, o in document.required_names]
@@ -113,7 +116,7 @@ FIRST = "program"  # the stage before the first STAGE
 
 @dataclass(slots=True, kw_only=True)
 class Symbol:
-    """A named range of the text; `kind` is `stage` or the kind of a name, and `at` is the span of the name."""
+    """A named range of the text. `kind` is `stage` or the kind of a name; `at` is the span of the name."""
 
     name: str
     kind: str
@@ -123,7 +126,7 @@ class Symbol:
 
 
 def outline(document: Document) -> list[Symbol]:
-    """Stages and macros, with the labels, positions, pictures and differences that they define."""
+    """Return the stages and macros, with the labels, positions, pictures and differences that they define."""
     found = [name for name in document.names if name.makes and name.kind != PARAMETER]
     stages, macros = _stages(document), [_macro(document, name) for name in found if name.kind == MACRO]
     for name in found:
@@ -141,13 +144,13 @@ def outline(document: Document) -> list[Symbol]:
 
 
 def _line(document: Document, at: Span) -> Span:
-    """Span of the line of a name."""
+    """Return the span of a name's line."""
     line = document.line_of(at.start)
     return Span(start=line.start, end=max(line.end, at.end))
 
 
 def _macro(document: Document, name: Occurrence) -> Symbol:
-    """A macro, from its head to the blank line that ends it."""
+    """Return a macro, from its head to the blank line that ends it."""
     head = _line(document, name.span)
     blank = re.compile(r"\n[ \t]*(?=\r?\n|\Z)").search(document.text, head.end)
     end = len(document.text) if blank is None else blank.start()

@@ -1,4 +1,4 @@
-"""Occurrences of names in a text: definitions and uses."""
+"""Finds occurrences of names in a text, both definitions and uses."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -25,7 +25,7 @@ _MAKES: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Occurrence:
-    """An occurrence of a name; names of different kinds are distinct."""
+    """An occurrence of a name. Equal names of different kinds are different names."""
 
     kind: str
     name: str
@@ -37,7 +37,8 @@ class Occurrence:
 
 
 def occurrences(text: str, parts: Iterable[str], macros: Macros) -> list[Occurrence]:
-    """Every name in a text, in order; `parts` distinguishes parts from positions."""
+    """Return the occurrences of all names in a text, in order. `parts` are the names that denote parts, not
+    positions."""
     found = list(_walk(scan(text), macros, set(parts)))
     own = {(o.name, o.scope) for o in found if o.kind == LABEL and o.makes}
     return [
@@ -49,12 +50,12 @@ def occurrences(text: str, parts: Iterable[str], macros: Macros) -> list[Occurre
 
 
 def same(one: Occurrence, other: Occurrence) -> bool:
-    """True if both refer to the same object."""
+    """Return True if both occurrences refer to the same object."""
     return (one.kind, one.name, one.scope) == (other.kind, other.name, other.scope)
 
 
 def makes(definition: Instruction) -> str | None:
-    """The kind of name that an instruction defines; None if it defines none."""
+    """Return the kind of name that an instruction defines, or None if it defines none."""
     named = definition.operands and definition.operands[0].refers is Refers.NEW
     return _MAKES.get(definition.op) if named and Name in definition.operands[0].takes else None
 
@@ -81,7 +82,7 @@ def _walk(lines: Sequence[Line], macros: Macros, parts: set[str]) -> Iterator[Oc
 
 
 def _of(token: Token, kind: str, macro: str, *, makes: bool) -> Occurrence:
-    """An occurrence of a label or parameter."""
+    """Return an occurrence of a label or parameter."""
     return Occurrence(kind=kind, name=token.text, span=token.span, makes=makes, scope=macro, macro=macro)
 
 
@@ -100,7 +101,7 @@ class _Context:
         )
 
     def names(self, token: Token, use: Use) -> Iterator[Occurrence]:
-        """Occurrences for a word in place of an operand."""
+        """Yield the names that occur in a word in the place of an operand."""
         operand = use.operand
         if Name not in operand.takes or token.text.upper() == operand.word:
             return
@@ -149,7 +150,7 @@ _QUOTED: Final = re.compile(r"[\"']([A-Za-z_]\w*)[\"']", re.ASCII)
 
 
 def taught_occurrences(text: str) -> list[Occurrence]:
-    """Every name in the text of a taught file."""
+    """Return the occurrences of all names in the text of a taught file."""
     return list(_taught_lines(text))
 
 

@@ -1,6 +1,7 @@
 """Assigns the tokens of an unfinished line to the operands of its instruction.
 
-The parser reads complete lines and rejects wrong ones; an editor needs results while a line is being typed.
+The parser accepts only complete, correct lines, but an editor needs results while the user is still typing a
+line.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,7 +17,8 @@ SEPARATOR = ","
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OperandToken:
-    """A token with its operand, None for a surplus token; `component` is the index in a vector, from 0."""
+    """A token and its operand, which is None for a surplus token. `component` is the token's index in a vector,
+    counted from 0."""
 
     token: Token
     operand: Operand | None
@@ -24,19 +26,20 @@ class OperandToken:
 
 
 def instruction(line: Line) -> tuple[Instruction | None, tuple[Token, ...]]:
-    """The instruction of a line, if any, and the tokens from the instruction word on."""
+    """Return the instruction of a line, or None, and the tokens from the instruction word on."""
     tokens = line.split()[1]
     known = bool(tokens) and tokens[0].kind is TokenKind.NAME
     return (INSTRUCTIONS.get(tokens[0].text.upper()) if known else None), tokens
 
 
 def places(definition: Instruction, tokens: Sequence[Token]) -> list[OperandToken]:
-    """The tokens after the instruction word, each with its operand."""
+    """Return the tokens after the instruction word, each with its operand."""
     return list(_Walk(definition, tokens).go())
 
 
 def expected(definition: Instruction, tokens: Sequence[Token]) -> list[Operand]:
-    """Operands that may come next: the first missing one and, if that is optional, those after it."""
+    """Return the operands that may come next: the first missing one and, if that one is optional, those after
+    it."""
     walk = _Walk(definition, tokens)
     for _ in walk.go():
         pass

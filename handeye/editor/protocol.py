@@ -1,4 +1,4 @@
-"""Handles editors that violate the language server protocol, or that have ended."""
+"""Copes with editors that violate the language server protocol, or that have ended."""
 
 import asyncio
 import logging
@@ -17,10 +17,11 @@ _log: Final = logging.getLogger(__name__)
 
 
 class Protocol(LanguageServerProtocol):
-    """A protocol handler that also answers requests with invalid parameters, and ignores invalid notifications."""
+    """A protocol handler that answers requests with invalid parameters by an error, and ignores invalid
+    notifications."""
 
     def structure_message(self, data: dict[str, Any]) -> Any:
-        """Make a typed message; the JSON decoder calls this for each object in a message."""
+        """Make a typed message. The JSON decoder calls this for each object in a message."""
         try:
             return super().structure_message(data)
         except JsonRpcException:
@@ -43,10 +44,10 @@ class Protocol(LanguageServerProtocol):
 
 
 class OneLine(logging.Formatter):
-    """Formats each log record as one line, with a traceback only if the error is not the editor's."""
+    """Formats each log record as one line. A traceback is added only if the editor did not cause the error."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """The log record as text."""
+        """Return the log record as text."""
         error = record.exc_info[1] if record.exc_info else None
         if error is not None and not isinstance(error, JsonRpcException):
             return super().format(record)
@@ -69,8 +70,8 @@ async def end_with(process: int) -> None:
 
 
 def is_running(process: int) -> bool:
-    """True if a process is running, or if this cannot be determined, as on Windows, where the check would end the
-    process.
+    """Return True if a process is running, or if this cannot be determined. On Windows it cannot: the usual
+    check would end the process.
     """
     if sys.platform == "win32" or process <= 0:
         return True

@@ -1,4 +1,4 @@
-"""A script in a client's workspace, with its taught and required files."""
+"""A script in an editor's workspace, with its taught file and its required files."""
 
 import os
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ from handeye.runs.scripts import taught
 
 
 def text_of(workspace: Workspace, uri: str) -> TextDocument:
-    """The text of a URI, from the editor or from a file; raises BadFile if there is neither."""
+    """Return the text of a URI, from the editor or from a file. Raises BadFile if neither has it."""
     if uri not in workspace.text_documents:
         if not uri.startswith("file:"):
             raise BadFile(f"{uri} is not open in the editor")
@@ -31,7 +31,7 @@ def text_of(workspace: Workspace, uri: str) -> TextDocument:
 
 
 class EditedScript:
-    """A script together with the client's unit for counting characters."""
+    """A script in an editor's workspace, together with the unit in which the editor counts characters."""
 
     def __init__(self, workspace: Workspace, uri: str) -> None:
         text = text_of(workspace, uri)
@@ -52,21 +52,22 @@ class EditedScript:
         self.document = Document(source=source, taught=known, taught_text=taught_text, read=read)
 
     def diagnostics(self) -> list[Diagnostic]:
-        """Diagnostics of the text; only syntax errors if the taught file cannot be used."""
+        """Return the diagnostics of the text. If the taught file cannot be used, only syntax errors are
+        returned."""
         if self.problem is not None:
             return arranged(check_form(self.document.whole))
         return self.document.compiled[1]
 
     def offset(self, position: lsp.Position) -> int:
-        """The offset of a position in the protocol."""
+        """Return the offset of a protocol position."""
         return wire.offset(self.document.source, position, self.units)
 
     def range(self, span: Span) -> lsp.Range:
-        """The range of a span of the script."""
+        """Return the protocol range of a span of the script."""
         return wire.range_(self.document.source, span, self.units)
 
     def published(self, found: Diagnostic) -> lsp.Diagnostic:
-        """A diagnostic for the client; a diagnostic in a required file is shown at the REQUIRE."""
+        """Return a diagnostic for the editor. A diagnostic in a required file is shown at the REQUIRE."""
         related = [(self.place(label.span), label.text) for label in found.secondary]
         text, start = self.document.whole.find(found.primary.span.start)
         place = self.place(found.primary.span)
@@ -77,20 +78,20 @@ class EditedScript:
         return wire.diagnostic(found, self.range(at), [(place, ""), *related], f"{where}: ")
 
     def place(self, span: Span) -> lsp.Location:
-        """The location of a span in the combined text."""
+        """Return the protocol location of a span in the combined text."""
         text, start = self.document.whole.find(span.start)
         local = Span(start=start, end=start + span.end - span.start)
         return lsp.Location(uri=self._uri(text), range=wire.range_(text, local, self.units))
 
     def location(self, found: Place) -> lsp.Location:
-        """The location of a place in the script, the taught file or a required file."""
+        """Return the protocol location of a place in the script, the taught file or a required file."""
         if found.taught:
             return lsp.Location(uri=self.taught_uri, range=wire.range_(self._taught, found.span, self.units))
         text = next(text for text in self.document.whole.texts if text.key == found.file)
         return lsp.Location(uri=self._uri(text), range=wire.range_(text, found.span, self.units))
 
     def edit(self, edits: Iterable[Edit]) -> lsp.WorkspaceEdit:
-        """Edits in all files, for the client."""
+        """Return edits in all files, in the form of the protocol."""
         changes: dict[str, list[lsp.TextEdit]] = {}
         for edit in edits:
             place = self.location(Place(span=edit.span, taught=edit.taught, file=edit.file))
@@ -98,11 +99,12 @@ class EditedScript:
         return lsp.WorkspaceEdit(changes=changes)
 
     def requires(self, uri: str) -> bool:
-        """True if the script requires a file."""
+        """Return True if the script requires a file."""
         return uri in map(self._uri, self.document.whole.required)
 
     def _taught_text(self, file: Path) -> str:
-        """Text of the taught file, from the editor if it is open there; empty if there is none."""
+        """Return the text of the taught file, from the editor if the file is open there. Empty if there is no
+        such file."""
         if not is_there(file):
             return ""
         self.taught_uri = from_fs_path(str(file)) or ""
@@ -117,7 +119,7 @@ class EditedScript:
         return from_fs_path(os.path.normpath(self._folder / key)) or ""
 
     def _read(self, key: str) -> str:
-        """Text of a required file, from the editor if it is open there."""
+        """Return the text of a required file, from the editor if the file is open there."""
         opened = self._workspace.text_documents.get(self._uri_of(key))
         assert self._folder is not None
         return read_source(self._folder / key).text if opened is None else opened.source

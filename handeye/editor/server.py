@@ -1,4 +1,4 @@
-"""The language server: its knowledge of each script, and its answers to the requests of an editor."""
+"""The language server: what it stores about each script, and how it answers an editor's requests."""
 
 import asyncio
 from collections.abc import Callable
@@ -29,7 +29,8 @@ PAUSE_S: Final = 0.3
 
 
 class ArmServer(LanguageServer):
-    """The server, with the planner's diagnostics of each script and the text that they belong to."""
+    """The language server. For each script, it stores the planner's diagnostics and the text for which they
+    were computed."""
 
     def __init__(self) -> None:
         super().__init__("handeye", HANDEYE, protocol_cls=Protocol)
@@ -39,17 +40,18 @@ class ArmServer(LanguageServer):
         )
 
     def script(self, uri: str) -> EditedScript:
-        """A script in its present state."""
+        """Return a script in its present state."""
         return EditedScript(self.workspace, uri)
 
     def diagnostics(self, script: EditedScript) -> list[Diagnostic]:
-        """Present diagnostics of a script; those of the planner only if they belong to this text."""
+        """Return the present diagnostics of a script. Those of the planner are included only if they were
+        computed for the present text."""
         whole, taught, problems = self.planned.get(script.uri, (None, None, []))
         known = problems if (whole, taught) == (script.document.whole, script.document.taught) else []
         return [*script.diagnostics(), *known]
 
     def publish(self, script: EditedScript) -> None:
-        """Publish the diagnostics of a script."""
+        """Send the client the diagnostics of a script."""
         found = [script.published(problem) for problem in self.diagnostics(script)]
         if script.problem is not None:
             start = script.range(Span(start=0, end=0))
@@ -71,7 +73,8 @@ class ArmServer(LanguageServer):
         )
 
     async def check(self, uri: str) -> None:
-        """Publish the diagnostics of the text at once, and those of the planner after a pause in typing."""
+        """Send the client the diagnostics of the text at once, and those of the planner after a pause in
+        typing."""
         if (language := own_language(uri)) is not None:
             await self.publish_own(uri, language)
             return
@@ -109,13 +112,13 @@ _SYMBOLS: Final = {
 
 
 def serve() -> None:
-    """Serve requests from standard input on standard output until the client ends the session."""
+    """Answer requests from standard input on standard output until the client ends the session."""
     log_in_lines()
     make_server().start_io()
 
 
 def make_server() -> ArmServer:
-    """A server with all handlers."""
+    """Return a server with all its handlers."""
     server = ArmServer()
     for name, notice in _NOTICES.items():
         server.feature(name)(notice)
@@ -126,7 +129,8 @@ def make_server() -> ArmServer:
 
 
 def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any]:
-    """Wrap an answer for scripts of planned programs; for a text in a system's own language the answer is empty."""
+    """Wrap an answer that only scripts of planned programs have. For a text in a system's own language, the
+    answer is empty."""
 
     def answered(server: ArmServer, params: Any) -> Any:
         if own_language(params.text_document.uri) is not None:
@@ -137,7 +141,7 @@ def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any
 
 
 def _told(answer: Callable[..., Any]) -> Callable[..., Any]:
-    """Wrap an answer so that an error becomes a sentence for the editor."""
+    """Wrap an answer so that an error becomes a one-sentence message for the editor."""
 
     def told(server: ArmServer, params: Any) -> Any:
         try:
@@ -168,7 +172,7 @@ async def _files_changed(server: ArmServer, _: lsp.DidChangeWatchedFilesParams) 
 
 
 def _scripts(server: ArmServer) -> list[str]:
-    """The open scripts."""
+    """Return the URIs of the open scripts."""
     return [uri for uri in server.workspace.text_documents if uri.endswith(".al")]
 
 
@@ -281,9 +285,10 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
 
 
 def _lenses(script: EditedScript, _: lsp.CodeLensParams) -> list[lsp.CodeLens]:
-    """Commands above each stage of a script without errors: run the stage, run from the stage on, or step it.
+    """Return the commands that are shown above each stage of an error-free script: run the stage, run from the
+    stage on, or step through it.
 
-    The arguments of a command are the file, which is saved first, and the words after `handeye`.
+    The arguments of a command are the file, which the editor saves first, and the words after `handeye`.
     """
     program = script.document.compiled[0]
     if program is None or script.path is None or script.problem is not None:

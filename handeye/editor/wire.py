@@ -1,4 +1,4 @@
-"""Converts to the language server protocol, whose positions count lines and code units from 0."""
+"""Converts positions and diagnostics to the language server protocol, which counts lines and code units from 0."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -17,13 +17,14 @@ _UNNECESSARY: Final = {
 
 
 def position(source: Source, offset: int, units: Units) -> lsp.Position:
-    """The position of an offset."""
+    """Return the protocol position of an offset."""
     line, column = source.position(offset)
     return lsp.Position(line=line - 1, character=units(source.text[offset - column + 1 : offset]))
 
 
 def offset(source: Source, at: lsp.Position, units: Units) -> int:
-    """The offset of a position, limited to the end of its line and of the text."""
+    """Return the offset of a protocol position. A position beyond the end of its line or of the text is moved
+    to that end."""
     lines = source.text.split("\n")
     if at.line >= len(lines):
         return len(source.text)
@@ -37,15 +38,15 @@ def offset(source: Source, at: lsp.Position, units: Units) -> int:
 
 
 def range_(source: Source, span: Span, units: Units) -> lsp.Range:
-    """The range of a span."""
+    """Return the protocol range of a span."""
     return lsp.Range(start=position(source, span.start, units), end=position(source, span.end, units))
 
 
 def diagnostic(
     found: Diagnostic, at: lsp.Range, related: Sequence[tuple[lsp.Location, str]], where: str = ""
 ) -> lsp.Diagnostic:
-    """A diagnostic for an editor; label texts, notes and help become lines of the message, which begins with
-    `where`.
+    """Return a diagnostic for an editor. Its message begins with `where`; the texts of labels, notes and help
+    follow as further lines.
     """
     severity = lsp.DiagnosticSeverity.Error if found.severity == "error" else lsp.DiagnosticSeverity.Warning
     said = [found.message, found.primary.text, *found.notes, *([f"help: {found.help}"] if found.help else [])]

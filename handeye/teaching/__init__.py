@@ -1,1 +1,1 @@
-"""Executes single instructions, and stores positions to which the arm has been moved."""
+"""Executes single instructions, and stores the positions to which the arm was moved."""

@@ -1,4 +1,4 @@
-"""Answers to typed lines, as text and as JSON; planning and execution of typed texts; conversations line by line."""
+"""Plans and executes typed texts, and answers typed lines with text and JSON."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from handeye.teaching.workplace import Workplace
 
 
 class LineResult(Record, frozen=True, kw_only=True):
-    """Result of a line; fields without content are left out."""
+    """The result of a line. Fields without content are left out."""
 
     said: str | UnsetType = UNSET  # a sentence or more
     did: tuple[StepSummary, ...] | UnsetType = UNSET  # steps that were done, in words
@@ -52,13 +52,14 @@ class Answer:
 
     @property
     def stopped(self) -> str | None:
-        """The kind of pause if the arm stopped early; None if the line was completed, or the arm did not move."""
+        """The kind of pause if the arm stopped early; None if the line was completed, or if the arm did not
+        move."""
         pause = self.said.pause
         return None if pause is UNSET or pause.kind == "end" else pause.kind
 
 
 def json_line(answer: Answer) -> str:
-    """The answer as a JSON object on one line."""
+    """Return the answer as a JSON object on one line."""
     found = [as_json(diagnostic, answer.source) for diagnostic in answer.diagnostics]
     told = msgspec.to_builtins(answer.said)
     if answer.said.pause is not UNSET:
@@ -68,7 +69,7 @@ def json_line(answer: Answer) -> str:
 
 
 def text(answer: Answer) -> str:
-    """The answer as text, without a final newline; empty if there is nothing to report."""
+    """Return the answer as text, without a final newline. Empty if there is nothing to report."""
     said = answer.said
     lines = [render(diagnostic, answer.source) for diagnostic in answer.diagnostics]
     lines += [] if said.did is UNSET else summary_lines(said.did)
@@ -81,8 +82,8 @@ def text(answer: Answer) -> str:
 
 
 def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
-    """Plan a text and, if there is a plan, execute it. With `alone`, the text is only a part of the work and need
-    not be complete.
+    """Plan a text and, if there are no errors, execute it. With `alone`, the text is only a part of the work,
+    and need not be complete.
 
     Raises InvalidInput if the text takes pictures and the camera was not set up.
     """
@@ -92,7 +93,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 
 
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
-    """Report the results after the first `happened` events of the present plan."""
+    """Report what was done after the first `happened` events of the present plan."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
     did = tuple(step for step in told if step.line is not None)
@@ -102,24 +103,24 @@ def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
 def about(
     workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: LineResult = NOTHING
 ) -> Answer:
-    """An answer with the diagnostics of a text."""
+    """Return an answer with the diagnostics of a text."""
     return Answer(time=workplace.time, said=said, source=checked.source, diagnostics=tuple(found))
 
 
 def answer(workplace: Workplace, **fields: Any) -> Answer:
-    """An answer whose result has the given fields of `LineResult`."""
+    """Return an answer whose result has these fields of `LineResult`."""
     return Answer(time=workplace.time, said=LineResult(**fields))
 
 
 class Listener(Protocol):
-    """An interpreter of typed lines."""
+    """Executes typed lines."""
 
     @property
     def over(self) -> bool:
         """True if no more lines are accepted."""
 
     def hear(self, line: str) -> Answer:
-        """Execute a line; an invalid line changes nothing."""
+        """Execute a line. An invalid line changes nothing."""
 
 
 def converse(
@@ -130,10 +131,11 @@ def converse(
     json: bool = False,
     strict: bool = False,
 ) -> Answer | None:
-    """Execute lines, to the last one or until the listener accepts no more; with `strict`, until one fails.
+    """Execute lines until the last one, or until the listener accepts no more. With `strict`, stop at the first
+    line that fails.
 
-    Returns the answer to the first line that was refused or whose execution stopped; None if there was none.
-    `write` gets lines of text without a final newline; with `json`, one object on one line.
+    Returns the answer to a line that was refused or whose execution stopped, or None if there was none. `write`
+    gets lines of text without a final newline or, with `json`, one object on one line.
     """
     failed = None
     while not listener.over:

@@ -1,4 +1,4 @@
-"""Typed instructions: makes a plan from a text, beginning at the arm's present configuration."""
+"""Plans typed instructions, beginning at the arm's present configuration."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -38,8 +38,8 @@ def planned(
     saved: Collection[str] = (),
     alone: bool = False,
 ) -> PlannedScript:
-    """Plan a text for an arm at configuration `start`, shape (n,), rad and m; `saved` are the names of saved
-    differences.
+    """Plan a text for an arm whose joint positions are `start` (rad or m, shape (n,)). `saved` are the names of
+    saved differences.
 
     With `alone`, the text is only a part of the work and need not be complete.
     """
@@ -54,7 +54,7 @@ def planned(
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """Mistakes in a line of a text, or in its required files, that no further line can correct."""
+    """Return the mistakes in a line of a text, or in its required files, that no later line can correct."""
     found = []
     for diagnostic in checked.diagnostics:
         text, offset = checked.source.find(diagnostic.primary.span.start)
@@ -64,7 +64,8 @@ def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
 
 
 def lasting(lines: Sequence[str]) -> list[str]:
-    """The definitions in lines: macros, positions, vectors. They also apply to instructions executed alone."""
+    """Return the definitions in lines: macros, positions and vectors. They remain valid for instructions that
+    are executed alone."""
     script, _ = parse("\n".join(lines))
     written = [lines[s.line - 1] for s in script.statements if s.word is not None and s.word.text in _LASTING]
     for macro in script.macros.values():  # as it is written, and the blank line that ends it
@@ -74,5 +75,5 @@ def lasting(lines: Sequence[str]) -> list[str]:
 
 
 def is_open(lines: Sequence[str]) -> bool:
-    """True if a macro definition is open; a blank line ends it."""
+    """Return True if a macro definition has not ended yet. A blank line ends it."""
     return any(found.code == "unterminated-macro" for found in parse("\n".join(lines))[1])

@@ -1,4 +1,5 @@
-"""The arm program of 1973: typed instructions are collected, and `DO` executes them; the commands are a table."""
+"""The arm program of 1973: it collects typed instructions, and `DO` executes them. Its commands are defined in
+a table."""
 
 import re
 from collections.abc import Callable
@@ -29,7 +30,7 @@ _ANSWERS: Final = "PROCEED, RETRY or SKIP continues the stopped program; a new i
 
 @dataclass(slots=True, kw_only=True)
 class Repl:
-    """A session of the arm program: a cell, and the instructions collected so far."""
+    """A session of the arm program, with a cell and the instructions collected so far."""
 
     workplace: Workplace
     folder: Path  # folder of the programs for `DO NAME`
@@ -52,8 +53,8 @@ class Repl:
         return replace(given, typed=line.strip())
 
     def collect(self, line: str) -> Answer:
-        """Collect a line, unless it has a mistake that no further line can correct; raises Refused if there are too
-        many lines.
+        """Collect a line, unless it has a mistake that no later line can correct. Raises Refused if there are
+        too many lines.
         """
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
@@ -67,15 +68,15 @@ class Repl:
         return about(self.workplace, checked, found)
 
     def typed(self, text: str) -> Source:
-        """The typed text as a source, with the files that it requires."""
+        """Return the typed text as a source, with the files that it requires."""
         return sewn(Source(name=TYPED, text=text), lambda key: read_source(self.folder / key).text)
 
     def carry_out(self, source: Source, *, alone: bool = False) -> Answer:
-        """Plan a text and execute it; if execution stops, the answer contains advice."""
+        """Plan a text and execute it. If the execution stops early, the answer contains advice."""
         return self._advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
-        """Answer a call of the operator; raises InvalidInput if there is none."""
+        """Answer a call of the operator. Raises InvalidInput if there is no call."""
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
         return self._advised(Answer(time=self.workplace.time, said=said))
@@ -91,7 +92,7 @@ class Repl:
 
 
 def _do(repl: Repl, rest: str) -> Answer:
-    """Execute the collected lines now, or an instruction, macro or program."""
+    """Execute the collected lines or, if `rest` names one, an instruction, macro or program."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
             raise Refused("nothing is collected; type instructions, or `DO OPEN 3` to run one at once")

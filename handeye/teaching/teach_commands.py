@@ -1,4 +1,4 @@
-"""Commands for teaching, as a table from which parsing and help are derived."""
+"""The table of the commands for teaching, from which both parsing and help are derived."""
 
 import re
 from collections.abc import Callable
@@ -25,14 +25,14 @@ MAX_PUSH_S: Final = 60.0
 
 @dataclass(slots=True)
 class TeachSession:
-    """Parses lines and executes them with the arm."""
+    """Parses the lines that a user types, and executes them with the arm."""
 
     teacher: Teacher
     over: bool = False
     warned: bool = False  # the user was warned of unsaved names
 
     def hear(self, line: str) -> Answer:
-        """Execute a line; an invalid line changes nothing."""
+        """Execute a line. An invalid line changes nothing."""
         try:
             given = self._given(line.split())
         except HandeyeError as error:
@@ -87,7 +87,7 @@ def _hand(teacher: Teacher, words: list[str]) -> Answer:
 
 
 def _jogged(teacher: Teacher, words: list[str], R: Array, example: str) -> Answer:
-    """Move the hand along an axis of a frame with rotation `R`, or turn it about the axis."""
+    """Move the hand along an axis of the frame with rotation `R`, or turn it about that axis."""
     turns = bool(words) and words[0].lower() == "turn"
     axis, amount = _exactly(words[1:] if turns else words, 2, example)
     x, y, z = R @ _along(axis, _number(amount) * (DEGREE if turns else INCH))

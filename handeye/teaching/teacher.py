@@ -1,4 +1,4 @@
-"""Teaching: the arm is moved by commands or by hand, and its positions are stored under names."""
+"""Teaches positions: the arm is moved by commands or by hand, and its positions are stored under names."""
 
 import tomllib
 from collections.abc import Callable
@@ -35,7 +35,7 @@ REST_S = 0.5  # for a floating arm to come to rest when it is let go
 
 @dataclass(slots=True, kw_only=True)
 class Teacher:
-    """A cell, a file of taught positions, and the positions not yet written to the file."""
+    """A cell, a file of taught positions, and the positions that have not been written to the file yet."""
 
     workplace: Workplace
     file: Path
@@ -50,7 +50,7 @@ class Teacher:
 
     @property
     def unsaved(self) -> list[str]:
-        """Names of the positions that are missing in the file, or differ there."""
+        """Names of the positions that are missing in the file, or have other values there."""
         now, then = (tomllib.loads(text).get("positions", {}) for text in (self.text, self.saved))
         return [name for name in {**then, **now} if now.get(name) != then.get(name)]
 
@@ -66,12 +66,12 @@ class Teacher:
         return given
 
     def joint(self, index: int, goal: float) -> None:
-        """Move one joint to a position (rad, or m), and hold all others. Raises Refused if that is impossible."""
+        """Move one joint to a position (rad or m), and hold all others. Raises Refused if that is impossible."""
         self._follow(jog(self.workplace.run.arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
-        """Move the hand straight by a displacement (m, table coordinates), with its orientation kept. Raises
-        Refused if that is impossible.
+        """Move the hand straight by a displacement (m, table coordinates) without turning it. Raises Refused if
+        that is impossible.
         """
         change = Change(displacement=displacement)
         self._follow(change_samples(self.workplace.run.arm, self.workplace.q, change))
@@ -89,13 +89,13 @@ class Teacher:
         self._let(lambda: self.workplace.run.drive.follow(samples))
 
     def let_go(self) -> None:
-        """Release the brakes: from now on, the arm moves when it is pushed."""
+        """Release the brakes. From now on, the arm moves when it is pushed."""
         self.afloat = True
         self._let(lambda: self._float(REST_S))
 
     def push(self, force: Vector3, seconds: float) -> None:
-        """Push the hand of the floating arm with a force (N, table coordinates) for some seconds; raises Refused
-        unless the arm floats.
+        """Push the hand of the floating arm with a force (N, table coordinates) for some seconds. Raises
+        Refused if the arm does not float.
         """
         if not self.afloat:
             raise Refused("the arm is held and cannot be pushed; `float` releases its brakes")
@@ -111,7 +111,7 @@ class Teacher:
         self.workplace.run.drive.float(seconds)
 
     def _let(self, act: Callable[[], Outcome | None]) -> None:
-        """Let the arm move; Ctrl-C, or an obstacle, sets the brakes."""
+        """Let the arm move. Ctrl-C or an obstacle sets the brakes."""
         self.workplace.mark()
         self._before.append(None)
         try:
@@ -131,8 +131,8 @@ class Teacher:
     # -- naming ---------------------------------------------------------------------------------------
 
     def name(self, name: str, part: str | None, *, again: bool = False) -> Position:
-        """Store the present hand position under a name, relative to the table or a part; raises InvalidInput if
-        name, part or file do not allow it.
+        """Store the present hand position under a name, relative to the table or a part. Raises InvalidInput if
+        the name, the part or the file does not allow it.
         """
         taught = self.workplace.taught
         if part is not None and part not in taught.parts:
@@ -149,8 +149,8 @@ class Teacher:
         return position
 
     def save(self) -> list[str]:
-        """Write the file, and return the new names; raises CannotWrite, also if the file has been changed by
-        another program.
+        """Write the file, and return the names of the positions that are new in it. Raises CannotWrite, for
+        example if another program has changed the file.
         """
         names = self.unsaved
         if names:
@@ -166,8 +166,8 @@ class Teacher:
     # -- going back -----------------------------------------------------------------------------------
 
     def undo(self) -> str:
-        """Undo the last motion or name, and return which it was; the saved file is not changed. Raises Refused if
-        there is nothing to undo.
+        """Undo the last motion or the last stored name, and return a sentence that says which. The saved file
+        is not changed. Raises Refused if there is nothing to undo.
         """
         if not self._before:
             raise Refused("there is nothing to undo")

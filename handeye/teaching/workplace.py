@@ -1,4 +1,5 @@
-"""A cell in which plans are executed one after another; each begins in the state that the previous one left."""
+"""A cell in which plans are executed one after another. Each plan begins in the state that the previous one
+left."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -53,12 +54,12 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> None:
-        """Build the cell of a world. With `look`, its camera is set up so that plans can take pictures; with
-        `calibrate`, it is calibrated again.
+        """Build the cell of a world. With `look`, its camera is set up so that plans can take pictures. With
+        `calibrate`, the camera is calibrated even if a calibration is stored.
 
-        `halt` is the panic button, polled in every servo period; `observers` makes the observers of each plan's
-        runner. Raises InvalidInput if the camera cannot work as requested, and Halted if the panic button is
-        pressed while the camera is set up.
+        `halt` is the panic button, polled in every servo period. `observers` returns the observers for the
+        runner of each plan. Raises InvalidInput if the camera cannot work as requested, and Halted if the panic
+        button is pressed while the camera is set up.
         """
         self.taught, self.halt, self.observers = taught, halt, observers
         made, source = known_task(task), Source(name=TYPED, text=_PICTURE if look else _NOTHING)
@@ -78,7 +79,8 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> "Workplace":
-        """The cell as a run has left it, with the run's memory; `taught` replaces the positions of the run's plan."""
+        """Return the cell as a run has left it, with the run's memory. If `taught` is given, it replaces the
+        positions in the run's plan."""
         program = plan_of(checkpoint.setup).program
         made = cls.__new__(cls)
         made.taught = taught or Taught(
@@ -92,32 +94,32 @@ class Workplace:
 
     @property
     def run(self) -> ExecutionContext:
-        """The present context of the executor."""
+        """The context in which the executor works at present."""
         return self.runner.context
 
     @property
     def time(self) -> float:
-        """Clock of all plans, s; 0 when the first plan began."""
+        """The clock of all plans (s), which is 0 when the first plan begins."""
         return self.run.time
 
     @property
     def known(self) -> Taught:
-        """Present positions and parts: those taught, and those defined by `HERE`."""
+        """The present positions and parts: those that were taught, and those that `HERE` defined."""
         positions = {**self.taught.positions, **self.run.state.world.moved}
         return replace(self.taught, positions=positions)
 
     @property
     def q(self) -> Array:
-        """Joint positions at which the arm is held, shape (n,), rad and m."""
+        """Joint positions at which the arm is held (rad or m, shape (n,))."""
         return self.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
-        """Plan a text from the present state; `alone` is as for `planned`."""
+        """Plan a text from the present state. `alone` has the same meaning as for `planned`."""
         task, saved = self.runner.setup.task, self.run.state.saved
         return planned(source, self.known, self.run.arm, self.q, task=task, saved=saved, alone=alone)
 
     def checkpoint(self) -> Checkpoint:
-        """The present state, with all events."""
+        """Return a checkpoint of the present state, with all events."""
         runner = self.runner
         snapshot = Snapshot(
             position=runner.position,
@@ -130,7 +132,7 @@ class Workplace:
     # -- doing ----------------------------------------------------------------------------------------
 
     def carry_out(self, plan: Plan) -> Pause:
-        """Execute a plan; raises Refused if the plan takes pictures and the camera was not set up."""
+        """Execute a plan. Raises Refused if the plan takes pictures and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
             raise Refused("the camera is not calibrated; to take pictures, start with --look")
         self.mark()
@@ -151,7 +153,7 @@ class Workplace:
         return Runner(start, halt=self.halt, observers=self.observers)
 
     def answer(self, choice: Choice) -> Pause:
-        """Continue after a call of the operator; raises Refused if there is none."""
+        """Continue after a call of the operator. Raises Refused if there is no call."""
         if self.runner.call is None:
             raise Refused(f"`{choice}` answers a call of the operator, but there is none")
         self.runner.answer(choice)
@@ -164,18 +166,18 @@ class Workplace:
         return pause
 
     def mark(self) -> None:
-        """Keep the present state for `back`."""
+        """Store the present state for `back`."""
         self.before = [*self.before, self.checkpoint()][-MAX_STATES:]
 
     def back(self) -> None:
-        """Return to the state before the last plan; raises Refused if there was none."""
+        """Return to the state before the last plan. Raises Refused if there was no plan."""
         if not self.before:
             raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())
 
 
 def _onward(state: ExecutionState, plan: Plan) -> ExecutionState:
-    """Transfer a state to another plan, without the last plan's place and pictures."""
+    """Return a state for the next plan. It keeps everything but the last plan's place and pictures."""
     program, kept = plan.program, copied(state)
     fresh = ExecutionState(drive=kept.drive, world=kept.world)
     for name in _FORGOTTEN:

@@ -1,1 +1,1 @@
-"""Videos of recorded runs: moments, views, captions and file formats."""
+"""Makes videos of recorded runs: moments, views, captions and file formats."""

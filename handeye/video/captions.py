@@ -1,4 +1,4 @@
-"""Captions on video frames: the present stage among all stages, the clock, and pictures."""
+"""Draws captions on video frames: the present stage among all stages, the clock, and pictures."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ _FONT: Final = cv2.FONT_HERSHEY_SIMPLEX
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Caption:
-    """The caption of a frame."""
+    """What the caption of a frame says."""
 
     words: str
     clock: str
@@ -39,7 +39,8 @@ class Caption:
 
 
 def captioned(frame: Photograph, caption: Caption, inset: Photograph | None) -> Photograph:
-    """A frame with a caption at its lower edge, and a picture in its upper right corner if there is one."""
+    """Return a frame with a caption at its lower edge. If `inset` is a picture, it is put into the upper right
+    corner."""
     said = frame.copy()
     if inset is not None:
         _put_inset(said, inset)
@@ -61,7 +62,7 @@ def _put_inset(frame: Photograph, inset: Photograph) -> None:
 
 
 def _put_words(frame: Photograph, caption: Caption) -> None:
-    """Write stage (left) and clock (right) on a darkened band."""
+    """Write the stage (left) and the clock (right) on a darkened band."""
     height, width = frame.shape[:2]
     top, bottom = round((1 - _BAND - _BAR) * height), round((1 - _BAR) * height)
     band = frame[top:bottom]
@@ -74,7 +75,7 @@ def _put_words(frame: Photograph, caption: Caption) -> None:
 
 
 def _put_bar(frame: Photograph, caption: Caption) -> None:
-    """Draw a segment for each stage: done, stopped, or still to come."""
+    """Draw a segment for each stage: done, stopped, or not yet begun."""
     height, width = frame.shape[:2]
     bar = frame[round((1 - _BAR) * height) :]
     bar[:] = 0
@@ -86,7 +87,8 @@ def _put_bar(frame: Photograph, caption: Caption) -> None:
 
 
 def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: bool = False) -> Mask:
-    """The mask of a line of text in the middle of a band (height, width), within `room` points."""
+    """Return the mask of a line of text in the middle of a band of `size` (height, width), at most `room`
+    pixels wide."""
     height, width = size
     words, scale = _fitted(words, _FINER * height * _LETTERS / _BAND / _extent("M", 1)[1], _FINER * room)
     long, high = _extent(words, scale)
@@ -99,7 +101,8 @@ def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: 
 
 
 def _fitted(words: str, scale: float, room: int) -> tuple[str, float]:
-    """Words and scale that fit into a width (points): the words are first made smaller, then cut."""
+    """Make words fit into a width (pixels): first reduce their scale, then cut them. Returns the words and the
+    scale."""
     least = _MIN_SCALE * scale
     while scale > least and _extent(words, scale)[0] > room:
         scale *= 0.95
@@ -111,7 +114,7 @@ def _fitted(words: str, scale: float, room: int) -> tuple[str, float]:
 
 
 def _extent(words: str, scale: float) -> tuple[int, int]:
-    """Width and height of words, points."""
+    """Return the width and height of words (pixels)."""
     (long, high), _ = cv2.getTextSize(words, _FONT, scale, _weight(scale))
     return long, high
 

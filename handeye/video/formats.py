@@ -1,4 +1,5 @@
-"""Video formats: animated WebP and WebM, which OpenCV writes, and MP4, which needs the extra `mp4`."""
+"""Video formats: animated WebP and WebM, which OpenCV writes, and MP4, which needs the optional dependency
+`mp4`."""
 
 import os
 import re
@@ -23,7 +24,7 @@ Frames = Iterator[Photograph]
 
 
 def bgr(frame: Photograph) -> Photograph:
-    """A frame in OpenCV's colour order: blue, green, red."""
+    """Return a frame in OpenCV's colour order, which is blue, green, red."""
     return np.ascontiguousarray(frame[:, :, ::-1])
 
 
@@ -33,7 +34,7 @@ _BLOCK: Final = 8  # side of an ignored block, points
 
 
 def webp(frames: Frames, held: int) -> bytes:
-    """A looping animated WebP file; the last frame is held for `held` periods."""
+    """Encode a looping animated WebP file. The last frame is held for `held` frame periods."""
     animation = cv2.Animation()
     animation.frames = [bgr(frame) for frame in settled(frames)]
     ends = np.arange(1, len(animation.frames) + 1)
@@ -45,9 +46,10 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Frames in which a block changes only if it differs enough from the shown block.
+    """Yield frames in which a block of pixels changes only if it differs enough from the block that is shown.
 
-    libwebp skips blocks that resemble the frame before, so that slow changes would never be shown.
+    libwebp leaves out blocks that resemble those of the frame before. Without this function, slow changes would
+    never be shown.
     """
     shown = next(frames)
     yield shown
@@ -57,7 +59,7 @@ def settled(frames: Frames) -> Frames:
 
 
 def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
-    """Mask of the points in blocks that differ enough, shape (height, width)."""
+    """Return the mask of the pixels in blocks that differ enough, shape (height, width)."""
     height, width = frame.shape[:2]
     rows, columns = -(-height // _BLOCK), -(-width // _BLOCK)
     differs = np.zeros((rows * _BLOCK, columns * _BLOCK), dtype=bool)
@@ -71,7 +73,7 @@ _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)
 
 
 def webm(frames: Frames, held: int) -> bytes:
-    """A WebM file (VP8), reproducible to the byte; the last frame is held for `held` periods."""
+    """Encode a WebM file (VP8). Equal frames give equal bytes. The last frame is held for `held` frame periods."""
     frame = next(frames)
     height, width = frame.shape[:2]
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder:
@@ -100,7 +102,7 @@ def _writer(path: Path, width: int, height: int) -> cv2.VideoWriter:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """In this context, OpenCV's warning on standard error about the name VP80 is suppressed."""
+    """Within this context, suppress OpenCV's warning on standard error about the name VP80."""
     try:
         kept = os.dup(2)
     except OSError:  # there is no standard error
@@ -119,8 +121,8 @@ _MP4_QUALITY: Final = "23"  # of x264: 0 is without loss, 51 the worst
 
 
 def mp4(frames: Frames, held: int) -> bytes:
-    """An MP4 file (H.264), which nearly all players and slide programs can play; the last frame is held for `held`
-    periods.
+    """Encode an MP4 file (H.264), which nearly all video players and presentation programs can play. The last
+    frame is held for `held` frame periods.
     """
     import av
 
@@ -165,7 +167,7 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """The format for a file name; raises BadArgument if there is none."""
+    """Return the format for a file name. Raises BadArgument if the ending of the name is not that of a video."""
     ending = path.suffix.lower()
     if ending == ".mp4":
         try:

@@ -41,8 +41,8 @@ class Video:
 def make_video(
     trace: Trace, path: Path, wanted: VideoRequest, *, overwrite: bool, told: Progress = lambda done, of: None
 ) -> Video:
-    """Write a video of a recorded run completely or not at all, without simulation; raises Taken if the file
-    exists, unless `overwrite`.
+    """Write a video of a recorded run, without simulation. Either the whole file is written, or nothing. Raises
+    Taken if the file exists, unless `overwrite`.
     """
     require(trace.head.system, "video", trace.name)
     form = format_of(path)
@@ -70,7 +70,7 @@ def _drawn(trace: Trace, board: Storyboard, wanted: VideoRequest, told: Progress
 
 
 def _marked(seen: SeenPicture) -> Photograph:
-    """A picture with the marks of the findings in it."""
+    """Return a picture with marks for what vision found in it."""
     try:
         return annotate(seen.picture, seen.marks, scale=1)[:, :, ::-1]
     except ValueError:

@@ -1,4 +1,4 @@
-"""Selects the passages of a run for a video, and their durations."""
+"""Selects the parts of a run that a video shows, and how long each is shown."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ Span = tuple[float, float]  # begin, end, s by the cell's clock
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Passage:
-    """A continuous part of the run within one stage; or a moment at which the video stops to show a picture."""
+    """A continuous part of the run within one stage, or a moment at which the video stops to show a picture."""
 
     begin: float  # s by the cell's clock
     end: float
@@ -33,7 +33,8 @@ class Passage:
 
 
 def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
-    """Passages of a time span without the waits for the camera; `looks` adds stops at pictures."""
+    """Return the passages of a time span. Waits for the camera are left out. With `looks`, the video stops at
+    pictures."""
     pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})
     found: list[Passage] = []
@@ -49,12 +50,12 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
 
 
 def _pictures(trace: Trace) -> dict[float, SeenPicture]:
-    """Pictures by their times, s."""
+    """Return the pictures by the times at which they were taken (s)."""
     return {picture.time: picture for picture in seen_pictures(RecordedRun(trace=trace))}
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:
-    """The parts of a span between its waits."""
+    """Yield the parts of a span between the waits for the camera."""
     begin, end = span
     for event in trace.events:
         if isinstance(event, CameraBusy) and event.seconds > MAX_WAIT_S:
@@ -67,19 +68,20 @@ def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:
 
 
 def _pieces(spans: Iterable[Span], edges: list[float]) -> Iterator[Span]:
-    """Spans cut at edges."""
+    """Cut spans at edges, and yield the pieces."""
     for begin, end in spans:
         cuts = [begin, *(edge for edge in edges if begin < edge < end), end]
         yield from pairwise(cuts)
 
 
 def at_speed(shown: tuple[Passage, ...], speed: float) -> Array:
-    """Durations in the video (s), shape (n,), at a constant speed-up."""
+    """Return the durations of the passages in the video (s), shape (n,), if the run is shown `speed` times
+    faster."""
     return _took(shown) / speed + _LOOK * _still(shown)
 
 
 def within(shown: tuple[Passage, ...], seconds: float) -> Array:
-    """Durations in the video (s), shape (n,), for a given total length.
+    """Return the durations of the passages in the video (s), shape (n,), if the whole video lasts `seconds`.
 
     All passages have the same speed, except those of short stages, which are slower so that they can be seen.
     """
@@ -97,12 +99,12 @@ def _took(shown: tuple[Passage, ...]) -> Array:
 
 
 def _still(shown: tuple[Passage, ...]) -> Array:
-    """for passages that stop at a picture, else 0."""
+    """Return 1 for each passage that stops at a picture, and 0 for all others."""
     return np.array([float(passage.looked_at is not None) for passage in shown])
 
 
 def _shares(took: Array, least: float) -> Array:
-    """Shares proportional to `took`, but each at least `least`, shape (n,)."""
+    """Return shares of 1 that are proportional to `took`, but not less than `least`, shape (n,)."""
     short = np.zeros(len(took), dtype=bool)
     while True:
         rest = 1 - least * short.sum()
@@ -113,7 +115,8 @@ def _shares(took: Array, least: float) -> Array:
 
 
 def passage_at(lasts: Array, times: Array) -> tuple[Array, Array]:
-    """Index of the passage at each time of the video (s), and the fraction of it that has passed."""
+    """Return the index of the passage at each time of the video (s), and the fraction of the passage that is
+    over at that time."""
     ends = np.cumsum(lasts)
     at = np.minimum(np.searchsorted(ends, times, side="right"), len(lasts) - 1)
     return at, np.clip((times - (ends - lasts)[at]) / lasts[at], 0, 1)

@@ -1,4 +1,4 @@
-"""Plans the frames of a video: time, view and caption of each."""
+"""Plans the frames of a video: the time, the view and the caption of each."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -36,10 +36,10 @@ _GLIDE: Final = 0.9  # s between the views of two stages
 
 
 def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list[View]:
-    """The view of each frame; raises InvalidInput if there is no such camera.
+    """Return the view of each frame. Raises InvalidInput if there is no such camera.
 
     Args:
-        camera: a camera of the scene, `orbit` or `follow`.
+        camera: name of a camera in the scene, or `orbit` or `follow`.
         stages: index of each frame's stage in `trace.stages_both_ways`, shape (n,).
         rate: frames per second.
     """
@@ -60,22 +60,23 @@ def _orbit(scene: Any, side: str, frames: int) -> list[View]:
 
 
 def _follow(trace: Trace, side: str, stages: Sequence[int], rate: float) -> list[View]:
-    """Views close to the work of each stage, gliding from one stage to the next."""
+    """Return views close to the work of each stage, which glide from one stage to the next."""
     at = _smooth(np.array(_targets(trace))[np.maximum(stages, 0)], round(_GLIDE * rate))
     return [Near(camera=side, place=(x, y, z), distance=distance) for x, y, z, distance in at.tolist()]
 
 
 def _targets(trace: Trace) -> list[Array]:
-    """An aim (m) and a viewing distance (m) for each stage, shape (n, 4).
+    """Return, for each stage, the point at which the camera looks (m) and the distance of the camera from it
+    (m), shape (n, 4).
 
-    A stage in which the hand hardly moves takes those of the next stage, or of the previous one.
+    A stage in which the hand hardly moves gets the values of the next stage, or of the previous one.
     """
     found = [_target(np.array(_hands(trace, stage))) for stage in trace.stages_both_ways]
     return [_nearest(found, number, trace) for number in range(max(len(found), 1))]
 
 
 def _hands(trace: Trace, stage: Stage) -> list[tuple[float, float, float]]:
-    """Hand positions after each step of a stage, m."""
+    """Return the position of the hand after each step of a stage (m)."""
     return [
         event.hand
         for event in trace.events
@@ -84,7 +85,8 @@ def _hands(trace: Trace, stage: Stage) -> list[tuple[float, float, float]]:
 
 
 def _target(hands: Array) -> Array | None:
-    """Aim and distance for hand positions, shape (n, 3): the place where most of them are; None if they hardly
+    """Return the point at which the camera looks, and the distance of the camera from it, so that the view
+    shows the place where most of the hand positions, shape (n, 3), are. Returns None if the positions hardly
     differ.
 
     Later positions have more weight, because a part is put down after it is fetched.
@@ -105,7 +107,7 @@ def _nearest(found: Sequence[Array | None], number: int, trace: Trace) -> Array:
 
 
 def _smooth(values: Array, window: int) -> Array:
-    """Smoothed values, shape (n, m)."""
+    """Return smoothed values, shape (n, m)."""
     weights = np.hanning(2 * (window // 2) + 3)[1:-1]
     around = np.pad(values, ((window // 2,) * 2, (0, 0)), mode="edge")
     weights /= weights.sum()
@@ -134,7 +136,7 @@ class Storyboard:
 
     @property
     def seconds(self) -> float:
-        """Duration of the video, s."""
+        """Duration of the video (s)."""
         return (len(self.frames) + self.held) / RATE
 
 
@@ -162,13 +164,13 @@ def storyboard(trace: Trace, wanted: VideoRequest) -> Storyboard:
 
 
 def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
-    """Times of the run (s) at the fractions `over` of the passages."""
+    """Return the times of the run (s) at which the fractions `over` of the passages are over."""
     spans = np.array([(passage.begin, passage.end) for passage in chosen])
     return list((spans[:, 0] + over * np.ptp(spans, axis=1)).tolist())
 
 
 def _span(trace: Trace, wanted: VideoRequest) -> Span:
-    """The requested time span, as far as it was recorded."""
+    """Return the requested time span, as far as it was recorded."""
     program, (begin, end) = stage_names(trace), trace.covers
     first, last = (
         None if given is None else stage_index(str(given), program) for given in (wanted.first, wanted.last)
@@ -183,7 +185,7 @@ def _span(trace: Trace, wanted: VideoRequest) -> Span:
 
 
 def _recorded(trace: Trace, name: str) -> list[Stage]:
-    """All recorded executions of a stage; raises BadArgument if there are none."""
+    """Return all recorded executions of a stage. Raises BadArgument if there are none."""
     stages = [stage for stage in trace.stages if stage.end > trace.begins]
     found = [stage for stage in stages if stage.name == name]
     if not found:
@@ -193,7 +195,8 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
 
 
 def _paced(shown: tuple[Passage, ...], wanted: VideoRequest) -> tuple[Array, int]:
-    """Durations of the passages (s), and the number of periods for which the last frame is held."""
+    """Return the durations of the passages (s), and the number of frame periods for which the last frame is
+    held."""
     share, most = _HELD
     if wanted.speed is None:
         periods = max(round((wanted.seconds or SECONDS) * RATE), 1)

@@ -1,3 +1,3 @@
-"""The live cell in a browser: any number of viewers may watch without effect on the run, and one of them controls
-it.
+"""Shows the live cell in a browser. Any number of viewers may watch without affecting the run; one of them
+controls it.
 """

@@ -1,5 +1,5 @@
-"""Access control of the server: requests must use the server's name, come from its page, and have the token of the
-printed address.
+"""Controls access to the server. A request must use the server's name, come from the server's page, and have
+the token of the printed address.
 """
 
 import hmac
@@ -27,7 +27,7 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Access:
-    """Conditions for requests."""
+    """The conditions that a request must meet."""
 
     port: int
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
@@ -38,10 +38,11 @@ class Access:
         return f"http://{HOST}:{self.port}{PAGE}?token={self.token}"
 
     def refusal(self, target: str, hosts: Sequence[str], origins: Sequence[str]) -> Refusal | None:
-        """The reason why a request for a path and query with these `Host` and `Origin` headers is refused; None if
-        it is permitted.
+        """Return the reason why a request is refused, or None if it is permitted. `target` is the path and
+        query of the request; `hosts` and `origins` are its `Host` and `Origin` headers.
 
-        Browsers send the origin when a page opens a socket, and usually none when a person opens a page.
+        A browser sends the origin when a page opens a socket, and usually sends none when a person opens a
+        page.
         """
         path, _, query = target.partition("?")
         own = [f"{name}:{self.port}" for name in _NAMES]

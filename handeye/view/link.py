@@ -1,4 +1,4 @@
-"""The link between the thread that executes a run and the server: lines for the run, and messages from the run."""
+"""Links the thread that executes a run with the server: lines for the run, and messages from the run."""
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
@@ -10,7 +10,7 @@ MAX_WAITING_LINES: Final = 100  # the run takes them in less than a servo period
 
 
 class Link:
-    """Lines and the panic button for a run, from any thread; the run collects them when it can."""
+    """Passes lines and the panic button to a run. Any thread may send them; the run fetches them when it can."""
 
     def __init__(self) -> None:
         self.tell: Callable[[str], None] = lambda _: None
@@ -23,14 +23,14 @@ class Link:
     # -- the side of the viewers ----------------------------------------------------------------------
 
     def say(self, line: str) -> bool:
-        """Send a line to the run; False if too many lines are waiting."""
+        """Send a line to the run. Returns False if too many lines are waiting."""
         if self._lines.qsize() >= MAX_WAITING_LINES:
             return False
         self._lines.put(line)
         return True
 
     def press(self) -> bool:
-        """Press the panic button; False if nothing is in progress that it could stop."""
+        """Press the panic button. Returns False if nothing is moving that the button could stop."""
         with self._lock:
             self._panic = self._goes
             return self._goes
@@ -38,7 +38,7 @@ class Link:
     # -- the side of the run --------------------------------------------------------------------------
 
     def lines(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
-        """Lines for a paused run; each pause clears the panic button."""
+        """Yield lines for a paused run. Each pause resets the panic button."""
         while True:
             self._set_going(False)
             with aside():
@@ -49,14 +49,14 @@ class Link:
             yield line
 
     def come(self) -> str | None:
-        """A line that has already been received; None if there is none."""
+        """Return a line that has already been received, or None."""
         try:
             return self._lines.get_nowait()
         except Empty:
             return None
 
     def panic(self) -> bool:
-        """True if the panic button was pressed since the last call."""
+        """Return True if the panic button was pressed since the last call."""
         pressed, self._panic = self._panic, False
         return pressed
 

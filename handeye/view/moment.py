@@ -1,5 +1,5 @@
-"""The present moment of a run and the television picture for viewers, as copies that viewers cannot use to change
-the run.
+"""Copies the present state of a run and the television picture for viewers, so that viewers cannot change the
+run.
 """
 
 from collections.abc import Sequence
@@ -29,30 +29,31 @@ NEWS = PictureTaken | happened.PartSeen | happened.PartInspected | happened.Part
 
 @dataclass(frozen=True, eq=False)
 class Television:
-    """The television's picture with its findings, as a value that the run does not change."""
+    """The picture on the television, with what vision found in it. It is a copy, which the run does not change."""
 
     picture: SeenPicture | None = None
     """The last picture that the program took or examined, with its time; None if it has taken none."""
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
-        """Identity of the picture, together with the findings in it."""
+        """Time and name of the picture and what vision found in it, by which two pictures are compared. None
+        without a picture."""
         return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
 
     @cached_property
     def message(self) -> str:
-        """The picture as a message for pages; without a picture, the markup is empty."""
+        """The picture as a message for pages. Without a picture, the markup in the message is empty."""
         shown = "" if self.picture is None else figure(self.picture, self.picture.name)
         return msgspec.json.encode({"television": str(shown)}).decode()
 
 
 def television(runner: Runner) -> Television:
-    """The television's present picture of a run."""
+    """Return the picture that the television shows at present."""
     return shown(runner.events, runner.listing, runner.system)
 
 
 def shown(events: Sequence[AnyEvent], listing: Listing, system: RunningSystem) -> Television:
-    """The television's picture after some events, copied from the memory of the program."""
+    """Return the picture that the television shows after some events, copied from the memory of the program."""
     taken, findings = _last(events, listing) if system.shots else (None, ())
     if taken is None or taken.picture not in system.shots:
         return Television()
@@ -69,7 +70,7 @@ def shown(events: Sequence[AnyEvent], listing: Listing, system: RunningSystem) -
 
 
 def _last(events: Sequence[AnyEvent], listing: Listing) -> tuple[PictureTaken | None, Sequence[Finding]]:
-    """The last picture that was taken or examined, and its findings."""
+    """Return the last picture that was taken or examined, and what vision found in it."""
     taken: dict[str, PictureTaken] = {}
     findings: dict[str, list[Finding]] = {}
     last = None
@@ -100,8 +101,8 @@ class Moment:
 
     @cached_property
     def packed(self) -> bytes:
-        """The state as 32-bit little-endian numbers: `FIGURES`, joints, channels, poses; NaN for a force that is
-        not estimated.
+        """The state as 32-bit little-endian numbers: `FIGURES`, joints, channels, poses. A force that is not
+        estimated is NaN.
         """
         force = np.full(3, np.nan) if self.force is None else self.force
         numbers = (np.array([self.time, self.gap]), force, self.joints, self.channels, self.poses.ravel())
@@ -109,14 +110,14 @@ class Moment:
 
 
 class Newest(Observer):
-    """Keeps the newest moment and picture of a run for display; other threads may read them."""
+    """Keeps the newest state and picture of a run for display. Other threads may read them."""
 
     def __init__(self, runner: Runner) -> None:
         self.follow(runner)
 
     def follow(self, runner: Runner) -> None:
-        """Follow a runner from now on; a runner that continues in the cell of another also continues that runner's
-        time.
+        """Follow a runner from now on. If the runner continues in the cell of another runner, the time also
+        continues.
         """
         cell = runner.system.cell
         self.frames = NoFrames() if cell is None else Frames(cell.truth, runner.system.joints)
@@ -146,7 +147,8 @@ class Newest(Observer):
         self._look()
 
     def _look(self) -> None:
-        """Update the television; an unchanged picture stays the same object, which is sent only once."""
+        """Update the television picture. A picture that has not changed stays the same object, so that it is
+        sent only once."""
         seen = television(self._runner)
         if seen.shows != self.television.shows:
             self.television = seen

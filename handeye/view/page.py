@@ -1,5 +1,5 @@
-"""The page of a live cell: 3D view and script as in the report, updated by the server; a log of replies; a command
-line.
+"""Builds the page of a live cell: 3D view and script as in the report, updated by the server, a log of replies,
+and a command line.
 """
 
 from collections.abc import Iterator, Sequence
@@ -26,7 +26,7 @@ _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Face:
-    """The controls of a live page, and the region beside the cell."""
+    """The parts in which live pages differ, such as the controls and the region beside the cell."""
 
     title: str
     controls: Sequence[Markup]
@@ -37,7 +37,8 @@ class Face:
 
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
-    """The page of a live cell, as one file that loads no other files; raises InvalidInput if the task has no scene."""
+    """Return the page of a live cell, as one file that loads no other files. Raises InvalidInput if the task
+    has no scene."""
     model = runner.task.shown(runner.setup.world, written(runner.setup))
     names = newest.frames.names
     facts = {
@@ -71,12 +72,12 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
 
 
 def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
-    """Buttons, each given by the line that it sends and by its label."""
+    """Yield buttons. Each is given by the line that it sends, and by its label."""
     return (element("button", shown, type="button", value=line, class_="say") for line, shown in said)
 
 
 def source_region(label: str, *content: Markup, id: str | None = None) -> Markup:
-    """A scrolling region beside the cell that contains a script or a taught file."""
+    """Return a scrolling region beside the cell, which contains a script or a taught file."""
     return region(*content, label=label, id=id, class_="source")
 
 
@@ -102,7 +103,8 @@ def _talk(listener: str) -> Markup:
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:
-    """First poses of all bodies. Bodies that do not exist yet are at the origin; the page moves them later."""
+    """Return the first poses of all bodies. Bodies that do not exist yet are put at the origin; the page moves
+    them later."""
     there = np.where(np.isnan(poses), np.array([0, 0, 0, 1, 0, 0, 0], dtype=np.float32), poses)
     rows = {name: pose[None] for name, pose in zip(names, there, strict=True)}
     return tracks.tracks_bytes(rows, times=np.zeros(1), begin=0.0, end=0.0, lowest=-np.inf)

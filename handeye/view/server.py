@@ -1,7 +1,7 @@
 """The server: a thread beside the run that delivers the page and sends messages to its viewers.
 
-It sends the newest moment `MOMENTS_PER_S` times per second and drops the others. A viewer that falls too far behind
-is disconnected, so that no viewer can slow the run down.
+It sends the newest state of the run `MOMENTS_PER_S` times per second and drops all others. A viewer that falls
+too far behind is disconnected, so that no viewer can slow the run down.
 """
 
 import asyncio
@@ -39,11 +39,11 @@ class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True)
 
 
 class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=True):
-    """A viewer's request to press the panic button, which every viewer may do."""
+    """A viewer's request to press the panic button. Every viewer may do this."""
 
 
 class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=True):
-    """A viewer's request to take control from the present viewer."""
+    """A viewer's request to take control from the viewer who has it."""
 
 
 Wish = Say | Panic | Drive
@@ -59,12 +59,13 @@ class Viewer:
 
 
 class Server:
-    """Serves one run while its context is entered. The port is taken at creation, so that a port in use is refused
-    at once.
+    """Serves one run while its context is entered. It takes its port when it is created, so that a port in use
+    is reported at once.
     """
 
     def __init__(self, link: Link, port: int = 0) -> None:
-        """Take a port (0: any free port); raises InvalidInput if the port is in use or unavailable."""
+        """Take a port, or any free port if `port` is 0. Raises InvalidInput if the port is in use or
+        unavailable."""
         self.link = link
         self._socket = _taken(port)
         self.access = Access(self._socket.getsockname()[1])
@@ -75,7 +76,8 @@ class Server:
         self._up = Event()
 
     def show(self, page: bytes, newest: Newest | None = None) -> None:
-        """Start to serve a page and to send moments; `newest` None: no moments and no socket."""
+        """Start to serve a page and to send states of the run. If `newest` is None, no states are sent and no
+        sockets are opened."""
         self._page, self._newest = page, newest
         self.link.tell = lambda text: self._call(lambda: self._tell(text))
         self._thread = Thread(
@@ -117,14 +119,15 @@ class Server:
             await self._say_goodbye(server)
 
     async def _say_goodbye(self, server: SocketServer) -> None:
-        """Send all waiting messages, then close."""
+        """Send all waiting messages, then close the server."""
         for viewer in [*self._viewers]:
             viewer.waiting.append(_message(left=True))
         await asyncio.sleep(2 / MOMENTS_PER_S)
         server.close()
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """The page, or the reason why there is none; None to permit the socket."""
+        """Return the page, or the reason why the request is refused. None permits the browser to open the
+        socket."""
         headers = request.headers
         refusal = self.access.refusal(request.path, headers.get_all("Host"), headers.get_all("Origin"))
         if refusal is not None:
@@ -157,7 +160,8 @@ class Server:
             self._tell_drive()
 
     async def _feed(self, viewer: Viewer, newest: Newest) -> None:
-        """Send messages, the newest moment and the newest picture at the viewer's own pace."""
+        """Send a viewer messages, the newest state and the newest picture, as fast as the viewer can receive
+        them."""
         shown, pictured = None, None
         try:
             while True:
@@ -189,7 +193,7 @@ class Server:
             viewer.connection.transport.abort()
 
     def _tell_drive(self) -> None:
-        """Tell every viewer the number of viewers, and who has control."""
+        """Tell every viewer how many viewers there are, and who has control."""
         for viewer in self._viewers:
             free = self._driver is None
             self._send(viewer, _message(viewers=len(self._viewers), drives=self._driver is viewer, free=free))
@@ -205,7 +209,7 @@ class Server:
             self._send(viewer, _message(refused=refused))
 
     def _carried_out(self, viewer: Viewer, wish: Wish) -> str | None:
-        """Carry out a viewer's request; returns the reason if it is refused."""
+        """Do what a viewer requests. Returns the reason if the request is refused, or None."""
         match wish:
             case Drive():
                 self._driver = viewer
@@ -221,7 +225,7 @@ class Server:
 
 
 def _taken(port: int) -> socket.socket:
-    """A socket that listens on a port of this computer only."""
+    """Return a socket that accepts connections from this computer only."""
     taken = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

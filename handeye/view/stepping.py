@@ -1,5 +1,5 @@
-"""Stepping in the browser: the page with buttons that send lines to the stepper, and the loop that executes the
-lines.
+"""Steps a run in the browser: a page with buttons that send lines to the stepper, and the loop that executes
+these lines.
 """
 
 from collections.abc import Callable
@@ -27,7 +27,7 @@ _PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as possible")
 
 
 def stepping_page(runner: Runner, newest: Newest) -> bytes:
-    """The page of a run in a cell; raises InvalidInput if the task has no scene."""
+    """Return the page for stepping a run in a cell. Raises InvalidInput if the task has no scene."""
     program: Any = runner.listing
     face = Face(
         title=program.name,
@@ -50,8 +50,8 @@ def _controls() -> Markup:
 
 
 def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> Pause:
-    """Execute lines until the user leaves the run; returns the reason of the pause. The context `aside` is entered
-    while waiting.
+    """Execute lines until the user leaves the run. Returns the reason why the run paused. The context `aside`
+    is entered while waiting for a line.
     """
     session = stepper.session
     session.output = LiveJson(session.runner, link.tell)
@@ -65,7 +65,7 @@ def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManag
 
 
 def told(stepper: Stepper, reply: Reply) -> str:
-    """A reply in the form for the page: its record, and the text that the stepper prints at a terminal.
+    """Encode a reply for the page: its record, and the text that the stepper would print at a terminal.
 
     Events and executed steps are left out of the record, because there may be thousands of them.
     """

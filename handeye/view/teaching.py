@@ -1,4 +1,5 @@
-"""Teaching in the browser: the page with buttons that move the arm, and the loop that executes the lines."""
+"""Teaches positions in the browser: a page with buttons that move the arm, and the loop that executes the lines
+that they send."""
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
@@ -27,7 +28,7 @@ _WORDS: Final = (("undo", "Undo"), ("where", "Where"), ("float", "Float"), ("sav
 
 
 def teaching_page(teacher: Teacher, newest: Newest) -> bytes:
-    """The page for teaching in a cell; raises InvalidInput if the task has no scene."""
+    """Return the page for teaching in a cell. Raises InvalidInput if the task has no scene."""
     workplace = teacher.workplace
     hand = element("div", *buttons(_GAPS), *buttons(_WORDS), class_="controls")
     face = Face(
@@ -41,7 +42,7 @@ def teaching_page(teacher: Teacher, newest: Newest) -> bytes:
 
 
 def taught_markup(teacher: Teacher) -> Markup:
-    """The taught file with all changes; lines that are not saved yet are marked."""
+    """Return the taught file with all changes. Lines that are not saved yet are marked."""
     saved = set(teacher.saved.splitlines())
     lines = teacher.text.splitlines()
     if not lines:
@@ -51,7 +52,7 @@ def taught_markup(teacher: Teacher) -> Markup:
 
 
 def _jogging(arm: ArmModel) -> Markup:
-    """Controls that move the hand along or about an axis, or one joint."""
+    """Return controls that move the hand along or about an axis, or move one joint."""
     steps = element(
         "div",
         _choice("frame", "along", _FRAMES, _FRAMES[0][0]),
@@ -82,7 +83,8 @@ def _grid(label: str, pairs: Iterable[Markup]) -> Markup:
 
 
 def _pair(line: str, shown: str, step: str) -> Markup:
-    """Two buttons for opposite movements; the page's script inserts frame and step into the line."""
+    """Return two buttons for opposite movements. The page's script inserts frame and step into the line that a
+    button sends."""
     less, more = (
         element("button", sign, type="button", value=f"{line} {typed}", data_step=step, aria_label=f"{shown} {sign}")
         for typed, sign in _SIGNS
@@ -91,7 +93,7 @@ def _pair(line: str, shown: str, step: str) -> Markup:
 
 
 def _naming(parts: Iterable[str]) -> Markup:
-    """The form that stores the hand's position under a name."""
+    """Return the form that stores the hand's position under a name."""
     name = element(
         "input", id="name", type="text", required=True, maxlength="60", pattern="[A-Za-z_][A-Za-z0-9_]*",
         placeholder="NAME", aria_label="name of the position", autocomplete="off",
@@ -106,7 +108,7 @@ def _naming(parts: Iterable[str]) -> Markup:
 
 
 class Watch:
-    """The observers of a workplace, which stay the same while each plan has its own runner."""
+    """The observers of a workplace. They stay the same, although each plan has its own runner."""
 
     def __init__(self, link: Link, pace: Pace) -> None:
         self.newest: Newest | None = None  # None: no cell was built yet
@@ -114,7 +116,7 @@ class Watch:
         self._ear = LineInput(link.come, lambda line: link.tell(_refused(line)))
 
     def __call__(self, runner: Runner) -> list[Observer]:
-        """The observers for a runner, the first or a later one."""
+        """Return the observers for a runner, which may be the first or a later one."""
         if self.newest is None:
             self.newest = Newest(runner)
         else:
@@ -123,7 +125,7 @@ class Watch:
 
 
 def teach(session: TeachSession, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> None:
-    """Execute lines until the user leaves; the context `aside` is entered while waiting for a line."""
+    """Execute lines until the user leaves. The context `aside` is entered while waiting for a line."""
     link.tell(_told(session, None))
     for line in filter(str.strip, link.lines(aside)):
         link.tell(msgspec.json.encode({"begun": line.strip()}).decode())
@@ -133,7 +135,7 @@ def teach(session: TeachSession, link: Link, aside: Callable[[], AbstractContext
 
 
 def _told(session: TeachSession, answer: Answer | None) -> str:
-    """An answer in the form for the page, with the resulting taught file; None: no line has been given yet."""
+    """Encode an answer for the page, with the taught file as it is now. `answer` is None before the first line."""
     teacher = session.teacher
     return msgspec.json.encode(
         {
