@@ -29,25 +29,25 @@ import numpy as np
 from handeye.core.errors import PhysicsFailed
 
 LONGER: Final = 4
-"""Number of short steps in a long one. Chosen so that a servo period is a whole number of long steps, and friction
-holds.
+"""Number of short steps in a long step. Chosen so that a servo period is a whole number of long steps, and so that
+friction holds.
 """
 STIFFER: Final = 4
-"""Factor by which carried contacts are stiffer in long steps; 16 would make up for the length of the step. Measured:
-with 16, the pump's base is thrown out of the grasp.
+"""Factor by which the contacts of carried parts are stiffer in long steps. A factor of 16 would make up for the
+length of the step, but measured with 16, the base of the pump is thrown out of the grasp.
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Carrying:
-    """The contacts that may occur in long steps, since one body carries the other; bodies by name."""
+    """The contacts that are allowed in long steps, because one body carries the other. Bodies are given by name."""
 
     hand: str  # the body that moves everything that is carried
     pairs: tuple[tuple[str, str], ...]  # the hand and a free body, or two free bodies
 
 
 def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
-    """Raise PhysicsFailed if the simulator has given a warning, or if anything moves faster than `fastest` (m/s,
+    """Raise PhysicsFailed if the simulator has given a warning, or if a body moves faster than `fastest` (m/s,
     rad/s).
     """
     warnings = data.warning.number.tolist()
@@ -65,12 +65,13 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
 class PhysicsStepper:
     """Advances the physics of a cell.
 
-    If anything comes into contact during a long step, except what is carried, the steps are undone, and short ones are
-    made instead from the last moment without that contact: contacts begin in short steps.
+    If bodies come into contact during a long step, other than the hand and the parts it carries, the steps are
+    undone. Short steps are then made from the last moment without that contact, because contacts must begin in
+    short steps.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None) -> None:
-        """`carrying`: the contacts that may occur in long steps; none by default."""
+        """`carrying` gives the contacts that are allowed in long steps. By default no contacts are allowed."""
         self._model, self._data, self._short = model, data, float(model.opt.timestep)
         self._moves = (data.qpos, data.qvel, data.act, data.qacc_warmstart)
         self._kept = [values.copy() for values in self._moves]
@@ -92,16 +93,16 @@ class PhysicsStepper:
         impedance *= STIFFER / (1.0 + (STIFFER - 1.0) * impedance)
 
     def step(self, steps: int) -> None:
-        """Advance by `steps` short steps, or by long steps over the same time."""
+        """Advance by `steps` short steps, or by long steps that cover the same time."""
         if steps % LONGER or self._held() is None or not self._smoothly(steps):
             self._closely(steps)
 
     def _closely(self, steps: int) -> None:
-        """Make short steps; a subclass may watch them."""
+        """Make short steps. A subclass may watch them."""
         mujoco.mj_step(self._model, self._data, steps)
 
     def _held(self) -> frozenset[int] | None:
-        """The trees that the hand carries; None if there is any other contact."""
+        """Return the trees of bodies that the hand carries, or None if there is any other contact."""
         touching = self._data.contact.geom
         shapes = touching.tobytes()
         if shapes != self._seen[0]:  # they are seldom others than in the step before
@@ -110,7 +111,7 @@ class PhysicsStepper:
         return self._seen[1]
 
     def _reached(self, pairs: set[tuple[int, int]]) -> frozenset[int]:
-        """The trees that these contacts connect with that of the hand."""
+        """Return the trees of bodies that these contacts connect with the tree of the hand."""
         hand = int(self._model.body_treeid[self._hand])
         reached, before = {hand}, 0
         while len(reached) > before:
@@ -119,7 +120,7 @@ class PhysicsStepper:
         return frozenset(reached - {hand})
 
     def _smoothly(self, steps: int) -> bool:
-        """Make long steps; return False, with no step made, if anything else came into contact."""
+        """Make long steps. If any other contact occurs, undo the steps and return False."""
         model, data = self._model, self._data
         began, loaded = data.time, bool(data.ncon)
         for kept, values in zip(self._kept, self._moves, strict=True):
@@ -151,13 +152,15 @@ class PhysicsStepper:
         return smooth
 
     def _undisturbed(self, *, loaded: bool) -> bool:
-        """True if there is no contact but of what is carried, if anything was when the steps began."""
+        """Return True if there are no contacts, or, if there were contacts when the steps began, only contacts of
+        carried parts.
+        """
         return self._held() is not None if loaded else not self._data.ncon
 
     def _add_second_order(self, steps: int) -> None:
-        """Add to the carried bodies the term of second order that Euler's method leaves out when the hand moves along
-        an arc: half the velocity-dependent acceleration, times the square of the long step, for the long steps over
-        the time of `steps` short ones.
+        """Add to the carried bodies the second-order term that Euler's method leaves out when the hand moves along
+        an arc: half the velocity-dependent acceleration, times the square of the long step. The long steps cover
+        the time of `steps` short steps.
         """
         model, data = self._model, self._data
         mujoco.mj_comPos(model, data)
@@ -191,9 +194,7 @@ def wake(data: mujoco.MjData, dof: int) -> None:
 
 
 def asleep(data: mujoco.MjData) -> bool:
-    """True if everything sleeps and nothing has been done to wake any of it, so that time can pass without
-    computing.
-    """
+    """Return True if everything sleeps and no body has been woken since, so that time can pass without computing."""
     return data.ntree_awake == 0 and not (
         data.qvel.any() or data.qfrc_applied.any() or data.xfrc_applied.any()
     )

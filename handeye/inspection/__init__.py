@@ -1,1 +1,1 @@
-"""Shows the contents of a plan: stages and times, flow, and differences from another plan."""
+"""Shows what a plan contains: stages and times, flow, and differences from another plan."""

@@ -21,10 +21,10 @@ Pair = tuple[int | None, int | None]  # numbers of a step before and after; None
 
 
 def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
-    """Pair the steps of two programs; each step occurs once, in the order of the text.
+    """Pair the steps of two programs. Each step occurs in one pair, in the order of the text.
 
-    Identical steps are matched first. Between two matches, steps are paired by their statements, then by the kind
-    of their operation, so that a changed step does not count as one removed and one added.
+    Identical steps are matched first. Between two matches, steps are paired by their statements, and then by the
+    kinds of their operations, so that a changed step does not count as one removed step and one added step.
     """
     keys = (
         lambda step: f"{one_line(step.text)} {does(step)}",
@@ -37,7 +37,7 @@ def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
 def _matched(
     before: Sequence[Step], after: Sequence[Step], old: range, new: range, keys: tuple[Any, ...]
 ) -> Iterator[Pair]:
-    """Match two ranges of steps by the first key; between the matches, by the remaining keys."""
+    """Match two ranges of steps by the first key. Between the matches, steps are matched by the remaining keys."""
     if not keys or not old or not new:
         yield from ((number, None) for number in old)
         yield from ((None, number) for number in new)
@@ -52,8 +52,8 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """True if edges to steps `old` and `new` lead to the same step, skipping removed and added steps; None is the
-    end of the program.
+    """Return True if edges to the steps `old` and `new` lead to the same step when removed and added steps are
+    skipped. None stands for the end of the program.
     """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:
@@ -62,17 +62,19 @@ def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool
 
 
 def _pair_of(pairs: Sequence[Pair], side: int, number: int | None) -> int:
-    """Index of the pair that contains step `number` on one side; for the end of the program, the number of pairs."""
+    """Return the index of the pair that contains step `number` on one side. For the end of the program, return the
+    number of pairs.
+    """
     return next((at for at, pair in enumerate(pairs) if pair[side] == number is not None), len(pairs))
 
 
 def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
-    """The first index from `at` on of a pair with a step in both programs; None if there is none."""
+    """Return the index of the first pair, from `at` on, that has a step in both programs, or None if there is none."""
     return next((place for place in range(at, len(pairs)) if None not in pairs[place]), None)
 
 
 def does(step: Step) -> dict[str, Any]:
-    """The operation of a step as data, without its branch target."""
+    """Return the operation of a step as data, without its branch target."""
     operation = step.operation.leading_to(None) if step.operation.branches else step.operation
     found: dict[str, Any] = msgspec.to_builtins(operation)
     return found
@@ -83,8 +85,8 @@ _LEAST_TURN: Final = 1e-6  # rad; the precision of an arc cosine near 1
 
 
 class PlaceChange(Record, frozen=True, kw_only=True):
-    """A position or part that was added, removed, moved or changed; `shift` (m) and `turn` (rad) give the move, in
-    axes of the table or of the part.
+    """A position or part that was added, removed, moved or changed. `shift` (m) and `turn` (rad) say how it moved,
+    in the axes of the table or of its part.
     """
 
     kind: Literal["added", "removed", "moved", "changed"]
@@ -127,7 +129,7 @@ def _placed(
 
 
 def _part(place: Position | Part) -> str | None:
-    """The part to which a position belongs; None if it belongs to none."""
+    """Return the name of the part to which a position belongs, or None if it belongs to no part."""
     return place.of if isinstance(place, Position) else None
 
 
@@ -139,13 +141,13 @@ _ALIKE = 1e-9  # m, rad or s; smaller differences of motions are rounding
 
 
 class MotionChange(Record, frozen=True, kw_only=True):
-    """A change of a planned motion: its duration, s, and the end position of its joints."""
+    """A change of a planned motion: of its duration (s) and of the joint positions at its end."""
 
     before: float | None  # planned duration, s; None if there was no motion
     after: float | None
     joint: int | None = None
-    """The joint, from 1, whose end position changed most, measured in travel time; None if the ends agree, or the
-    arms differ.
+    """The joint, from 1, whose end position changed most, measured in travel time; None if the end positions agree
+    or the arms differ.
     """
     name: str = ""
     kind: Literal["revolute", "prismatic"] | None = None
@@ -153,7 +155,7 @@ class MotionChange(Record, frozen=True, kw_only=True):
 
 
 class StepChange(Record, frozen=True, kw_only=True):
-    """A step that was added, removed or changed, or of which only the motion changed (`replanned`)."""
+    """A step that was added, removed or changed, or a step whose motion alone changed (`replanned`)."""
 
     kind: Literal["added", "removed", "changed", "replanned"]
     before: int | None
@@ -167,7 +169,7 @@ class StepChange(Record, frozen=True, kw_only=True):
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """All differences between two plans; empty if both plans do the same."""
+    """All differences between two plans; empty if the plans do the same work."""
 
     heads: tuple[tuple[str, str, str], ...]  # arm, speed and the like: what, before, after
     stages_removed: tuple[str, ...]
@@ -178,7 +180,7 @@ class Difference(Record, frozen=True, kw_only=True):
 
     @property
     def same(self) -> bool:
-        """True if both plans do the same; comments do not count."""
+        """True if the two plans do the same work. Comments do not count."""
         return not (self.heads or self.stages_removed or self.stages_added or self.places or self.steps)
 
 
@@ -252,7 +254,9 @@ def _change(
 
 
 def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
-    """Differences between two paired steps, without their branch targets: subject, before, after."""
+    """Yield the differences between two paired steps, without their branch targets: subject, value before, value
+    after.
+    """
     texts = [one_line(step.text) for step in (one, other)]
     guards = ["; ".join(conditions(step.operation)) or "none" for step in (one, other)]
     if texts[0] != texts[1]:
@@ -267,7 +271,7 @@ def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
 
 
 def _alike(one: Record, other: Record) -> bool:
-    """True if two records agree, apart from the last digits of their numbers."""
+    """Return True if two records are equal apart from the last digits of their numbers."""
     return alike(msgspec.to_builtins(one), msgspec.to_builtins(other))
 
 

@@ -1,4 +1,4 @@
-"""The difference between two plans as text."""
+"""Writes the difference between two plans as text."""
 
 from typing import Final
 
@@ -11,7 +11,7 @@ _SIGNS: Final = {"added": "+", "removed": "-", "changed": "~", "replanned": " "}
 
 
 def difference_text(found: Difference) -> list[str]:
-    """The difference between two plans as lines of text."""
+    """Write the difference between two plans as lines of text."""
     if found.same:
         return ["no difference: both plans do the same"]
     out = [f"~ {what}: {was} -> {now}" for what, was, now in found.heads]

@@ -15,7 +15,7 @@ COLOURS: Final = {
     "search": ("#e3eff0", "#3d8087"),
     "other": ("#ededed", "#808080"),
 }
-"""Fill and stroke of each kind of step."""
+"""Fill colour and stroke colour of each kind of step."""
 RADIUS: Final = 6.0  # px, of the corners of an edge
 LETTERS: Final = (30, 43)  # that fit into a step, of its statement and of a note
 _MARGIN: Final = 64  # px above the drawing, for title and legend
@@ -110,7 +110,7 @@ def _label(route: Route) -> str:
 
 
 def _path(points: tuple[Point, ...]) -> str:
-    """The SVG path through points, with rounded corners."""
+    """Write the SVG path through points, with rounded corners."""
     out = [f"M{points[0][0]:g} {points[0][1]:g}"]
     for before, here, after in zip(points, points[1:], points[2:], strict=False):
         (x1, y1), (x2, y2) = _towards(here, before), _towards(here, after)
@@ -119,7 +119,7 @@ def _path(points: tuple[Point, ...]) -> str:
 
 
 def _towards(here: Point, there: Point) -> Point:
-    """The point between two corners at which the rounding of the first one ends."""
+    """Return the point, on the line between two corners, at which the rounding of the first corner ends."""
     dx, dy = there[0] - here[0], there[1] - here[1]
     size = abs(dx) + abs(dy)
     share = min(RADIUS, size / 2) / size if size else 0.0

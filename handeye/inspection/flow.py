@@ -1,4 +1,4 @@
-"""The flow of a plan as a graph of steps and edges."""
+"""The flow of a plan, as a graph of steps and edges."""
 
 import json
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from handeye.program.program import Step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Node:
-    """A step, with its guards as notes."""
+    """A step of the graph. Its guards are shown as notes."""
 
     step: int
     stage: int  # index
@@ -25,7 +25,9 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlowEdge:
-    """An edge to the next step, or None for the end of the program; `error`: taken if this error was raised."""
+    """An edge from a step to the next step; `end` is None at the end of the program. If `error` is given, the edge
+    is taken when this error was raised.
+    """
 
     start: int
     end: int | None
@@ -34,7 +36,7 @@ class FlowEdge:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Flow:
-    """The graph of a plan, or of one stage. Edges that leave the stage end in steps of `outside`, which are not
+    """The graph of a plan or of one stage. Edges that leave the stage end in the steps of `outside`, which are not
     drawn.
     """
 
@@ -46,7 +48,7 @@ class Flow:
 
 
 def flow(plan: Plan, stage: int | None = None) -> Flow:
-    """Make the graph of a plan, or of one stage, given by its number from 1."""
+    """Make the graph of a whole plan, or of the stage with the given number (from 1)."""
     steps = plan.program.steps
     shown = [n for n, step in enumerate(steps) if stage in (None, step.stage + 1)]
     edges = [edge for number in shown for edge in _edges(number, steps[number])]
@@ -59,7 +61,7 @@ def flow(plan: Plan, stage: int | None = None) -> Flow:
 
 
 def flow_dot(graph: Flow) -> str:
-    """The graph in the DOT language of Graphviz."""
+    """Write a graph in the DOT language of Graphviz."""
     lines = [f"digraph {_quoted(graph.name)} {{", '  node [shape=box, style=rounded, fontname="monospace"]']
     for index in dict.fromkeys(node.stage for node in graph.nodes):
         lines += [f"  subgraph cluster_{index} {{", f"    label={_quoted(graph.stages[index])}"]

@@ -1,7 +1,9 @@
-"""A plan as data and text: stages and steps, durations, guards, and what each step depends on.
+"""The contents of a plan as data and as text: stages and steps, durations, guards, and the measurements on which
+each step depends.
 
-A step depends on measurements at run time: parts seen, saved positions and differences, a search. The newest
-measurements that can hold at a step are computed over all paths through the graph, including loops and error edges.
+A step may depend on measurements made during the run: seen parts, saved positions and differences, a search. The
+newest measurements that can be valid at a step are computed over all paths through the graph, including loops and
+error edges.
 """
 
 from typing import Final, Literal, get_args
@@ -23,7 +25,7 @@ Newest = dict[Key, frozenset[int]]  # steps that may have made each measurement 
 
 
 class Dependence(Record, frozen=True, kw_only=True):
-    """A run-time measurement that a step depends on."""
+    """A measurement during the run on which a step depends."""
 
     kind: Measured
     name: str  # empty for a search
@@ -33,7 +35,7 @@ class Dependence(Record, frozen=True, kw_only=True):
 
 
 def dependences(program: Program) -> tuple[tuple[Dependence, ...], ...]:
-    """The dependences of each step, in the order of the steps."""
+    """Find the dependences of each step, in the order of the steps."""
     newest = _newest(program)
     kept = program.written("position")
     return tuple(
@@ -52,8 +54,8 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """Measured values that a motion or look needs; the flag is True if only their horizontal part is needed.
-    `kept`: positions defined by `HERE`.
+    """Return the measured values that a motion or look needs. The flag is True if only the horizontal part of the
+    value is needed. `kept` holds the positions that `HERE` defines.
     """
     found: list[tuple[Key, bool]] = []
     for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():
@@ -71,7 +73,7 @@ def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[
 
 
 def _newest(program: Program) -> list[Newest]:
-    """The newest measurements that can hold before each step."""
+    """Find the newest measurements that can be valid before each step."""
     graph = Graph(program.steps)
     measured = [
         [(kind, use.name) for use in step.operation.writes for kind in _MEASURED if kind == use.kind]
@@ -94,46 +96,48 @@ def _newest(program: Program) -> list[Newest]:
 
 
 class InspectedStep(Record, frozen=True, kw_only=True):
-    """A step of a plan, by its number."""
+    """A step of a plan, as shown to users."""
 
     step: int
     file: str = ""
-    """The required file that contains the line; empty: the script itself."""
+    """The required file that contains the line; empty for the script itself."""
     line: int
     text: str
-    """The statement of the step. `conditions` and `depends` cover the modifiers before it, such as `STOP`, `FORCE`
-    and `RESTORE`.
+    """The statement of the step. The modifiers before it, such as `STOP`, `FORCE` and `RESTORE`, are covered by
+    `conditions` and `depends`.
     """
     operation: str
     """Name of the operation in the plan file."""
     seconds: float | None
-    """Planned duration of the motion, s; None if the step has no motion."""
+    """Planned duration of the motion (s); None if the step has no motion."""
     guards: Guards
     """Guards that end the motion, in SI units."""
     press: Vector3 | None
-    """Force that the hand exerts, N, table coordinates."""
+    """Force (N) that the hand exerts, in table coordinates."""
     conditions: tuple[str, ...]
-    """Guards and exerted force, in the words and units of the language."""
+    """The guards and the exerted force, in the words and units of the language."""
     depends: tuple[Dependence, ...]
     error: int | None
-    """The error that the step tests for."""
+    """The error for which the step tests."""
     raised: int | None
-    """The step that follows if that error was raised; None: the end of the program, or no test."""
+    """The step that follows if that error was raised. None if that is the end of the program, or if the step does
+    not test.
+    """
     counter: str | None = None
     """The counter that the step counts down."""
     positive: int | None = None
     """The step that follows while the counter is positive."""
     next: int | None
-    """The step that follows in all other cases; None ends the program."""
+    """The step that follows in all other cases; None for the end of the program."""
 
 
 class InspectedStage(Record, frozen=True, kw_only=True):
-    """A stage of a plan, by its number from 1."""
+    """A stage of a plan, with its number from 1."""
 
     number: int
     name: str
     seconds: float
-    """Duration of the planned motions, s, each step counted once."""
+    """Duration of the planned motions (s). Each step counts once."""
     steps: tuple[InspectedStep, ...]
 
 
@@ -150,7 +154,7 @@ class Inspection(Record, frozen=True, kw_only=True):
 
 
 def inspection(plan: Plan) -> Inspection:
-    """Make the contents of a plan, as data."""
+    """Collect the contents of a plan as data."""
     depends = dependences(plan.program)
     steps = [_step(plan, number, depends[number]) for number in range(len(plan.program.steps))]
     stages = []
@@ -164,7 +168,7 @@ def inspection(plan: Plan) -> Inspection:
 
 
 def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
-    """The contents of a plan as lines of text, or of one stage, given by its number from 1."""
+    """Write the contents of a plan, or of the stage with the given number (from 1), as lines of text."""
     count = counted(sum(len(s.steps) for s in found.stages), "step")
     out = [
         f"{one_line(found.name)}, planned for the {found.arm} arm at {found.speed:g} of its speed: "
@@ -180,7 +184,7 @@ def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
 
 
 def depends_text(one: Dependence) -> str:
-    """A dependence in words."""
+    """Write a dependence in words."""
     lines = f"line{'' if len(one.lines) == 1 else 's'} {', '.join(map(str, one.lines))}"
     if one.kind == "search":
         return f"search of {lines}" if one.lines else "no search"

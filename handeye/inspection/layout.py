@@ -1,9 +1,9 @@
-"""Layout of a flow graph: positions of steps, and routes of edges, in pixels, y downwards.
+"""Lays out a flow graph: positions of steps and routes of edges, in pixels, with y downwards.
 
-Stages stand side by side in rows, called shelves; the steps of a stage run from top to bottom. A long stage has
-several columns, and no loop is split between two columns. Edges to the step below are short and straight. Edges
-that go back run left of their column, edges that skip steps run right of it, each in a separate lane; edges to
-another column run over the top.
+Stages stand side by side in rows, which are called shelves. The steps of a stage run from top to bottom. A long
+stage has several columns, but no loop is split between two columns. An edge to the step below is short and
+straight. An edge that goes back runs left of its column, and an edge that skips steps runs right of it, each in a
+separate lane. An edge to another column runs over the top.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ MIN_REST: Final = 0.35  # fraction of a column that justifies another one
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Column:
-    """Steps one below the other, with the lane of each edge, from 0 next to the steps."""
+    """Steps one below the other. Each edge has a lane; lane 0 is next to the steps."""
 
     nodes: tuple[Node, ...]
     back: dict[FlowEdge, int]  # on the left
@@ -34,12 +34,12 @@ class Column:
 
     @property
     def before(self) -> float:
-        """Width left of the steps."""
+        """Width of the lanes left of the steps, pixels."""
         return _breadth(self.back)
 
     @property
     def width(self) -> float:
-        """Width including lanes."""
+        """Width of the steps and all lanes, pixels."""
         return self.before + WIDTH + _breadth(self.skip)
 
     @property
@@ -53,12 +53,12 @@ def _breadth(lanes: dict[FlowEdge, int]) -> float:
 
 
 def height(node: Node) -> float:
-    """Height of a step's box."""
+    """Return the height of the box of a step, pixels."""
     return ROW + NOTE * len(node.notes)
 
 
 def columns(nodes: Sequence[Node], edges: Sequence[FlowEdge]) -> list[Column]:
-    """Split the steps of a stage into columns of about equal height, but no loop between two columns."""
+    """Split the steps of a stage into columns of about equal height, without splitting a loop."""
     total = sum(height(node) + GAP for node in nodes)
     goal = total / max(1, round(total / COLUMN_HEIGHT + 0.2))
     left = total
@@ -83,7 +83,7 @@ def columns(nodes: Sequence[Node], edges: Sequence[FlowEdge]) -> list[Column]:
 
 
 def _lanes(column: Sequence[Node], edges: Sequence[FlowEdge], side: str) -> dict[FlowEdge, int]:
-    """Assign lanes to the edges of a column that go back or skip steps; short edges get the inner lanes."""
+    """Assign lanes to the edges of a column that go back or skip steps. Short edges get the inner lanes."""
     place = {node.step: at for at, node in enumerate(column)}
     found = []
     for edge in edges:
@@ -113,7 +113,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StepBox:
-    """The box of a step; x, y is its upper left corner."""
+    """The box of a step; (x, y) is its upper left corner."""
 
     node: Node
     x: float
@@ -123,8 +123,8 @@ class StepBox:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Route:
-    """The polyline of an edge: down to the next step, back, past steps (skip), to another column (over), or out of
-    the drawing.
+    """The polyline of an edge. The edge leads down to the next step, back, past steps (skip), to another column
+    (over), or out of the drawing.
     """
 
     edge: FlowEdge
@@ -134,7 +134,7 @@ class Route:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Area:
-    """The area of a stage; x, y is the upper left corner."""
+    """The area of a stage; (x, y) is its upper left corner."""
 
     stage: int
     x: float
@@ -147,7 +147,7 @@ class Area:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
-    """A placed flow graph."""
+    """A flow graph with the positions of its steps and edges."""
 
     boxes: tuple[StepBox, ...]
     routes: tuple[Route, ...]
@@ -165,7 +165,7 @@ class _Shelves:
     areas: list[Area] = field(default_factory=list)
     routes: list[Route] = field(default_factory=list)
     borders: dict[int, tuple[float, float, float]] = field(default_factory=dict)
-    """Left, right and top of the shelf of each step's column."""
+    """For each step, the left and right borders of its column and the top of its shelf."""
     x: float = FRAME
     y: float = 0.0
     width: float = 0.0
@@ -224,7 +224,7 @@ def _beside(edge: FlowEdge, lane: int, side: Literal["back", "skip"], boxes: dic
 def _plain(
     edge: FlowEdge, boxes: dict[int, StepBox], borders: dict[int, tuple[float, float, float]]
 ) -> Route:
-    """The route of an edge that leads down, to another column, or out of the drawing."""
+    """Return the route of an edge that leads down, to another column, or out of the drawing."""
     one, other = boxes[edge.start], None if edge.end is None else boxes.get(edge.end)
     middle, bottom, y = one.x + WIDTH / 2, one.y + one.height, one.y + one.height * 0.62
     right = one.x + WIDTH

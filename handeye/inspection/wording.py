@@ -1,4 +1,4 @@
-"""Formats quantities of a plan in the language's units: inches, degrees, ounces, ounce-inches."""
+"""Writes quantities of a plan in the units of the language: inches, degrees, ounces, ounce-inches."""
 
 import math
 from collections.abc import Callable
@@ -14,37 +14,37 @@ from handeye.program.motion_operations import Center, Change, Close, Height, Mov
 from handeye.program.operations import AnyOperation
 
 FINGERS = {1: "finger 1", 2: "finger 2", 3: "either finger"}
-"""Names of the fingers by switch mask; finger 1 is on the hand's +y side."""
+"""Names of the fingers by switch mask. Finger 1 is on the +y side of the hand."""
 _ON_AXIS = 1e-9  # relative size of other components below which a direction lies on an axis
 
 
 def figure(value: float) -> str:
-    """A number with up to three decimals."""
+    """Write a number with up to three decimals."""
     return f"{round(value, 3) + 0.0:g}"
 
 
 def inches(metres: float) -> str:
-    """A length in inches, such as `1.5 in`."""
+    """Write a length in inches, such as `1.5 in`."""
     return f"{figure(metres / INCH)} in"
 
 
 def degrees(radians: float) -> str:
-    """An angle in degrees, such as `60 deg`."""
+    """Write an angle in degrees, such as `60 deg`."""
     return f"{figure(radians / DEGREE)} deg"
 
 
 def ounces(force: Vector3) -> str:
-    """A force in ounces with its direction, such as `30 oz along -z`."""
+    """Write a force in ounces with its direction, such as `30 oz along -z`."""
     return f"{figure(math.hypot(*force) / OUNCE_FORCE)} oz along {direction(force)}"
 
 
 def ounce_inches(moment: Vector3) -> str:
-    """A moment in ounce-inches with its axis, such as `20 oz-in about z`."""
+    """Write a moment in ounce-inches with its axis, such as `20 oz-in about z`."""
     return f"{figure(math.hypot(*moment) / OUNCE_INCH)} oz-in about {direction(moment)}"
 
 
 def direction(vector: Vector3) -> str:
-    """A direction in table coordinates, such as `-z` or `[0.6 0.8 0]`."""
+    """Write a direction in table coordinates, such as `-z` or `[0.6 0.8 0]`."""
     size = math.hypot(*vector)
     unit = [value / size for value in vector]
     for name, value in zip("xyz", unit, strict=True):
@@ -60,16 +60,16 @@ _MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
     g.Torque: lambda guard: f"at {figure(guard.torque / OUNCE_INCH)} oz-in of torque",
     g.Touch: lambda guard: f"when {FINGERS[guard.fingers]} touches",
 }
-"""The condition under which each type of guard trips, in words."""
+"""For each type of guard, the condition under which it trips, in words."""
 
 
 def stops(guards: g.Guards) -> str:
-    """The guards that end a motion, and the error raised if none of them trips, in words."""
+    """Write the guards that end a motion, and the error that is raised if none of them trips."""
     return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 
 def conditions(operation: AnyOperation) -> tuple[str, ...]:
-    """The guards of an operation and the force it exerts, in words."""
+    """Write the guards of an operation and the force that it exerts."""
     guarded = (stops(operation.guards),) if operation.guards else ()
     said = _CONDITIONS.get(type(operation))
     return guarded if said is None else (*guarded, *said(operation))
@@ -111,9 +111,9 @@ _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
     Height: lambda one: [f"is {_within(one)} above {one.name}, else error {WRONG_HEIGHT}"],
     Undo: lambda operation: [f"undoes the stage, {counted(operation.times, 'time')} at most"],
 }
-"""Further conditions of an operation, in words, by type."""
+"""For each type of operation, its further conditions, in words."""
 
 
 def _axes(axes: Vector3) -> str:
-    """The names of the chosen axes, such as `x and y`."""
+    """Write the names of the chosen axes, such as `x and y`."""
     return " and ".join(letter for letter, wanted in zip("xyz", axes, strict=True) if wanted)

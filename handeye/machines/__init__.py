@@ -1,8 +1,8 @@
-"""Finds machines by name: arms with axes, as values with their specification and the function that puts them on a
-bench.
+"""Finds machines by name. A machine is an arm with axes, as a value with its specification and the function that
+puts it on a bench.
 
-A machine is a value of type `ArmMachine`, which a system can use directly. Machines that others can find by name
-are listed here, or in `Entry.machines` of a system.
+A system can use a machine, a value of type `ArmMachine`, directly. Machines that other systems can find by name are
+listed here, or in `Entry.machines` of a system.
 """
 
 from typing import Final
@@ -16,7 +16,7 @@ _OWN: Final = {"purbrick": "handeye.machines.purbrick:PURBRICK"}
 
 
 def find_machine(name: str) -> ArmMachine:
-    """The machine with a name; raises NoSuchName if there is none."""
+    """Return the machine called `name`. Raises NoSuchName if there is none."""
     places = {key: place for entry in entries().values() for key, place in entry.machines.items()} | _OWN
     if name not in places:
         raise NoSuchName(f"there is no machine {quoted(name)}; there are {', '.join(places)}")

@@ -1,4 +1,4 @@
-"""An arm with axes and a hand, as a value: the specification in its manual, and the function that puts it on a
+"""An arm with axes and a hand, as a value: the specification in its manual, and the function that puts the arm on a
 bench.
 """
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # machines stand on a bench of the cell; their limits are rea
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandlingLimits:
-    """Limits of speed with a held object, and of force at the finger. Tuples have one number per axis."""
+    """Limits of speed while an object is held, and of force at the finger. Tuples have one number for each axis."""
 
     acceleration: tuple[float, ...]  # m/s2 and rad/s2
     guarded_speed: tuple[float, ...]  # m/s and rad/s of a guarded move
@@ -56,14 +56,14 @@ class ArmMachine:
         return (*self.axes, self.hand)
 
     def scene(self) -> mujoco.MjSpec:
-        """The scene with only the arm."""
+        """Build the scene that contains only the arm."""
         import mujoco  # here: names and limits of machines are read without a simulator
 
         return mujoco.MjSpec.from_file(str(scenes() / self.scene_file))
 
     def on_bench(self, bench: Bench, bent: Callable[[Array], Array] = np.zeros_like) -> BenchAxes:
-        """Put the arm in the scene of a bench; `bent` gives the difference between true and indicated positions of
-        the axes (not of the hand) from the potentiometer readings.
+        """Put the arm in the scene of a bench. `bent` computes, from the potentiometer readings, the difference
+        between the true and the indicated positions of the axes (not of the hand).
         """
         from handeye.cell.bench_axes import BenchAxes, sensor
 

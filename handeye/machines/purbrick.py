@@ -1,7 +1,7 @@
-"""The Purbrick arm, as its manual would specify it and as the scene contains it.
+"""The Purbrick arm, as its manual would specify it and as its scene contains it.
 
-The paper describes six axes, two of them of the platter, two fingers, and a force sensor in one finger, but gives
-no figures. All figures are chosen or measured, and marked as such in scenes/purbrick_arm/README.md.
+The paper describes six axes (two of them belong to the platter), two fingers, and a force sensor in one finger, but
+gives no dimensions. All numbers are chosen or measured, and marked as such in scenes/purbrick_arm/README.md.
 """
 
 import math

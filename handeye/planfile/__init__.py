@@ -1,1 +1,3 @@
-"""The plan, the interface between planning phase and working phase: its format on disk, and its checks."""
+"""The plan, which is the interface between the planning phase and the working phase: its file format and its
+checks.
+"""

@@ -1,6 +1,6 @@
-"""The plan: a program together with the motions of one arm. Versioned, in SI units, self-contained.
+"""The plan: a program together with the motions of one arm. It is versioned, in SI units and self-contained.
 
-The plan is the second waist of the system, through which everything passes between planning and execution.
+Everything that passes from planning to execution is in the plan.
 """
 
 from typing import Final
@@ -15,10 +15,11 @@ Joints = tuple[float, ...]  # one for each joint of the arm, rad or m
 
 
 class PlannedMotion(Record, frozen=True, kw_only=True):
-    """A planned motion: the joint positions that it passes (rad, m), and the seconds between them."""
+    """A planned motion: the joint positions that it passes (rad and m), and the seconds between them."""
 
     knots: tuple[Joints, ...]
-    """Start, lift-off, via points, set-down and goal of a Move; or start and goal of a straight motion or an arc."""
+    """Start, lift-off, via points, set-down and goal of a Move, or start and goal of a straight motion or an arc.
+    """
     times: tuple[float, ...]  # duration of each segment between knots, s
 
 
@@ -36,5 +37,5 @@ class Plan(Record, frozen=True, kw_only=True):
 
     @property
     def joint_counts(self) -> tuple[int, ...]:
-        """The numbers of joints that occur in the motions; exactly one number if the plan is valid."""
+        """The numbers of joints that occur in the motions. A valid plan has exactly one number."""
         return tuple(sorted({len(knot) for motion in self.motions.values() for knot in motion.knots}))

@@ -1,4 +1,4 @@
-"""The plan format as a JSON schema, made from the types; `plans/plan.schema.json` is its committed text."""
+"""The plan format as a JSON schema, made from the Python types. `plans/plan.schema.json` is its committed text."""
 
 import json
 from typing import Final
@@ -13,7 +13,7 @@ SCHEMA: Final = Kind("JSON schema", rb'\{\s*"\$schema":')
 
 
 def plan_schema() -> str:
-    """The schema as JSON text."""
+    """Return the schema as JSON text."""
     (whole,), components = msgspec.json.schema_components([Plan], ref_template="#/$defs/{name}")
     definition = components["Plan"]
     definition["properties"]["format"] = {"const": "handeye plan"}

@@ -1,4 +1,4 @@
-"""Checks what the types of a plan cannot express: all references must exist, and all numbers must be executable.
+"""Checks what the types of a plan cannot express: that all references exist, and that all numbers can be executed.
 
 A plan may have been truncated, edited or made by another program. A plan that passes these checks can be executed
 safely.
@@ -22,7 +22,7 @@ _SHORTEST: Final = 1e-5  # s, segment of a polynomial
 
 
 def faults(plan: Plan) -> Iterator[str]:
-    """Faults of a plan, one sentence each; none if the plan is valid."""
+    """Yield the faults of a plan, one sentence each. A valid plan has none."""
     program = plan.program
     if not program.steps:
         yield "it has no steps"
@@ -78,7 +78,7 @@ def _step(plan: Plan, number: int, step: Step) -> Iterator[str]:
 
 
 def _references(plan: Plan, step: Step) -> Iterator[str]:
-    """Faults in the steps, stages, positions, parts and pictures that a step names."""
+    """Yield faults in the references of a step to steps, stages, positions, parts and pictures."""
     program, operation = plan.program, step.operation
     count = len(program.steps)
     for target in step.ways:
@@ -93,7 +93,7 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
 
 
 def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Faults in the source places of a step and its modifiers, if the source has no such lines."""
+    """Yield faults in the places of a step and its modifiers: lines or columns that the source does not have."""
     parts: tuple[Step | SourcePlace, ...] = (step, *step.modifiers)
     for words in parts:
         there = lines.get(words.file, ())
@@ -104,7 +104,7 @@ def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
 
 
 def _use(program: Program, use: Use) -> Iterator[str]:
-    """Faults of a name that a step uses."""
+    """Yield the fault of a name that a step uses, if the program does not define the name."""
     match use.kind:
         case "position" if use.name not in program.positions:
             yield f"uses position {use.name}, which is not in the plan"
@@ -117,7 +117,7 @@ def _use(program: Program, use: Use) -> Iterator[str]:
 
 
 def _numbers(operation: AnyOperation | AnyGuard) -> Iterator[str]:
-    """Faults in the numbers of an operation or guard that cannot be executed."""
+    """Yield faults in the numbers of an operation or guard: numbers that cannot be executed."""
     for field, (low, high) in operation.bounds.items():
         value = getattr(operation, field)
         size = math.hypot(*value) if isinstance(value, tuple) else value

@@ -1,5 +1,5 @@
-"""Plans on disk: JSON with one step, position or motion per line, so that a text diff shows the effect of a change
-in the script. A plan is checked when it is read.
+"""Plans on disk: JSON with one step, position or motion in each line, so that a text diff shows how a change in the
+script changes the plan. A plan is checked when it is read.
 """
 
 from pathlib import Path
@@ -19,7 +19,7 @@ PLAN: Final = Kind("plan", rb'\{\s*"format": "handeye plan"')
 
 
 def encode(plan: Plan) -> str:
-    """The plan as canonical text."""
+    """Write a plan as canonical text."""
     data = msgspec.to_builtins(plan, str_keys=True)
     program = data.pop("program")
     motions = data.pop("motions")
@@ -56,7 +56,7 @@ def _separated(lines: list[str]) -> list[str]:
 
 
 def decode(text: str | bytes, name: str) -> Plan:
-    """The plan in a text; raises BadFile if the text is truncated, invalid, or of another format version."""
+    """Read a plan from a text. Raises BadFile if the text is truncated, invalid, or of another format version."""
     try:
         head = msgspec.json.decode(text)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -81,7 +81,7 @@ def decode(text: str | bytes, name: str) -> Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """Read a plan from a file; raises BadFile as `decode` does, or if the file cannot be read."""
+    """Read a plan from a file. Raises BadFile as `decode` does, or if the file cannot be read."""
     entry, _ = entry_of_file(path.name)
     if entry is not None:
         raise refusal(entry.name, "plans", str(path))
@@ -92,17 +92,17 @@ def read_plan(path: Path) -> Plan:
 
 
 def write_plan(path: Path, plan: Plan) -> None:
-    """Write a plan completely or not at all; it replaces only a plan. Raises InvalidInput if the file cannot be
-    written.
+    """Write a plan completely or not at all. Only a file that is a plan is replaced. Raises InvalidInput if the
+    file cannot be written.
     """
     write_over(path, encode(plan).encode(), PLAN)
 
 
 def plan_digest(plan: Plan) -> str:
-    """Sixteen hexadecimal digits that identify a plan by its inputs: texts, taught positions, arm, task and
+    """Compute sixteen hexadecimal digits that identify a plan by its inputs: texts, taught positions, arm, task and
     planner.
 
-    The digits are the same on every processor. `alike` tells whether the computed numbers agree as well.
+    The digits are the same on every processor. To compare the computed numbers as well, use `alike`.
     """
     program = plan.program
     here = program.written("position")  # planned, or taught and then moved
@@ -117,7 +117,7 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """A value made of dictionaries and lists, without its fractions, because they may be computed."""
+    """Remove all fractions from a value made of dictionaries and lists, because they may have been computed."""
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
@@ -126,21 +126,23 @@ def _without_fractions(value: Any) -> Any:
 
 
 def alike(one: Plan, other: Plan) -> bool:
-    """True if two plans agree, apart from the last digits of computed numbers."""
+    """Return True if two plans are equal apart from the last digits of computed numbers."""
     return one is other or closeness.alike(
         *(msgspec.to_builtins(plan, str_keys=True) for plan in (one, other))
     )
 
 
 def written_digest(data: bytes) -> str:
-    """The digest of a plan file's bytes, which covers all digits of its numbers."""
+    """Compute the digest of the bytes of a plan file. It covers all digits of the numbers in the file."""
     import hashlib
 
     return hashlib.sha256(data).hexdigest()[:16]
 
 
 def is_plan_of(begun: RunStarted, data: bytes) -> bool:
-    """True if a run executed the plan in `data`: if the run recorded the digest of the bytes, exactly these bytes."""
+    """Return True if a run executed the plan in `data`. If the run recorded the digest of the file, the bytes must
+    be exactly the same.
+    """
     digest = written_digest(data)
     if begun.content:
         return digest == begun.content
@@ -148,7 +150,7 @@ def is_plan_of(begun: RunStarted, data: bytes) -> bool:
 
 
 def _digest_of_plan(data: bytes) -> str | None:
-    """`plan_digest` of the plan in `data`; None if `data` is no plan of motions."""
+    """Return the `plan_digest` of the plan in `data`, or None if `data` is no plan of motions."""
     try:
         return plan_digest(decode(data, "it"))
     except BadFile:

@@ -1,4 +1,4 @@
-"""The state of the hand as far as the program determines it: gap, and held object."""
+"""The gap of the hand and the object in it, as far as the program determines them."""
 
 from dataclasses import dataclass, field
 
@@ -11,7 +11,7 @@ from handeye.program.program import Program, Step
 
 @dataclass(slots=True)
 class GraspState:
-    """The hand after a sequence of steps; at first closed and empty."""
+    """The state of the hand after a sequence of steps. At first the hand is closed and empty."""
 
     program: Program
     hand: HandModel
@@ -41,24 +41,26 @@ class GraspState:
 
     @property
     def fingers(self) -> tuple[Box, ...]:
-        """The hand as boxes in T."""
+        """Boxes of the hand, in the tool frame T."""
         return self.hand.boxes(self.gap)
 
     @property
     def load(self) -> tuple[Box, ...]:
-        """The held object, as boxes in T."""
+        """Boxes of the held object, in the tool frame T; empty if the hand is empty."""
         return () if self.held is None else self.program.held[self.held].boxes
 
 
 class FirstGrasp(Record, frozen=True, kw_only=True):
-    """A grasp at a position, and the gap (m) before it."""
+    """A grasp at a position, and the gap (m) of the fingers before the grasp."""
 
     position: str
     gap: float
 
 
 def first_grasp(program: Program, hand: HandModel, after: int, part: str) -> FirstGrasp | None:
-    """The first grasp, after a given step in text order, at a position of a part; None if there is none."""
+    """Find the first grasp at a position of a part that comes after step `after` in text order. Returns None if
+    there is none.
+    """
     state = GraspState(program, hand)
     for number, step in enumerate(program.steps):
         gap, grasped = state.gap, state.closed_at is not None

@@ -1,4 +1,4 @@
-"""Checks each planned motion for collisions and for the strength of the arm."""
+"""Checks each planned motion for collisions, and checks that the arm is strong enough for it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -31,7 +31,7 @@ class FindingList:
     _reported: set[tuple[str, str]] = field(default_factory=set)
 
     def add(self, finding: PlanFinding) -> None:
-        """Add a finding, unless there is one with the same code and position."""
+        """Add a finding, unless the list has one with the same code and position."""
         if finding.position is not None:
             if (finding.code, finding.position) in self._reported:
                 return
@@ -40,15 +40,15 @@ class FindingList:
 
     @property
     def is_fatal(self) -> bool:
-        """True if a finding is an error, so that there is no plan."""
+        """True if a finding is an error, so that the program gets no plan."""
         return any(CODES[finding.code].severity == "error" for finding in self.findings)
 
 
 OVERLAP: Final = 0.1 * INCH
-"""Tolerated overlap of boxes, m.
+"""Tolerated overlap of boxes (m).
 
-The pump's free motions deviate that much from a straight descent: the return of the screwdriver is planned .02 in
-into its rack.
+Free motions for the pump deviate from a straight descent by that much: the return of the screwdriver is planned .02
+in into its rack.
 """
 
 SAME: Final = 1e-6  # depths closer than this are equal, m: of equal ones the first counts, on every processor
@@ -56,7 +56,7 @@ SAME: Final = 1e-6  # depths closer than this are equal, m: of equal ones the fi
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Crossing:
-    """The deepest collision on a motion."""
+    """The deepest collision during a motion."""
 
     what: str | None  # fixture; None: the table
     depth: float  # m
@@ -65,7 +65,7 @@ class Crossing:
 
 
 class Obstacles:
-    """The fixtures of a program, one box at a time."""
+    """The fixtures of a program, split into their boxes."""
 
     def __init__(self, program: Program) -> None:
         fixtures = [
@@ -77,8 +77,8 @@ class Obstacles:
         self._X_FW = np.array(frames).reshape(-1, 4, 4)
 
     def crossing(self, X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
-        """The deepest collision of boxes in T with a fixture, over hand poses of shape (N, 4, 4); None if there is
-        none.
+        """Find the deepest collision of boxes, given in frame T, with a fixture, over hand poses of shape (N, 4,
+        4). Returns None if there is no collision.
         """
         if not self._boxes or not boxes:
             return None
@@ -87,8 +87,8 @@ class Obstacles:
 
 
 def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
-    """The deepest collision of boxes in T with the table, over hand poses of shape (N, 4, 4); None if there is
-    none.
+    """Find the deepest collision of boxes, given in frame T, with the table, over hand poses of shape (N, 4, 4).
+    Returns None if there is no collision.
     """
     if not boxes:
         return None
@@ -97,7 +97,9 @@ def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing 
 
 
 def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -> Crossing | None:
-    """The deepest of depths, shape (N, k), except collisions in which the motion begins."""
+    """Find the deepest of collision depths, shape (N, k). Collisions that exist when the motion begins do not
+    count.
+    """
     outside = np.logical_or.accumulate(deep <= OVERLAP / 2, axis=0)
     outside[-1] |= goal
     entered = np.where(outside & (deep > OVERLAP), deep, 0.0)
@@ -113,7 +115,7 @@ def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weakness:
-    """The joint, from 0, that limits a force or moment to `most` (N, N m)."""
+    """The joint (from 0) that limits a force or moment of the hand to `most` (N or N m)."""
 
     joint: int
     most: float
@@ -122,9 +124,10 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """The joint that keeps the hand from exerting a force (N, W) at any of the configurations (N, n), or None.
+    """Find the joint that keeps the hand from exerting a force (N, in W) at one of the configurations, shape (N,
+    n). Returns None if there is none.
 
-    With `turning`, `wanted` is a moment (N m); `weight` (N) is a load in the hand.
+    If `turning` is True, `wanted` is a moment (N m). `weight` (N) is the weight of a load in the hand.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:
@@ -143,20 +146,20 @@ LOAD_STRIDE: Final = 8  # of the configurations of a motion, every eighth is che
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """A force or moment that a motion must be able to exert; `guard`: a guard waits for it."""
+    """A force or moment that a motion must be able to exert. `guard` is True if a guard waits for it."""
 
     exerted: HandLoad
     guard: bool
 
 
 def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
-    """The demands of the guards of a motion `along` a vector."""
+    """Return the forces and moments that the guards of a motion along the vector `along` wait for."""
     waited = (guard.exerted(along) for guard in guards)
     return [Demand(exerted, guard=True) for exerted in waited if exerted is not None]
 
 
 def to_press(operation: Change) -> list[Demand]:
-    """The demands of a straight motion that presses or turns."""
+    """Return the forces and moments that a straight motion exerts when it presses or turns."""
     both = ((operation.press, False), (operation.moment, True))
     exerted = (HandLoad(wanted, turning) for wanted, turning in both if wanted is not None)
     return [Demand(one, guard=False) for one in exerted]
@@ -178,9 +181,7 @@ class Checks:
         self._obstacles = Obstacles(self.program)
 
     def forget(self) -> None:
-        """Forget the state of the hand, at a step reached by a jump, because the hand may hold another object
-        there.
-        """
+        """Forget the state of the hand. At a step reached by a jump, the hand may hold another object."""
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:
@@ -191,7 +192,7 @@ class Checks:
                 self._load = (weight, number) if weight > 0 else None
 
     def clear(self, number: int, step: Step, q: Array) -> None:
-        """Check that hand and load are clear of obstacles at configurations `q`, shape (N, n)."""
+        """Check that the hand and its load are clear of obstacles at configurations `q`, shape (N, n)."""
         X_WT, grip, goal = forward(self.arm, q), self._grip, step.operation.goal_position
         for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
             judged = held is None and goal is not None
@@ -208,8 +209,8 @@ class Checks:
                 return  # the worst of a motion is enough
 
     def strong(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that the arm can carry its load at configurations `q`, and exert the demands at both ends of the
-        motion.
+        """Check that the arm can carry its load at configurations `q`, shape (N, n), and can exert the demands at
+        both ends of the motion.
         """
         weight = 0.0
         if self._load is not None:
@@ -232,7 +233,7 @@ class Checks:
                 return
 
     def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that guards can be distinguished from the expected friction at the start, `q`."""
+        """Check that guards can be distinguished from the expected friction at the start `q` of a motion."""
         expected = np.array(self.arm.compliance.friction)
         for demand in demands:
             most = faint(self.arm, q, expected, demand.exerted) if demand.guard else None

@@ -1,4 +1,4 @@
-"""Motions of each kind, used by the planner with planned poses and by the executor with measured ones."""
+"""Motions of each kind. The planner makes them with planned poses, and the executor with measured poses."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,17 +17,19 @@ from handeye.core.units import DEGREE, INCH
 from handeye.program.motion_operations import Change, Move, Turn
 
 CLEARANCE: Final = 3.0 * INCH
-"""Height of departure and approach points, m; "a few inches" in 1972, three by recollection (reference D10)."""
+"""Height (m) of departure and approach points. "A few inches" in 1972; three inches by recollection (reference
+D10).
+"""
 LEAST_CLEARANCE: Final = 0.5 * INCH  # minimum, for near places: a motion rises no higher than it goes far
 GUARDED_SPEED: Final = 1.0 * INCH
-"""Speed of a straight motion that makes contact, m/s; at 1 in/s, a stop at 50 oz overshoots by a few newtons."""
+"""Speed (m/s) of a straight motion that makes contact. At 1 in/s, a stop at 50 oz overshoots by a few newtons."""
 FREE_SPEED: Final = 2.0 * INCH  # m/s of a straight motion in free air
 TURN_SPEED: Final = 30 * DEGREE  # rad/s on a circle
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unreachable:
-    """A position that a Move cannot reach, and the reason."""
+    """A position that a Move cannot reach, and the reason why."""
 
     name: str
     why: IKResult
@@ -36,7 +38,9 @@ class Unreachable:
 def move_trajectory(
     arm: ArmModel, q: Array, via: Sequence[Pose], X_WT: Pose, operation: Move, speed: float
 ) -> Trajectory | Unreachable:
-    """The trajectory of a Move from `q` through hand poses `via` to `X_WT`, or the reason why there is none."""
+    """Compute the trajectory of a Move from `q` through hand poses `via` to `X_WT`. Returns the reason if there is
+    none.
+    """
     passed: list[Array] = []
     for name, X_via in zip(operation.via, via, strict=True):
         result = solve(arm, X_via, passed[-1] if passed else q)
@@ -53,22 +57,24 @@ def move_trajectory(
 
 
 def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:
-    """Set-points of a Change from `q`, or the reason why there are none."""
+    """Compute the set-points of a Change from `q`. Returns the reason if the motion is impossible."""
     return straight(arm, q, np.array(operation.displacement), change_speed(operation))
 
 
 def change_speed(operation: Change) -> float:
-    """Speed of a Change, m/s."""
+    """Return the speed of a Change, m/s."""
     return operation.speed or (GUARDED_SPEED if operation.meets else FREE_SPEED)
 
 
 def turn_samples(arm: ArmModel, q: Array, centre: Pose, operation: Turn) -> Samples | IKResult:
-    """Set-points of a Turn about the vertical through `centre`, or the reason why there are none."""
+    """Compute the set-points of a Turn about the vertical through `centre`. Returns the reason if the motion is
+    impossible.
+    """
     return arc(arm, q, centre[:2, 3], operation.angle, TURN_SPEED)
 
 
 def directions(samples: Samples, arm: ArmModel, q: Array) -> Array:
-    """Unit vectors in the direction of a motion, at each of its set-points, shape (N, 3)."""
+    """Return unit vectors in the direction of a motion at each of its set-points, shape (N, 3)."""
     p = np.concatenate([forward(arm, q)[None, :3, 3], forward(arm, samples.q)[:, :3, 3]])
     step = np.diff(p, axis=0)
     size = np.linalg.norm(step, axis=1, keepdims=True)

@@ -1,7 +1,7 @@
-"""Plans a program for an arm, without clock, random numbers or simulator.
+"""Plans a program for an arm. It uses no clock, random numbers or simulator.
 
-The planner goes through the program in text order; each motion begins where the previous motion was planned to end.
-Goals out of reach, loads too heavy and collisions are found here, before the program runs.
+The planner goes through the program in text order. Each motion begins where the previous motion was planned to end.
+Goals that are out of reach, loads that are too heavy and collisions are found here, before the program runs.
 """
 
 from collections.abc import Callable, Sequence
@@ -32,10 +32,10 @@ from handeye.program.taught import Taught
 from handeye.program.world_model import WorldModel
 
 SPEED = 0.40
-"""Speed of free motions as a fraction of the arm's rate limits; accelerations are scaled by its square.
+"""Speed of free motions as a fraction of the rate limits of the arm. Accelerations are scaled by its square.
 
-Fitted: with the assumed acceleration limits, the whole job takes about the four minutes of 1973 (layout study,
-section 5). A single figure is no evidence of the real arm's speed.
+Fitted: with the assumed acceleration limits, the whole job takes about four minutes, as in 1973 (layout study,
+section 5). One fitted number is no evidence of the speed of the real arm.
 """
 HOME = "PARK"  # the position a program starts from
 _COLLISION_STRIDE = 2  # servo periods between checks of a free motion: under .6 in at the pump's speeds
@@ -44,10 +44,10 @@ _COLLISION_STRIDE = 2  # servo periods between checks of a free motion: under .6
 def make_plan(
     program: Program, arm: ArmModel, *, task: str, speed: float = SPEED, start: Array | None = None
 ) -> tuple[Plan | None, list[PlanFinding]]:
-    """The plan of a program for an arm, None if there are errors, and the findings.
+    """Plan a program for an arm. Returns the plan, or None if there are errors, and the findings.
 
-    A position that is only defined by a `HERE` has the pose planned for it. The arm begins at `start`, shape (n,),
-    rad and m; by default at the position `HOME`, or without one at the first goal.
+    A position that only a `HERE` defines has the pose that is planned for it. The arm begins at `start`, shape
+    (n,), rad and m. By default it begins at the position `HOME`, or if there is none, at the first goal.
     """
     findings = FindingList()
     walk = _Walk(
@@ -75,7 +75,9 @@ class _Walk:
     checks: Checks
     q: Array = field(init=False)
     known: bool = True
-    """False after a jump, and after a motion that is impossible: `q` is then not the arm's configuration."""
+    """False after a jump and after an impossible motion. The configuration of the arm is then unknown, and `q` is
+    only a guess.
+    """
     motions: dict[int, PlannedMotion] = field(default_factory=dict)
 
     def go(self, start: Array | None) -> None:
@@ -112,7 +114,7 @@ class _Walk:
         self.world.state.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
 
     def _start(self) -> None:
-        """Begin at the position `HOME`, or without one at the first goal of the program."""
+        """Begin at the position `HOME`, or if there is none, at the first goal of the program."""
         known = self.program.positions
         led_to = (step.operation.goal_position for step in self.program.steps)
         goals = [goal for goal in led_to if goal in known]
@@ -156,7 +158,7 @@ class _Walk:
     def _sampled(
         self, number: int, step: Step, samples: Samples | IKResult, guarded: bool, demands: Sequence[Demand]
     ) -> None:
-        """Add a motion that is given by all its set-points; a guarded motion should make contact."""
+        """Add a motion that is given by all its set-points. `guarded` is True if the motion should make contact."""
         if isinstance(samples, IKResult):
             if self.known:
                 self._no_configuration(number, None, samples)
@@ -195,7 +197,7 @@ def _joints(q: Array) -> Joints:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedScript:
-    """The plan of a script, and its diagnostics."""
+    """The plan of a script, or None, and the diagnostics."""
 
     source: Source
     plan: Plan | None
@@ -211,7 +213,7 @@ def plan_source(
     task: str,
     start: Array | None = None,
 ) -> PlannedScript:
-    """Compile and plan a script; `task` and `start` are as for `make_plan`."""
+    """Compile and plan a script. For `task` and `start` see `make_plan`."""
     program, diagnostics = language.compile(source, taught)
     if program is None:
         return PlannedScript(source=source, plan=None, diagnostics=diagnostics)
@@ -222,6 +224,8 @@ def plan_source(
 def plan_program(
     program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """The plan of a program, with diagnostics in the words of its language; `task` is stored in the plan only."""
+    """Plan a program. Returns the plan, or None if there are errors, and diagnostics in the words of its language.
+    `task` is only stored in the plan.
+    """
     plan, findings = make_plan(program, arm, task=task, start=start)
     return plan, language.phrase(program, arm, findings)

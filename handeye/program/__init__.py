@@ -1,1 +1,1 @@
-"""The checked program, independent of language and arm, and the program's model of the cell."""
+"""The checked program, which depends on no language and no arm, and its model of the cell."""

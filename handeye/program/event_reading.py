@@ -1,4 +1,4 @@
-"""Reads events: the kinds that all systems have, and those that the system of the run adds."""
+"""Reads events: the kinds of events that all systems have, and those that the system of the run adds."""
 
 from functools import cache, reduce
 from operator import or_
@@ -16,15 +16,15 @@ _COMMON: Final = {kind.__name__ for kind in get_args(CommonEvent)}
 
 
 def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
-    """Kinds of events that a system adds; none if the system is unknown here."""
+    """Return the kinds of events that a system adds, or none if the system is unknown here."""
     entry = entries().get(system)
     return _at(entry.events) if entry is not None and entry.events else ()
 
 
 @cache
 def _at(place: str) -> tuple[type[SystemEvent], ...]:
-    """The kinds of events at `module:NAME`; raises InvalidInput if they cannot be loaded, or cannot be written as
-    JSON and read back.
+    """Load the kinds of events at `module:NAME`. Raises InvalidInput if they cannot be loaded, or cannot be written
+    as JSON and read back.
     """
     own: tuple[type[SystemEvent], ...] = loaded(place)
     try:
@@ -40,7 +40,7 @@ def _at(place: str) -> tuple[type[SystemEvent], ...]:
 
 
 def event_type(system: str) -> Any:
-    """The msgspec type of all events of a system."""
+    """Return the msgspec type of all events of a system."""
     return _union(own_kinds(system))
 
 
@@ -55,13 +55,13 @@ def _decoder(own: tuple[type[SystemEvent], ...] = ()) -> msgspec.json.Decoder[An
 
 
 class EventReader:
-    """Reads the events of one run in order; the system in `RunStarted` determines which kinds of events can follow."""
+    """Reads the events of one run in order. The system in `RunStarted` determines which kinds of events can follow."""
 
     def __init__(self, system: str = "") -> None:
         self.system = system
 
     def read(self, data: bytes) -> AnyEvent:
-        """The event in one line of JSON; raises msgspec.DecodeError if the line is no event of a known kind."""
+        """Read the event in one line of JSON. Raises msgspec.DecodeError if the line is no event of a known kind."""
         try:
             event = self._decoded(data)
         except UnicodeDecodeError as error:
@@ -84,7 +84,9 @@ class EventReader:
 
 
 def read_packed(data: msgspec.Raw, system: str) -> tuple[AnyEvent, ...]:
-    """Events of a system's run in MessagePack; raises ValueError if the data are invalid or of an unknown kind."""
+    """Read events of a system's run from MessagePack. Raises ValueError if the data are invalid or of an unknown
+    kind.
+    """
     kind: Any = tuple.__class_getitem__((event_type(system), ...))
     try:
         events: tuple[AnyEvent, ...] = decoded(data, kind)
@@ -95,7 +97,7 @@ def read_packed(data: msgspec.Raw, system: str) -> tuple[AnyEvent, ...]:
 
 
 def _refuse_unknown(plain: list[Any], system: str) -> None:
-    """Raise msgspec.ValidationError, with a sentence, if an event is of an unknown kind."""
+    """Raise msgspec.ValidationError, with a clear sentence, if an event is of an unknown kind."""
     known = _COMMON | {kind.__name__ for kind in own_kinds(system)}
     for event in plain:
         kind = event.get("event") if isinstance(event, dict) else None

@@ -1,5 +1,5 @@
-"""Events of a run, as plain records. They contain simulated time only, so that two runs with one seed give the same
-bytes.
+"""Events of a run, as plain records. The only time in them is simulated time, so that two runs with the same seed
+give the same bytes.
 """
 
 from typing import ClassVar, Literal
@@ -22,24 +22,24 @@ Choice = Literal["proceed", "retry", "skip"]  # continue after a stop, retry the
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
-    """Base of all events; `time` is the clock of the run, s, which is 0 when the program begins."""
+    """Base of all events. `time` is the clock of the run (s), which is 0 when the program begins."""
 
     time: float
 
 
 class SystemEvent(Event, frozen=True, kw_only=True):
-    """Base of the events that one system adds to those of all systems; `System.events` lists them."""
+    """Base of the events that a system adds to the events of all systems. `System.events` lists them."""
 
     importance: ClassVar[Importance] = "info"
 
     def sentence(self, measures: Measures) -> str:
-        """The event as a sentence, without the time, in the units of the system's task."""
+        """Write the event as a sentence, without the time, in the units of the system's task."""
         raise NotImplementedError
 
 
 class RunStarted(Event, frozen=True, kw_only=True):
-    """The working phase begins, at time 0. The event has everything that determines the later events, except the
-    operator's actions.
+    """The working phase begins, at time 0. The event contains everything that determines the later events, except
+    the actions of the operator.
     """
 
     system: str = "program"  # the kind of system that carries it out
@@ -62,20 +62,20 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def made_alike(self) -> "RunStarted":
-        """The event without processor, versions and platform of the renderer, to compare runs made on different
-        computers.
+        """The event without the processor, the versions and the platform of the renderer, to compare runs made on
+        different computers.
         """
         camera = msgspec.structs.replace(self.camera, platform="")
         return msgspec.structs.replace(self, versions={}, processor=UNSET, camera=camera)
 
     @property
     def lacking(self) -> tuple[str, ...]:
-        """Senses that were switched off in the program; empty if none was."""
+        """Senses that were switched off in the program; empty if all were on."""
         return self.without or ()
 
     @property
     def own_parts(self) -> dict[str, str]:
-        """Replaced parts; empty if all parts are handeye's own."""
+        """The parts of handeye that the caller replaced, by name; empty if none was replaced."""
         return self.replaced or {}
 
 
@@ -93,7 +93,7 @@ class StageFinished(Event, frozen=True, kw_only=True):
 
 
 class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
-    """A step begins; `line` and `text` are from the script, or from a required file."""
+    """A step begins. `line` and `text` are from the script, or from a required file."""
 
     step: int
     file: str = ""
@@ -107,12 +107,14 @@ class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class StepFinished(Event, frozen=True, kw_only=True):
-    """A step ended; `hand` is the position of the hand by the arm's own sensors (m), and `gap` the finger gap (m)."""
+    """A step ended. `hand` is the position of the hand (m), measured by the sensors of the arm, and `gap` is the
+    finger gap (m).
+    """
 
     step: int
     hand: tuple[float, float, float] | None  # None: the system has no hand
     planned: tuple[float, float, float] | None
-    """Planned end of a motion (m); a guard or a measured pose may end the motion elsewhere."""
+    """Planned end of a motion (m). A guard or a measured pose may end the motion at another place."""
     gap: float | None
 
 
@@ -131,8 +133,8 @@ class JointFriction(Record, frozen=True, kw_only=True):
 
 
 class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm measured the friction of its joints and weighed its links before the working phase; `seconds` are
-    simulated.
+    """The arm measured the friction of its joints and weighed its links before the working phase. `seconds` is
+    simulated time.
     """
 
     joints: tuple[JointFriction, ...]
@@ -141,7 +143,7 @@ class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class GuardFaint(Event, frozen=True, kw_only=True):
-    """The limit of a guard is below the force or moment, `friction` (N, N m), that may be sensed in free air where
+    """The limit of a guard is below `friction` (N or N m), the force or moment that may be sensed in free air where
     the motion begins.
     """
 
@@ -166,35 +168,37 @@ class ErrorRaised(Event, frozen=True, kw_only=True):
 
 
 class ErrorTested(Event, frozen=True, kw_only=True):
-    """The program tested for an error; `occurred` is True if the error had been raised."""
+    """The program tested for an error. `occurred` is True if the error had been raised."""
 
     number: int
     occurred: bool
 
 
 class SearchAdvanced(Event, frozen=True, kw_only=True):
-    """The search went on to its place number `count`; 0 is the first place."""
+    """The search went on to place number `count`; the first place is number 0."""
 
     count: int
     offset: tuple[float, float]
 
 
 class Saved(Event, frozen=True, kw_only=True):
-    """A difference was saved (m)."""
+    """A difference (m) was saved."""
 
     name: str
     difference: tuple[float, float, float]
 
 
 class HandTold(Event, frozen=True, kw_only=True):
-    """WHERE reported the hand: x, y, z (m) and the angles O, A, T (rad), by the arm's own sensors."""
+    """WHERE reported the pose of the hand: x, y, z (m) and the angles O, A, T (rad), measured by the sensors of the
+    arm.
+    """
 
     at: tuple[float, float, float, float, float, float]
 
 
 class PositionDefined(Event, frozen=True, kw_only=True):
-    """HERE defined a position as x, y, z (m), O, A, T (rad), by the arm's own sensors; relative to the part `of`,
-    if there is one.
+    """HERE defined a position: x, y, z (m) and the angles O, A, T (rad), measured by the sensors of the arm. The
+    position is relative to the part `of`, if one is given.
     """
 
     name: str
@@ -203,7 +207,7 @@ class PositionDefined(Event, frozen=True, kw_only=True):
 
 
 class Restored(Event, frozen=True, kw_only=True):
-    """A saved difference was added to a goal (m)."""
+    """A saved difference (m) was added to a goal."""
 
     name: str
     goal: str
@@ -211,14 +215,14 @@ class Restored(Event, frozen=True, kw_only=True):
 
 
 class PictureTaken(Event, frozen=True, kw_only=True):
-    """A picture was taken through a lens; `lens` is its focal length (m)."""
+    """A picture was taken through a lens. `lens` is its focal length (m)."""
 
     picture: str
     lens: float
 
 
 class PartSeen(Event, frozen=True, kw_only=True):
-    """Vision measured a part: x, y (m) and yaw (rad); a general look gives no yaw."""
+    """Vision measured the place of a part: x, y (m) and yaw (rad). General location gives no yaw."""
 
     part: str
     x: float
@@ -235,8 +239,8 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
-    """Vision compared the place of a part in two pictures: displacement `off` (m), and the fraction `unlike` that
-    looks different.
+    """Vision compared the place of a part in two pictures. The part is displaced by `off` (m), and a fraction
+    `unlike` of it looks different.
     """
 
     part: str
@@ -246,9 +250,9 @@ class PartMatched(Event, frozen=True, kw_only=True):
 
 
 class CameraStarted(Event, frozen=True, kw_only=True):
-    """The camera's mechanism was given an action, `lens`, `aim` or `focus`, that takes `seconds` (s).
+    """The mechanism of the camera was given an action, `lens`, `aim` or `focus`, that takes `seconds` (s).
 
-    The action begins when the mechanism's present movement ends; the arm continues meanwhile.
+    The action begins when the present movement of the mechanism ends. The arm continues in the meantime.
     """
 
     action: str
@@ -256,7 +260,7 @@ class CameraStarted(Event, frozen=True, kw_only=True):
 
 
 class CameraBusy(Event, frozen=True, kw_only=True):
-    """The arm stood still for the camera for `seconds` (s): to `wait` for its mechanism, or to `digitise` a
+    """The arm stood still for the camera for `seconds` (s), either to `wait` for its mechanism or to `digitise` a
     picture.
     """
 
@@ -265,7 +269,7 @@ class CameraBusy(Event, frozen=True, kw_only=True):
 
 
 class OperatorCalled(Event, frozen=True, kw_only=True):
-    """The brakes were set and the operator was called, with the program's own message, an error or a cause."""
+    """The brakes were set and the operator was called, with a message of the program, an error or a cause."""
 
     message: str = ""  # the program's own words
     error: int | None = None
@@ -273,15 +277,17 @@ class OperatorCalled(Event, frozen=True, kw_only=True):
 
 
 class OperatorAnswered(Event, frozen=True, kw_only=True):
-    """The operator's choice after a stop, and the step with which the program continues (None: the program ends)."""
+    """The operator chose how to continue after a stop. The program continues with step `step`, or ends if `step` is
+    None.
+    """
 
     choice: Choice
     step: int | None
 
 
 class ExperimentMade(Event, frozen=True, kw_only=True):
-    """A person at the stepper changed the program's memory (m, rad), so that the run no longer follows from the
-    plan alone.
+    """A person at the stepper changed the memory of the program (values in m and rad). The run then no longer
+    follows from the plan alone.
     """
 
     what: str  # `saved`, `position`, or another that the system has
@@ -290,8 +296,8 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
 
 
 class LineTyped(Event, frozen=True, kw_only=True):
-    """A person typed a line at the console of a system, for one of its tasks, so that the run no longer follows
-    from the program alone.
+    """A person typed a line at the console of a system, for one of its tasks. The run then no longer follows from
+    the program alone.
     """
 
     text: str
@@ -299,7 +305,7 @@ class LineTyped(Event, frozen=True, kw_only=True):
 
 
 class PanicStopped(Event, frozen=True, kw_only=True):
-    """The operator pressed the panic button: drives off and brakes set in this servo period."""
+    """The operator pressed the panic button. In this servo period the drives are off and the brakes set."""
 
 
 class WentBack(Event, frozen=True, kw_only=True):
@@ -312,7 +318,7 @@ class WentBack(Event, frozen=True, kw_only=True):
 
 
 class UndoOrdered(Event, frozen=True, kw_only=True):
-    """A reversal was ordered: the arm undoes executed steps until `left` remain."""
+    """A reversal was ordered: the arm undoes executed steps until `left` steps remain."""
 
     left: int
     halts: bool  # the run ends there; else the program can continue
@@ -320,25 +326,25 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm begins to undo a step, or all rounds of a loop that led back to the step."""
+    """The arm begins to undo a step, or all the rounds of a loop that led back to the step."""
 
     steps: int = 1  # executed steps that are undone at once
 
 
 class UndoFinished(StepFinished, frozen=True, kw_only=True):
-    """A step has been undone; `force` (N) is the greatest force sensed meanwhile."""
+    """A step has been undone. `force` (N) is the greatest force that was sensed in the meantime."""
 
     force: float  # greatest force on the hand meanwhile, N
 
 
 class StageUndone(Event, frozen=True, kw_only=True):
-    """Everything done in a stage since it last began has been undone."""
+    """All steps of a stage since its last beginning have been undone."""
 
     stage: str
 
 
 class UndoEnded(Event, frozen=True, kw_only=True):
-    """The reversal is complete; the program would continue with `step`."""
+    """The reversal is complete. The program would continue with step `step`."""
 
     step: int
 
@@ -364,8 +370,8 @@ _encoder = msgspec.json.Encoder()
 
 
 def to_line(event: Event) -> bytes:
-    """The event as one line of JSON; raises BadArgument for NaN, which JSON writes as null and which could not be
-    read back.
+    """Write an event as one line of JSON. Raises BadArgument for NaN, which JSON would write as null, so that it
+    could not be read back.
     """
     try:
         line = _encoder.encode(event)

@@ -1,4 +1,4 @@
-"""Operations on searches, errors, counters and memory, and on load, tool and operator."""
+"""Operations that do not move the arm: searches, errors, counters and memory, load, tool and operator."""
 
 from typing import ClassVar, Self
 
@@ -9,9 +9,9 @@ from handeye.program.operation import Branch, Operation, action
 
 
 class Search(Operation, frozen=True, kw_only=True):
-    """Start a search with step `step` (m) and at most `limit` places; the first place is the present one.
+    """Start a search with steps of `step` (m) and at most `limit` places. The present place is the first.
 
-    The places lie on a square spiral or, if `along` (rad from table x) is given, on a line in that direction.
+    The places lie on a square spiral. If `along` (rad from table x) is given, they lie on a line in that direction.
     """
 
     family: ClassVar = "search"
@@ -24,7 +24,7 @@ class Search(Operation, frozen=True, kw_only=True):
 
 
 class Advance(Operation, frozen=True, kw_only=True):
-    """Go to the next place of the search (AOJ); error 6 if there is none."""
+    """Go to the next place of the search (AOJ). Raises error 6 if there is none."""
 
     family: ClassVar = "search"
     raising: ClassVar = action(errors.SEARCH_EXHAUSTED)
@@ -32,8 +32,8 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 
 class Test(Operation, frozen=True, kw_only=True):
-    """Test for error `number` of the last action, and clear it; if it was raised, the next step is `raised` (None:
-    the end).
+    """Test for error `number` of the last action, and clear the error. If it was raised, the next step is `raised`;
+    None ends the program.
     """
 
     __test__ = False
@@ -62,7 +62,9 @@ class Assign(Operation, frozen=True, kw_only=True):
 
 
 class Countdown(Operation, frozen=True, kw_only=True):
-    """Decrement a counter (SOJG); while it is positive, the next step is `positive` (None: the end)."""
+    """Decrement a counter (SOJG). While the counter is positive, the next step is `positive`; None ends the
+    program.
+    """
 
     branches: ClassVar = True
     reading: ClassVar = {"counter": ("counter",)}
@@ -80,15 +82,15 @@ class Countdown(Operation, frozen=True, kw_only=True):
 
 
 class Jump(Operation, frozen=True, kw_only=True):
-    """Continue at the step given by `next`."""
+    """Continue at the step `next`."""
 
 
 class Save(Operation, frozen=True, kw_only=True):
-    """Save the difference between the actual position and the goal of the last Move; after Center only its part
-    along the finger line.
+    """Save the difference between the actual position of the hand and the goal of the last Move. After a Center,
+    save only the part of it along the finger line.
 
-    If the goal already contains a Restore of the same name, the restored shift is part of the new difference, so
-    that repeated saves under one name follow a moving reference.
+    If the goal already contains a Restore of the same name, the restored shift is part of the new difference.
+    Repeated saves under one name therefore follow a moving reference.
     """
 
     family: ClassVar = "search"
@@ -99,7 +101,9 @@ class Save(Operation, frozen=True, kw_only=True):
 
 
 class Here(Operation, frozen=True, kw_only=True):
-    """Define a position as the present hand pose, relative to the position's part if it has one."""
+    """Define a position as the present hand pose. If the position belongs to a part, the pose is stored relative to
+    the part.
+    """
 
     writing: ClassVar = {"position": ("position",)}
 
@@ -121,7 +125,7 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Reverse the stage and repeat it; after `times` reversals since the stage began, continue instead."""
+    """Reverse the stage and repeat it. After `times` reversals since the stage began, continue instead."""
 
     bounds: ClassVar = {"times": (1, 100)}
 
@@ -133,7 +137,7 @@ class Undo(Operation, frozen=True, kw_only=True):
 
 
 class Load(Operation, frozen=True, kw_only=True):
-    """Declare the weight (N) in the hand, which the servo then compensates."""
+    """Declare the weight (N) in the hand. The servo then compensates the weight."""
 
     bounds: ClassVar = {"weight": (-1e3, 1e3)}
 
@@ -141,7 +145,7 @@ class Load(Operation, frozen=True, kw_only=True):
 
 
 class Tool(Operation, frozen=True, kw_only=True):
-    """Set the speed of the screwdriver's spindle, rad/s; 0 is off."""
+    """Set the speed of the screwdriver's spindle (rad/s); 0 switches it off."""
 
     family: ClassVar = "hand"
     needs: ClassVar = "screwdriver"

@@ -1,4 +1,4 @@
-"""The steps of a program as a directed graph."""
+"""The steps of a program, as a directed graph."""
 
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -14,8 +14,8 @@ MAX_SEARCHED: Final = 100  # steps
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """Steps by number, with their successors (None: the end) and predecessors, numbers by kind of operation, and
-    the reachable steps.
+    """Steps by number, with their successors (None for the end of the program) and predecessors, the numbers of the
+    steps of each kind of operation, and the reachable steps.
     """
 
     steps: Sequence[Step]
@@ -44,36 +44,36 @@ class Graph:
         object.__setattr__(self, "reached", reachable([0] if self.steps else [], onward))
 
     def which(self, *kinds: type[Operation]) -> list[int]:
-        """Numbers of the steps with operations of these kinds, in order."""
+        """Return the numbers of the steps with operations of these kinds, in order."""
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
 
     def each(self, kind: type[A]) -> Iterator[tuple[int, A]]:
-        """Steps with operations of one kind, in order, with their numbers."""
+        """Yield the steps with operations of one kind, in order: number and operation."""
         for number in self.kinds.get(kind, ()):
             operation = self.steps[number].operation
             if isinstance(operation, kind):
                 yield number, operation
 
     def at(self, number: int | None, kind: type[A]) -> A | None:
-        """The operation of a step if it is of this kind, else None."""
+        """Return the operation of a step if it is of this kind, or else None."""
         operation = None if number is None else self.steps[number].operation
         return operation if isinstance(operation, kind) else None
 
     def actions(self) -> list[int]:
-        """Steps that can raise an error or clear it."""
+        """Return the steps that can raise an error or clear one."""
         return self.which(*(kind for kind in self.kinds if kind.raising))
 
     def after(self, numbers: Iterable[int]) -> set[int]:
-        """Steps that can follow these steps, directly or indirectly."""
+        """Return the steps that can follow these steps, directly or indirectly."""
         return reachable([target for number in numbers for target in self.onward[number]], self.onward)
 
     def before(self, numbers: Iterable[int]) -> set[int]:
-        """Steps that can precede these steps, directly or indirectly."""
+        """Return the steps that can precede these steps, directly or indirectly."""
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Reachable steps of these kinds that can be the last before a step; none if there is a path without such a
-        step, or if the search takes too long.
+        """Return the reachable steps of these kinds that can be the last of their kinds before a step. Returns none
+        if some path has no such step, or if the search takes too long.
         """
         found: list[int] = []
         seen: set[int] = set()
@@ -90,8 +90,8 @@ class Graph:
         return found
 
     def leads(self, first: int | None, last: int | None, without: Container[int]) -> bool:
-        """True if a path leads from step `first` to step `last`, or to the end, without passing `without`; nearby
-        steps are searched first.
+        """Return True if a path leads from step `first` to step `last`, or to the end if `last` is None, without
+        passing `without`. Nearby steps are searched first.
         """
         waiting = [] if first is None or first in without else [first]
         seen = set(waiting)
@@ -106,7 +106,7 @@ class Graph:
         return False
 
     def circles(self) -> list[set[int]]:
-        """The strongly connected component of each step (Kosaraju's algorithm)."""
+        """Return, for each step, the strongly connected component to which it belongs (Kosaraju's algorithm)."""
         found: list[set[int]] = [set() for _ in self.steps]
         for start in reversed(self._finished()):
             circle, waiting = found[start], [start]
@@ -119,7 +119,7 @@ class Graph:
         return found
 
     def _finished(self) -> list[int]:
-        """Steps in the order in which a depth-first search finishes them."""
+        """Return the steps in the order in which a depth-first search finishes them."""
         finished: list[int] = []
         seen: set[int] = set()
         waiting = [(number, False) for number in range(len(self.steps))]
@@ -134,7 +134,7 @@ class Graph:
         return finished
 
     def trapped(self, exits: Iterable[int]) -> set[int]:
-        """Steps from which neither the end nor any of `exits` can be reached."""
+        """Return the steps from which neither the end nor any of `exits` can be reached."""
         out = set(exits)
         turns = {n for n, step in enumerate(self.steps) if step.next is not None and step.next <= n} - out
         if all(any(t is None or t > n for t in self.onward[n]) for n in turns):
@@ -143,7 +143,9 @@ class Graph:
         return set(range(len(self.steps))) - reachable(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
-        """Steps reachable from `start`, or none if they lead into `known`; adds them to `known`."""
+        """Return the steps that can be reached from `start`, or none if they lead into `known`. Adds them to
+        `known`.
+        """
         found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])
         known |= found
@@ -153,7 +155,7 @@ class Graph:
 def reachable(
     first: Iterable[int | None], edges: Sequence[Iterable[int | None]], without: Iterable[int] = ()
 ) -> set[int]:
-    """Nodes that can be reached along edges, including those in `first`."""
+    """Return the nodes that can be reached along edges, including the nodes in `first`."""
     found = set(without)
     waiting = list(first)
     while waiting:

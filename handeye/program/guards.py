@@ -1,4 +1,6 @@
-"""Guards: conditions that end a motion, each with the error raised if the motion ends without the condition."""
+"""Guards: conditions that end a motion. Each has the error that is raised if the motion ends before its condition
+is met.
+"""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -24,14 +26,14 @@ class GuardKind(StrEnum):
 
 
 class HandLoad(NamedTuple):
-    """A force (N), or with `turning` a moment (N m), that the hand exerts, in table axes."""
+    """A force (N) that the hand exerts, or if `turning` is True, a moment (N m), in table axes."""
 
     vector: Vector3
     turning: bool
 
 
 class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda name: name.lower()):
-    """Base of the guards; the class name in lower case is the kind, and the tag in the plan file."""
+    """Base of the guards. The class name in lower case is the kind of the guard, and its tag in the plan file."""
 
     kind: ClassVar[GuardKind]
     error: ClassVar[int]  # raised if the motion ends without meeting the guard
@@ -39,11 +41,13 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
 
     @classmethod
     def sense(cls) -> Sense | None:
-        """The sense on which the guard depends; None for the current of the screwdriver's motor."""
+        """Return the sense on which the guard depends, or None for the current of the screwdriver's motor."""
         return TESTED.get(cls.error)
 
     def exerted(self, along: Vector3 | None) -> "HandLoad | None":
-        """The least force or moment that trips the guard in a motion along a vector; None if no force does."""
+        """Return the least force or moment that trips the guard in a motion along the vector `along`, or None if no
+        force trips the guard.
+        """
         return None
 
 
@@ -101,7 +105,9 @@ class Torque(Guard, frozen=True, kw_only=True):
 
 
 class Touch(Guard, frozen=True, kw_only=True):
-    """Trips when a finger touches: 1 is the finger on the hand's +y side, 2 the other, 3 either."""
+    """Trips when a finger touches: finger 1 on the +y side of the hand, finger 2 on the other side, or 3 for either
+    finger.
+    """
 
     kind: ClassVar = GuardKind.TOUCH
     error: ClassVar = errors.NO_TOUCH
@@ -115,5 +121,5 @@ Guards = tuple[AnyGuard, ...]
 
 
 def unmet(guards: Sequence[AnyGuard]) -> int:
-    """The error of a motion that ends without meeting its guards; there must be at least one guard."""
+    """Return the error of a motion that ends although none of its guards tripped. There must be at least one guard."""
     return guards[0].error

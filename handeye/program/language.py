@@ -1,4 +1,6 @@
-"""Languages as values, chosen by file ending, so that the rest of the program depends on no particular language."""
+"""Languages as values, chosen by the ending of a file, so that the rest of the program depends on no particular
+language.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -23,35 +25,37 @@ class Language(Record, frozen=True, kw_only=True):
     read: Callable[[Path], Source]  # reads a script with all it requires; raises InvalidInput
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanFinding]], list[Diagnostic]]
-    """Makes diagnostics from planning findings, at their places in the text."""
+    """Function that makes diagnostics from planning findings, at their places in the text."""
 
 
 class OwnLanguage(ABC):
-    """A system's own language for its files: checks a text, and answers commands and editors."""
+    """The own language of a system for its files. It checks a text, and answers commands and editors."""
 
     system: str
 
     @abstractmethod
     def check(self, source: Source) -> list[Diagnostic]:
-        """Diagnostics for a text; nothing is executed."""
+        """Check a text without executing it. Returns its diagnostics."""
 
     def formatted(self, text: str) -> str:
-        """The text in the language's standard format; raises Refused if there is none."""
+        """Return the text in the standard format of the language. Raises Refused if the language has none."""
         raise refusal(self.system, "format")
 
     def explanation(self, word: str) -> str | None:
-        """An explanation of a word of this language, or of the code of one of its diagnostics; None if it is
+        """Explain a word of this language, or the code of one of its diagnostics. Returns None if `word` is
         neither.
         """
         return None
 
     def words(self, source: Source, offset: int) -> Sequence[tuple[str, str]]:
-        """Words that may stand at an offset, each with its meaning."""
+        """Return the words that may stand at an offset, each with its meaning."""
         return ()
 
 
 def own_language(file: str) -> OwnLanguage | None:
-    """The system's language for files of this name; None if the file is a script for a planned program."""
+    """Return the language of the system whose files end as this file does, or None if the file is a script for a
+    planned program.
+    """
     entry, ending = entry_of_file(file)
     if entry is None:
         return None
@@ -60,12 +64,14 @@ def own_language(file: str) -> OwnLanguage | None:
 
 
 def own_languages() -> Iterator[OwnLanguage]:
-    """The languages of all systems, each once."""
+    """Yield the languages of all systems, each once."""
     for place in dict.fromkeys(place for entry in entries().values() for place in entry.languages.values()):
         yield loaded(place)
 
 
 def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:
-    """The language of a file, by its ending; the first language if no language has that ending."""
+    """Return the language of a file, by the ending of the file, or the first language if no language has that
+    ending.
+    """
     found = languages.get(file.suffix.lower())
     return next(iter(languages.values())) if found is None else found

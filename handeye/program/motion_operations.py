@@ -1,4 +1,4 @@
-"""Operations that move the arm or the hand, and checks of the distance moved."""
+"""Operations that move the arm or the hand, and operations that check how far they moved."""
 
 import math
 from typing import Annotated, ClassVar, Final
@@ -16,14 +16,14 @@ _GAP: Final[Bounds] = (0.0, 0.2)  # m
 
 
 class Restore(Record, frozen=True, kw_only=True):
-    """A shift of a goal by a saved difference; `level`: only horizontally."""
+    """A shift of a goal by a saved difference. If `level` is True, the shift is only horizontal."""
 
     name: str
     level: bool = False  # horizontal components only
 
 
 class ArmMotion(Operation, frozen=True, kw_only=True):
-    """Base of arm motions; a motion with guards raises an error if none of them trips."""
+    """Base of arm motions. A motion with guards raises an error if none of them trips."""
 
     family: ClassVar = "motion"
     moves: ClassVar = True
@@ -48,7 +48,7 @@ class ArmMotion(Operation, frozen=True, kw_only=True):
 
 
 class Move(ArmMotion, frozen=True, kw_only=True):
-    """Planned motion to a position, with a departure upwards and an approach from above."""
+    """Make a planned motion to a position. The hand departs upwards and approaches from above."""
 
     planned: ClassVar = True
     reading: ClassVar = {"position": ("goal", "via")}
@@ -63,7 +63,7 @@ class Move(ArmMotion, frozen=True, kw_only=True):
 
     @property
     def reads(self) -> tuple[Use, ...]:
-        """All values that the motion depends on, including those of its shifts."""
+        """All values on which the motion depends, including the values of its shifts."""
         shifts = [Use("difference", restore.name, restore.level) for restore in self.restore]
         search = [Use("search")] if self.searching else []
         return (*self.used(self.reading), *shifts, *search)
@@ -78,7 +78,7 @@ class Move(ArmMotion, frozen=True, kw_only=True):
 
 
 class Change(ArmMotion, frozen=True, kw_only=True):
-    """Straight motion from the present place; the orientation is kept unless a moment turns the hand."""
+    """Move straight from the present place. The orientation stays the same unless a moment turns the hand."""
 
     bounds: ClassVar = {"speed": (1e-4, 2.0), "displacement": _LENGTH, "press": FORCE, "moment": FORCE}
     writing: ClassVar = {"travel": ()}
@@ -93,7 +93,7 @@ class Change(ArmMotion, frozen=True, kw_only=True):
 
     @property
     def meets(self) -> bool:
-        """True if the motion should make contact: it has guards, presses or turns."""
+        """True if the motion should make contact, because it has guards, presses or turns."""
         return bool(self.guards) or self.press is not None or self.moment is not None
 
     @property
@@ -107,7 +107,9 @@ class Change(ArmMotion, frozen=True, kw_only=True):
 
 
 class Turn(ArmMotion, frozen=True, kw_only=True):
-    """Motion on a circle about a vertical axis through a position, by `angle` (rad, counter-clockwise from above)."""
+    """Move on a circle about a vertical axis through a position, by `angle` (rad, counter-clockwise seen from
+    above).
+    """
 
     bounds: ClassVar = {"angle": (-4 * math.pi, 4 * math.pi)}
     reading: ClassVar = {"position": ("centre",)}
@@ -135,8 +137,8 @@ class Open(Operation, frozen=True, kw_only=True):
 
 
 class Close(Operation, frozen=True, kw_only=True):
-    """Close the fingers until both switches close; error 2 if the gap is below `minimum` (m; 0: the hand is empty),
-    error 7 if it is above `maximum`.
+    """Close the fingers until both switches close. Raises error 2 if the gap is below `minimum` (m; if that is 0,
+    only when the hand is empty), and error 7 if it is above `maximum` (m).
     """
 
     family: ClassVar = "hand"
@@ -155,8 +157,8 @@ class Close(Operation, frozen=True, kw_only=True):
 
 
 class Center(Operation, frozen=True, kw_only=True):
-    """Close the fingers and move the hand so that the object is not pushed; error 2 if the gap is below `minimum`
-    (m; 0: the hand is empty).
+    """Close the fingers and move the hand so that the object is not pushed. Raises error 2 if the gap is below
+    `minimum` (m; if that is 0, only when the hand is empty).
     """
 
     family: ClassVar = "hand"
@@ -173,7 +175,9 @@ class Center(Operation, frozen=True, kw_only=True):
 
 
 class Travel(Operation, frozen=True, kw_only=True):
-    """Check the distance (m) that the hand moved in the last Change or Center; error 8 if it is outside the range."""
+    """Check how far (m) the hand moved in the last Change or Center. Raises error 8 if the distance is outside the
+    range.
+    """
 
     family: ClassVar = "test"
     raising: ClassVar = action(errors.WRONG_TRAVEL)
@@ -186,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check how much higher (m) the hand stopped than where a difference was saved; error 9 if it is outside the
-    range.
+    """Check how much higher (m) the hand stopped than at the place where a difference was saved. Raises error 9 if
+    the height is outside the range.
     """
 
     family: ClassVar = "test"

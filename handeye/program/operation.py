@@ -1,5 +1,5 @@
-"""The base of all operations, with the values that each reads and writes, the errors that it raises, and the
-devices that it needs. Code that uses these properties need not know the operations by name.
+"""The base of all operations, with the values that an operation reads and writes, the errors that it raises, and
+the devices that it needs. Code that uses these properties need not know the operations by name.
 """
 
 from collections.abc import Mapping
@@ -12,16 +12,18 @@ from handeye.program.guards import Bounds, Guards
 Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
 """Kinds of values that a run stores.
 
-A target is a position or a part; `goal` is the goal of the last Move, `travel` the distance of the last Change.
+A target is a position or a part. `goal` is the goal of the last Move, and `travel` the distance of the last Change.
 """
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""Fields of an operation that name values of each kind; empty for kinds with a single, unnamed value."""
+"""For each kind of value, the fields of an operation that name values of this kind. The tuple is empty for a kind
+with only one, unnamed value.
+"""
 
 
 class Use(NamedTuple):
-    """A value that an operation reads or writes; `level`: only its horizontal components."""
+    """A value that an operation reads or writes. If `level` is True, only its horizontal components count."""
 
     kind: Kind
     name: str = ""
@@ -29,8 +31,8 @@ class Use(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A branch to `target` (None: the end), taken if the last action raised `error`, or while `counter` is
-    positive.
+    """A branch to the step `target` (None for the end of the program). The branch is taken if the last action
+    raised `error`, or while `counter` is positive.
     """
 
     target: int | None
@@ -41,7 +43,7 @@ class Branch(NamedTuple):
 class Operation(
     Record, frozen=True, kw_only=True, omit_defaults=True, tag_field="op", tag=lambda name: name.lower()
 ):
-    """Base of the operations; the class name in lower case is the tag in the plan file.
+    """Base of the operations. The class name in lower case is the tag in the plan file.
 
     The default of a field always means absence, so that plans that leave the field out keep their meaning.
     """
@@ -71,7 +73,7 @@ class Operation(
 
     @property
     def press(self) -> Vector3 | None:
-        """Force that the hand exerts during the motion, N, table axes."""
+        """Force (N, table axes) that the hand exerts during the motion."""
         return None
 
     @property
@@ -91,7 +93,7 @@ class Operation(
 
     @property
     def reads(self) -> tuple[Use, ...]:
-        """All values that the operation depends on."""
+        """All values on which the operation depends."""
         return self.used(self.reading)
 
     @property
@@ -101,12 +103,12 @@ class Operation(
 
     @property
     def calls(self) -> str | None:
-        """The operation's message to the operator."""
+        """The message of the operation to the operator."""
         return None
 
     @property
     def undoes(self) -> int:
-        """Greatest number of times that the operation reverses and repeats its stage."""
+        """How many times, at most, the operation reverses and repeats its stage."""
         return 0
 
     @property
@@ -115,7 +117,7 @@ class Operation(
         return None
 
     def leading_to(self, target: int | None) -> Self:
-        """A copy of the operation with another branch target."""
+        """Return a copy of the operation with another branch target."""
         raise NotImplementedError(f"{type(self).__name__} has no branch")
 
     @property
@@ -140,5 +142,5 @@ class Operation(
 
 
 def action(*numbers: int) -> frozenset[int]:
-    """Errors that an action can raise: the given numbers, and that of the watchdog."""
+    """Return the errors that an action can raise: the given numbers, and the number of the watchdog's error."""
     return frozenset({errors.WATCHDOG, *numbers})

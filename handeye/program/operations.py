@@ -1,4 +1,6 @@
-"""All operations, in SI units, independent of language. A new operation is a class in one of these modules."""
+"""All operations, in SI units, independent of any language. To add an operation, define its class in one of these
+modules.
+"""
 
 from handeye.program.flow_operations import FlowOperation
 from handeye.program.motion_operations import MotionOperation

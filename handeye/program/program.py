@@ -1,7 +1,7 @@
 """A checked program: labelled operations with symbolic goals, in SI units, independent of language and arm.
 
-The program is the first waist of the system: every arm language compiles to it, and the planner starts from it.
-Joined with planned motions, the same operations make the plan.
+Every arm language compiles to a program, and the planner starts from it. The plan consists of the same operations,
+together with planned motions.
 """
 
 from collections.abc import Collection, Mapping
@@ -20,7 +20,7 @@ Columns = tuple[int, int]  # start and end on a line, from 0, end exclusive
 
 
 class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """A place in the source; `file` is empty for the main text, and `line` counts from 1."""
+    """A place in the source. `file` is empty for the main text, and `line` counts from 1."""
 
     file: str = ""
     line: int
@@ -28,7 +28,7 @@ class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """One step of the program; its number is its index."""
+    """One step of a program. The number of a step is its index."""
 
     operation: AnyOperation
     stage: int  # index
@@ -44,13 +44,13 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def ways(self) -> tuple[int | None, ...]:
-        """Steps that may follow, with `next` first."""
+        """Steps that may follow: first `next`, then the branch target, if there is one."""
         branch = self.operation.branch
         return (self.next,) if branch is None else (self.next, branch.target)
 
     @property
     def called(self) -> str:
-        """The macro that the stage calls at this step, or ""."""
+        """The macro that the stage calls at this step; empty if the step is not from a macro."""
         return self.call or self.macro
 
     @property
@@ -65,12 +65,12 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def examines(self) -> str | None:
-        """The picture that the step's operation examines; None if it examines none."""
+        """The picture that the operation of the step examines; None if it examines no picture."""
         return self.operation.examines
 
     @property
     def guarded(self) -> bool:
-        """True if the step's motion is ended by guards."""
+        """True if the motion of the step has guards."""
         return bool(self.operation.guards)
 
     @property
@@ -83,8 +83,8 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Position(Record, frozen=True, kw_only=True):
-    """A taught or written position of the hand: x, y, z (m) and the angles O, A, T (rad), relative to the part
-    `of`, if any.
+    """A taught or written position of the hand: x, y, z (m) and the angles O, A, T (rad). It is relative to the
+    part `of`, if one is given.
     """
 
     at: tuple[float, float, float, float, float, float]
@@ -92,7 +92,7 @@ class Position(Record, frozen=True, kw_only=True):
 
 
 class Hole(Record, frozen=True, kw_only=True):
-    """A round hole in a part's upper face, in part coordinates, m."""
+    """A round hole in the upper face of a part, in part coordinates, m."""
 
     x: float
     y: float
@@ -100,9 +100,9 @@ class Hole(Record, frozen=True, kw_only=True):
 
 
 class Part(Record, frozen=True, kw_only=True):
-    """A part as the program knows it: its planned place, and its appearance from above.
+    """A part as the program knows it: its planned place, and what it looks like from above.
 
-    The reference point is the centre of the first hole; the reference direction points from there to the second
+    The reference point is the centre of the first hole. The reference direction points from there to the second
     hole.
     """
 
@@ -115,19 +115,19 @@ class Part(Record, frozen=True, kw_only=True):
 
 
 class Fixture(Record, frozen=True, kw_only=True):
-    """A fixed obstacle in the cell: boxes in a frame that is at x, y, z (m) and yaw (rad)."""
+    """A fixed obstacle in the cell: boxes in a frame at x, y, z (m) and yaw (rad)."""
 
     at: tuple[float, float, float, float]
     boxes: tuple[Box, ...]
 
 
 class Held(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """An object that the hand holds after closing at one of `positions`, as boxes in the hand frame T."""
+    """An object that the hand holds after it has closed at one of `positions`, as boxes in the hand frame T."""
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
     thickness: Annotated[float, Meta(gt=0)] | None = None
-    """Nominal gap of fingers that hold the object there, m; None: not known."""
+    """Nominal gap (m) of fingers that hold the object there; None if not known."""
 
 
 class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -153,7 +153,7 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def labels(self) -> dict[str, list[int]]:
-        """Numbers of steps by label; a label in a macro has one step for each call."""
+        """Numbers of the steps with each label. A label in a macro has one step for each call of the macro."""
         found: dict[str, list[int]] = {}
         for number, step in enumerate(self.steps):
             for label in step.labels:
@@ -162,7 +162,7 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def calls(self) -> frozenset[str]:
-        """Macros that the stages call, and that a run can leave out."""
+        """Names of macros that the stages call. A run can leave out these macros."""
         return frozenset(step.called for step in self.steps if step.macro)
 
     @property
@@ -176,5 +176,5 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
         return any(step.operation.feels for step in self.steps)
 
     def written(self, kind: Kind) -> set[str]:
-        """Names of one kind that the steps write."""
+        """Return the names of one kind that the steps write."""
         return {use.name for step in self.steps for use in step.operation.writes if use.kind == kind}

@@ -1,4 +1,4 @@
-"""Senses and macros that can be switched off in a run, and the assumption that replaces each."""
+"""Senses and macros that can be switched off in a run, and the assumption that a run makes in place of each."""
 
 from typing import Final, Literal, get_args
 
@@ -17,9 +17,9 @@ ASSUMPTIONS: Final[dict[str, str]] = {
 
 
 def assumption(name: str) -> str:
-    """The assumption that a run makes without a sense, or without a macro of its program."""
+    """Write the assumption that a run makes without a sense, or without a macro of its program."""
     return ASSUMPTIONS.get(name, f"{name} is skipped")
 
 
 TESTED: Final[dict[int, Sense]] = {errors.NO_FORCE: "force", errors.NO_TOUCH: "touch"}
-"""The sense whose absence of contact each error reports."""
+"""For each error that reports missing contact, the sense that should have sensed the contact."""

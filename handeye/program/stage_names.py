@@ -1,4 +1,4 @@
-"""Finds stages by number, name or part of the name."""
+"""Finds stages by number, by name or by a part of the name."""
 
 import re
 from collections.abc import Sequence
@@ -11,8 +11,8 @@ _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 
 
 def stage_index(text: str, stages: Sequence[str]) -> int:
-    """Index of a stage that is given by its number from 1, its name, or a unique part of its name; raises an error
-    if there is none.
+    """Return the index of a stage. `text` is the number of the stage (from 1), its name, or a unique part of its
+    name. Raises an error if there is no such stage.
     """
     if _NUMBER.fullmatch(text.strip()):
         if not 1 <= int(text) <= len(stages):
@@ -25,8 +25,8 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
 
 
 def stage_called(text: str, stages: Sequence[str]) -> int | None:
-    """Index of the only stage with this name, else of the only one that begins with it, else of the only one that
-    contains it; None if there is none.
+    """Return the index of the only stage that has this name, or else of the only one that begins with it, or else
+    of the only one that contains it. Returns None if there is none.
     """
     wanted = text.strip().casefold()
     names = [name.casefold() for name in stages]
@@ -43,7 +43,7 @@ def stage_called(text: str, stages: Sequence[str]) -> int | None:
 
 
 def _meant(text: str, stages: Sequence[str]) -> str:
-    """The end of an error sentence: `; did you mean ...` with stages of similar names, else all names."""
+    """Write the end of an error sentence: `; did you mean ...` with the stages of similar names, or else all names."""
     typed = text.strip().casefold()
     words = {word for name in stages for word in (name, *name.split())}
     near = nearest(typed, words, len(typed) // 3)

@@ -1,4 +1,4 @@
-"""The part of a state that all systems have: the place in the listing of steps."""
+"""The part of the state that all systems have: the place in the listing of steps."""
 
 from typing import Annotated, NamedTuple
 
@@ -11,7 +11,7 @@ Natural = Annotated[int, msgspec.Meta(ge=0)]
 
 
 class TaskPlace(NamedTuple):
-    """The place of one task of a system in the listing."""
+    """The place of one task of a system in the listing of steps."""
 
     task: str  # empty: the only one
     step: int  # the step that it does next
@@ -28,7 +28,7 @@ class SystemState(MutableRecord, kw_only=True):
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The place of each unfinished task, in order; the task at `at` runs next. A system with several tasks
+        """The place of each unfinished task, in order. The task at `at` runs next. A system with several tasks
         overrides this.
         """
         return () if self.at is None else (TaskPlace("", self.at),)

@@ -38,7 +38,7 @@ from handeye.program.program import Fixture, Held, Hole, Part, Position
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Taught:
-    """Taught positions, parts and fixtures by name, in SI units; references between them are resolved."""
+    """Taught positions, parts and fixtures by name, in SI units. References between them are resolved."""
 
     positions: dict[str, Position] = field(default_factory=dict)
     parts: dict[str, Part] = field(default_factory=dict)
@@ -47,7 +47,7 @@ class Taught:
 
 
 class PositionTable(msgspec.Struct, forbid_unknown_fields=True):
-    """Table `[positions.NAME]` of a taught file, in inches and degrees."""
+    """The table `[positions.NAME]` of a taught file, in inches and degrees."""
 
     at: tuple[float, float, float, float, float, float]
     of: str | None = None
@@ -61,7 +61,7 @@ Circle = tuple[float, float, float]
 
 
 class PartTable(msgspec.Struct, forbid_unknown_fields=True):
-    """Table `[parts.NAME]` of a taught file, in inches and degrees."""
+    """The table `[parts.NAME]` of a taught file, in inches and degrees."""
 
     at: tuple[float, float, float, float]
     face: float = 0.0
@@ -84,7 +84,7 @@ class PartTable(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class FixtureTable(msgspec.Struct, forbid_unknown_fields=True):
-    """Table `[fixtures.NAME]` of a taught file, in inches and degrees."""
+    """The table `[fixtures.NAME]` of a taught file, in inches and degrees."""
 
     boxes: tuple[Box, ...]
     at: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
@@ -95,7 +95,7 @@ class FixtureTable(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class HeldTable(msgspec.Struct, forbid_unknown_fields=True):
-    """Table `[held.NAME]` of a taught file, in inches."""
+    """The table `[held.NAME]` of a taught file, in inches."""
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
@@ -110,7 +110,7 @@ Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
 
 
 class UnfitEntry(Exception):
-    """An entry of a taught file that cannot be used."""
+    """Raised for an entry of a taught file that cannot be used."""
 
     def __init__(self, kind: str, name: str, said: str) -> None:
         super().__init__(said)
@@ -125,7 +125,9 @@ class UnfitEntry(Exception):
 def read_tables(
     kind: str, tables: dict[str, dict[str, object]], type: type[Entry]
 ) -> Iterator[tuple[str, Entry]]:
-    """Tables of one kind, by name; raises UnfitEntry."""
+    """Read the tables of one kind from a taught file, and yield each with its name. Raises UnfitEntry if a table
+    cannot be used.
+    """
     for name, table in tables.items():
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             said = "a name consists of letters, digits and _, and does not start with a digit"
@@ -176,7 +178,7 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """The mismatch and its place, as the rest of a sentence, from the message of `msgspec`."""
+    """Write the rest of a sentence that names the mismatch and its place, from the message of `msgspec`."""
     said, _, where = str(error).partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""
@@ -203,12 +205,12 @@ MAX_BOXES: Final = 500  # in a file: checking motions takes time for each
 
 
 def load_taught(path: str | Path) -> Taught:
-    """Read a taught TOML file (inches and degrees); raises BadFile with the key at fault."""
+    """Read a taught TOML file (inches and degrees). Raises BadFile with the key at fault."""
     return read_taught(read_source(path))
 
 
 def read_taught(source: Source) -> Taught:
-    """Parse the text of a taught TOML file (inches and degrees); raises BadFile with the key at fault."""
+    """Parse the text of a taught TOML file (inches and degrees). Raises BadFile with the key at fault."""
     path = source.name
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
@@ -240,7 +242,7 @@ def _taught(tables: _File) -> Taught:
 
 
 def _line(source: Source, fault: UnfitEntry) -> int | None:
-    """The line, from 1, on which an entry begins; None if the entry is not in the usual form."""
+    """Return the line, from 1, on which an entry begins, or None if the entry is not written in the usual form."""
     kind, name = map(re.escape, (fault.kind, fault.name))
     header = rf"\[\s*{kind}\s*\.\s*[\"']?{name}[\"']?\s*\]"
     found = re.search(rf"^[ \t]*(?:{header}|[\"']?{name}[\"']?[ \t]*=)", source.text, re.MULTILINE)
@@ -248,7 +250,7 @@ def _line(source: Source, fault: UnfitEntry) -> int | None:
 
 
 def _faults(taught: Taught) -> Iterator[UnfitEntry]:
-    """Inconsistencies between entries."""
+    """Yield the inconsistencies between entries."""
     for name, position in taught.positions.items():
         if position.of is not None and position.of not in taught.parts:
             meant = suggestion(position.of, taught.parts)

@@ -1,7 +1,7 @@
-"""Edits a position in the text of a taught file, and leaves everything else unchanged.
+"""Edits a position in the text of a taught file, and leaves the rest of the text unchanged.
 
 The usual forms are supported: `A = { at = [...] }` on one line under `[positions]`, and `at = [...]` under
-`[positions.A]`. The new text is parsed again; a change that affects anything else is refused.
+`[positions.A]`. The new text is parsed again, and a change that affects other entries is refused.
 """
 
 import re
@@ -20,7 +20,9 @@ _OF_ALONE: Final = rf"[ \t]*,[ \t]*{_OF}|{_OF}[ \t]*,[ \t]*|{_OF}"
 
 
 def with_position(text: str, name: str, position: Position) -> str:
-    """The text of a taught file with a position added or replaced; raises BadFile if anything else would change."""
+    """Return the text of a taught file with a position added or replaced. Raises BadFile if other entries would
+    change.
+    """
     before = tomllib.loads(text)
     entry = {"at": _figures(position), **({} if position.of is None else {"of": position.of})}
     wanted = {**before, "positions": {**before.get("positions", {}), name: entry}}
@@ -41,7 +43,7 @@ def with_position(text: str, name: str, position: Position) -> str:
 
 
 def _figures(position: Position) -> list[float]:
-    """x, y, z (in) rounded to a thousandth, and O, A, T (degrees) rounded to a hundredth."""
+    """Return x, y, z (in) rounded to a thousandth, and O, A, T (degrees) rounded to a hundredth."""
     lengths = [round(value / INCH, 3) + 0.0 for value in position.at[:3]]
     return [*lengths, *(round(value / DEGREE, 2) + 0.0 for value in position.at[3:])]
 
@@ -56,7 +58,7 @@ def _line(name: str, position: Position) -> str:
 
 
 def _added(text: str, name: str, position: Position) -> str:
-    """The text with a new line after the last entry of the table, or at the end."""
+    """Return the text with a new line after the last entry of the table, or at the end of the text."""
     header, line_end = _HEADER.search(text), "\r\n" if "\r\n" in text else "\n"
     if header is None:
         gap = "" if not text else line_end if text.endswith("\n") else 2 * line_end
@@ -72,7 +74,7 @@ def _added(text: str, name: str, position: Position) -> str:
 
 
 def _replaced(text: str, name: str, position: Position) -> str:
-    """The text with other figures in the line or table of the position `name`."""
+    """Return the text with other numbers in the line or table of the position `name`."""
     key = rf"[\"']?{re.escape(name)}[\"']?"
     line = re.compile(rf"^[ \t]*(?:positions\s*\.\s*)?{key}[ \t]*=[ \t]*\{{.*$", re.MULTILINE)
     table = re.compile(rf"^[ \t]*\[\s*positions\s*\.\s*{key}\s*\].*(?:\n(?![ \t]*\[).*)*", re.MULTILINE)

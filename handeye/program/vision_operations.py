@@ -8,7 +8,7 @@ from handeye.program.operation import Operation, action
 
 
 class Lens(Operation, frozen=True, kw_only=True):
-    """Turn the lens turret; focal length in m."""
+    """Turn the lens turret to a lens, given by its focal length (m)."""
 
     family: ClassVar = "sight"
     needs: ClassVar = "camera"
@@ -32,7 +32,7 @@ class Aim(Operation, frozen=True, kw_only=True):
 
 
 class Look(Operation, frozen=True, kw_only=True):
-    """Take a picture under a name."""
+    """Take a picture and keep it under a name."""
 
     family: ClassVar = "sight"
     needs: ClassVar = "camera"
@@ -45,7 +45,7 @@ class Look(Operation, frozen=True, kw_only=True):
 
 
 class General(Operation, frozen=True, kw_only=True):
-    """Locate a part roughly by its outline in a picture; error 30 if the part is not seen."""
+    """Locate a part roughly by its outline in a picture. Raises error 30 if the part is not seen."""
 
     family: ClassVar = "sight"
     raising: ClassVar = action(errors.PART_NOT_SEEN)
@@ -61,7 +61,7 @@ class General(Operation, frozen=True, kw_only=True):
 
 
 class Specific(Operation, frozen=True, kw_only=True):
-    """Measure the pose of a part by its holes in a picture; error 31 if the holes are not found."""
+    """Measure the pose of a part by its holes in a picture. Raises error 31 if the holes are not found."""
 
     family: ClassVar = "sight"
     raising: ClassVar = action(errors.FEATURES_NOT_SEEN)
@@ -92,13 +92,13 @@ class Comparison(Operation, frozen=True, kw_only=True):
 
 
 class Inspect(Comparison, frozen=True, kw_only=True):
-    """Compare pictures from before and after a gasket was laid on; error 32 if the gasket lies wrong."""
+    """Compare pictures taken before and after a gasket was laid on. Raises error 32 if the gasket lies wrong."""
 
     raising: ClassVar = action(errors.GASKET_WRONG)
 
 
 class Match(Comparison, frozen=True, kw_only=True):
-    """Compare two pictures of a part; error 33 if it has moved."""
+    """Compare two pictures of a part. Raises error 33 if the part has moved."""
 
     raising: ClassVar = action(errors.PART_ASTRAY)
 

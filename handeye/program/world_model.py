@@ -1,4 +1,6 @@
-"""The world model: for each part a planned pose and, after vision or touch has measured it, a measured pose."""
+"""The world model: the planned pose of each part and, after vision or touch has measured the part, its measured
+pose.
+"""
 
 from dataclasses import dataclass, field
 
@@ -11,18 +13,18 @@ from handeye.program.program import Part, Position, Program
 
 
 def planned_pose(part: Part) -> Pose:
-    """The planned pose `X_WP` of a part."""
+    """Return the planned pose `X_WP` of a part."""
     return planar(*part.at)
 
 
 def rounded_place(X: Pose) -> tuple[float, float, float, float, float, float]:
-    """x, y, z (m) and angles O, A, T (rad) of a hand pose, rounded to 1e-6."""
+    """Return x, y, z (m) and the angles O, A, T (rad) of a hand pose, rounded to 1e-6."""
     x, y, z, o, a, t = (round(float(value), 6) + 0.0 for value in (*X[:3, 3], *hand_angles(X)))
     return x, y, z, o, a, t
 
 
 class WorldState(MutableRecord, kw_only=True):
-    """Differences from the plan: measured part poses `X_WP`, and redefined positions."""
+    """How the cell differs from the plan: measured part poses `X_WP`, and redefined positions."""
 
     measured: dict[str, Pose] = msgspec.field(default_factory=dict)
     moved: dict[str, Position] = msgspec.field(default_factory=dict)
@@ -30,7 +32,7 @@ class WorldState(MutableRecord, kw_only=True):
 
 @dataclass(slots=True, kw_only=True)
 class WorldModel:
-    """The cell as the program believes it to be; only the executor changes this model."""
+    """The cell as the program believes it to be. Only the executor changes this model."""
 
     parts: dict[str, Part]
     positions: dict[str, Position]
@@ -38,7 +40,7 @@ class WorldModel:
 
     @classmethod
     def of(cls, program: Program, state: WorldState | None = None) -> "WorldModel":
-        """The model of a program with given differences from the plan, by default none."""
+        """Make the model of a program, with the given differences from the plan; by default with none."""
         return cls(parts=program.parts, positions=program.positions, state=state or WorldState())
 
     def measure(self, part: str, X_WP: Pose) -> None:
@@ -47,22 +49,22 @@ class WorldModel:
         self.state.measured[part] = X_WP
 
     def part(self, name: str) -> Pose:
-        """The pose `X_WP` of a part: measured, or else planned."""
+        """Return the pose `X_WP` of a part: the measured pose, or else the planned pose."""
         measured = self.state.measured.get(name)
         return planned_pose(self.parts[name]) if measured is None else measured
 
     def position(self, name: str) -> Pose:
-        """The pose `X_WT` of a hand position, with the present pose of its part."""
+        """Return the pose `X_WT` of a hand position, using the present pose of its part."""
         position = self.state.moved.get(name) or self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else self.part(position.of) @ X_PT
 
     def seen_from(self, part: str | None, X_WT: Pose) -> Position:
-        """The hand pose `X_WT` as a position relative to a part, or in table coordinates if `part` is None."""
+        """Express the hand pose `X_WT` as a position relative to a part, or in table coordinates if `part` is None."""
         return Position(at=rounded_place(X_WT if part is None else inverse(self.part(part)) @ X_WT), of=part)
 
     def planned_position(self, name: str) -> Pose:
-        """The pose `X_WT` of a hand position, with planned poses only."""
+        """Return the pose `X_WT` of a hand position, using only planned poses."""
         position = self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else planned_pose(self.parts[position.of]) @ X_PT

@@ -1,1 +1,1 @@
-"""Facts about failures in a plan or a run, and sentences for them."""
+"""Failures in a plan or a run, as facts, and the sentences that describe them."""

@@ -12,7 +12,7 @@ from handeye.program.guards import GuardKind
 
 
 def error_sentence(number: int, cause: Cause | None) -> str:
-    """The meaning of an error, with the part whose motion may have caused it, and the cause in brackets."""
+    """Write the meaning of an error, with its cause in brackets."""
     meaning = ERRORS.get(number, "an error")
     if isinstance(cause, c.JointBehind | c.HandAstray | c.GapTooSmall) and cause.of:
         meaning += f", or {cause.of} has moved"
@@ -21,7 +21,7 @@ def error_sentence(number: int, cause: Cause | None) -> str:
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """The sentence of a call of the operator: the program's own message, the error, or the cause."""
+    """Write the sentence of a call of the operator: the program's own message, the error, or the cause."""
     if message:
         return message
     if error is not None:
@@ -30,7 +30,7 @@ def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
 
 
 def cause_sentence(cause: Cause) -> str:
-    """The sentence of a cause; empty if the meaning of the error says it all."""
+    """Write the sentence of a cause. The sentence is empty if the meaning of the error says it all."""
     match cause:
         case c.BeyondArm():
             goal = f"{cause.goal}: " if cause.goal else ""
@@ -98,7 +98,7 @@ _SWINGS = "swings about its set-point: its drive or the computer is late, or its
 
 
 def inspection_sentence(cause: c.InspectionCause | None) -> str:
-    """The result of an inspection as a sentence; None is a pass."""
+    """Write the result of an inspection as a sentence. A cause of None means that the gasket passed."""
     match cause:
         case None:
             return "the gasket is in place"
@@ -110,7 +110,9 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
 
 
 def match_sentence(off: float, unlike: float) -> str:
-    """The result of a match as a sentence, from the displacement (m) and the fraction that looks different."""
+    """Write the result of a match as a sentence, from the displacement (m) and the fraction of the part that looks
+    different.
+    """
     moved = f"moved by {_inches(off)} relative to its surroundings"
     return f"{moved}; {100 * unlike:.1f} % of the part looks different"
 
@@ -191,7 +193,7 @@ _FINGERS = ("+y", "-y")  # by side of the hand, in switch order
 
 
 def doubt_sentence(cause: c.SenseCause) -> str:
-    """The reason why a sensor is not believed, in inches, degrees and ounces."""
+    """Write the reason why a sensor is not believed, in inches, degrees and ounces."""
     match cause:
         case c.SwitchesClosed():
             return f"{_switches(cause.fingers)} closed although the fingers are open"
@@ -265,7 +267,9 @@ def doubt_sentence(cause: c.SenseCause) -> str:
 
 
 def _jump(cause: c.GapJumped) -> str:
-    """The possible causes of a jump of the gap. If the fingers touch nothing, only the potentiometer can cause it."""
+    """Write the possible causes of a jump of the gap. If the fingers touch nothing, only the potentiometer can be
+    the cause.
+    """
     if not cause.held:
         return "no finger can move so fast"
     moved = "slipped" if cause.gap < cause.before else "been pushed and has forced the fingers apart"
@@ -273,7 +277,7 @@ def _jump(cause: c.GapJumped) -> str:
 
 
 def touching_fingers(fingers: tuple[bool, bool]) -> str:
-    """The touching fingers with their verb, such as `both fingers touch`."""
+    """Write which fingers touch, with the verb, such as `both fingers touch`."""
     named = _named(fingers)
     return f"the {named[0]} finger touches" if len(named) == 1 else "both fingers touch"
 

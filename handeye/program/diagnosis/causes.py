@@ -1,4 +1,4 @@
-"""Causes of errors and of operator calls, as facts in SI units; `cause_text` has the sentences."""
+"""Causes of errors and of operator calls, as facts in SI units. `cause_text` has their sentences."""
 
 from typing import Literal
 
@@ -32,28 +32,28 @@ class ArmNames(Record, frozen=True, kw_only=True):
 
     @classmethod
     def of(cls, arm: NamedArm) -> "ArmNames":
-        """The names of an arm."""
+        """Return the names of an arm."""
         joints = tuple(JointName(name=joint.name, kind=joint.kind) for joint in arm.joints)
         return cls(name=arm.name, joints=joints)
 
 
 class BeyondArm(CauseRecord, frozen=True, kw_only=True):
-    """The arm cannot reach a pose, or cannot move there; `goal` is the name of the position, if it has one."""
+    """The arm cannot reach a pose, or cannot move there. `goal` is the name of the position, if it has one."""
 
     goal: str = ""
     reason: ReachFailure
     arm: ArmNames
 
     def __post_init__(self) -> None:
-        """Raises ValueError for a joint that the arm does not have."""
+        """Raise ValueError if the reason names a joint that the arm does not have."""
         if not all(0 <= joint < len(self.arm.joints) for joint in self.reason.named_joints):
             raise ValueError(f"the {self.arm.name} arm has {counted(len(self.arm.joints), 'joint')}")
 
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):
-    """A joint did not follow its set-point; `swings`: it was far off on both sides during the motion.
+    """A joint did not follow its set-point. `swings` is True if it was far off on both sides during the motion.
 
-    `of`: the part at whose place the motion should end, if any.
+    `of` is the part at whose place the motion should end, if any.
     """
 
     joint: str
@@ -64,8 +64,8 @@ class JointBehind(CauseRecord, frozen=True, kw_only=True):
 class HandAstray(CauseRecord, frozen=True, kw_only=True):
     """The hand is off its set-point by `distance` (m) at the end of a motion.
 
-    `joint` has the largest following error relative to its limit; `swings`: it was far off on both sides during the
-    motion; `of`: the part at whose place the motion should end, if any.
+    `joint` is the joint with the largest following error relative to its limit. `swings` is True if it was far off
+    on both sides during the motion. `of` is the part at whose place the motion should end, if any.
     """
 
     distance: float
@@ -81,7 +81,7 @@ class HandStuck(CauseRecord, frozen=True, kw_only=True):
 
 
 class GuardsUnmet(CauseRecord, frozen=True, kw_only=True):
-    """A motion ended without meeting any of these guards."""
+    """A motion ended, and none of these guards had tripped."""
 
     guards: tuple[GuardKind, ...]
 
@@ -95,7 +95,7 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightOutside(CauseRecord, frozen=True, kw_only=True):
-    """The hand is too high or too low (m) above the place at which a difference was saved."""
+    """The hand is too high or too low, by its height (m) above the place at which a difference was saved."""
 
     name: str
     height: float
@@ -104,7 +104,7 @@ class HeightOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
-    """The saved difference for a height check does not exist."""
+    """A height check needs a saved difference that does not exist."""
 
     name: str
 
@@ -113,8 +113,8 @@ class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapTooSmall(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) of the closed fingers is below the minimum; `of`: the part at whose place the fingers closed, if
-    any.
+    """The gap (m) of the closed fingers is below the minimum. `of` is the part at whose place the fingers closed,
+    if any.
     """
 
     gap: float
@@ -139,7 +139,9 @@ class NothingBetween(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` are closed although the fingers have been opened; order as in `Sensed.touch`."""
+    """The switches of `fingers` are closed although the fingers have been opened. The order is that of
+    `Sensed.touch`.
+    """
 
     fingers: tuple[bool, bool]
 
@@ -152,7 +154,7 @@ class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` stay closed although the hand has moved by `moved` (m) to that side."""
+    """The switches of `fingers` stay closed although the hand has moved by `moved` (m) to the side of that finger."""
 
     fingers: tuple[bool, bool]
     moved: float
@@ -166,8 +168,8 @@ class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapJumped(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) has changed faster than the fingers can move; `held`: the fingers touched an object, or one kept
-    them apart.
+    """The gap (m) has changed faster than the fingers can move. `held` is True if the fingers touched an object or
+    an object kept them apart.
     """
 
     gap: float
@@ -176,7 +178,9 @@ class GapJumped(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) does not fit an object of known thickness (m); `held` is the object's name in the taught file."""
+    """The gap (m) does not fit an object of known thickness (m). `held` is the name of the object in the taught
+    file.
+    """
 
     gap: float
     thickness: float
@@ -191,14 +195,14 @@ class GapAstray(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapStill(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) reads the same after the fingers were driven together by `driven` (m)."""
+    """The gap (m) reads the same as before, although the fingers were driven together by `driven` (m)."""
 
     gap: float
     driven: float
 
 
 class ForceInAir(CauseRecord, frozen=True, kw_only=True):
-    """The hand senses a force (N, table axes, before taring) where it should touch nothing; `load` is the declared
+    """The hand senses a force (N, table axes, before taring) where it should touch nothing. `load` is the declared
     weight (N).
     """
 
@@ -208,8 +212,8 @@ class ForceInAir(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
-    """The two sensors of a joint disagree on its displacement in a motion, or, if `braked`, under brakes that may
-    have slipped.
+    """The two sensors of a joint disagree on its displacement in a motion. If `braked` is True, they disagree while
+    the brakes are set, and the brakes may have slipped.
     """
 
     joint: JointName
@@ -220,8 +224,8 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint takes a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
-    measured at first, None if the joint does not move at all. `one_way`: the joint moved in one direction only, so
-    a weight would have the same effect.
+    that was measured first; None if the joint does not move at all. `one_way` is True if the joint moved in only
+    one direction, so that a weight would have the same effect.
     """
 
     joint: JointName
@@ -240,15 +244,17 @@ class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
 
 
 class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The motor of the screwdriver showed torque `torque` (N m) at a moment when the torque should be `known`."""
+    """The motor of the screwdriver showed the torque `torque` (N m) at a moment when the torque should be `known`
+    (N m).
+    """
 
     torque: float
     known: float
 
 
 class CurrentShort(CauseRecord, frozen=True, kw_only=True):
-    """The motor was held fast and showed torque `torque` (N m) for a second, less than the requested torque
-    `asked`.
+    """The motor was held fast. For a second it showed the torque `torque` (N m), which is less than the requested
+    torque `asked` (N m).
     """
 
     torque: float
@@ -262,13 +268,13 @@ class MotorSlow(CauseRecord, frozen=True, kw_only=True):
 
 
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
-    """The screwdriver ran, but its motor current showed at most this torque (N m)."""
+    """The screwdriver ran, but the current of its motor showed at most this torque (N m)."""
 
     torque: float
 
 
 class PictureRepeated(CauseRecord, frozen=True, kw_only=True):
-    """A picture equals an earlier one, pixel by pixel."""
+    """A picture is equal to an earlier picture, point by point."""
 
     picture: str
     earlier: str
@@ -281,7 +287,7 @@ class PictureBlank(CauseRecord, frozen=True, kw_only=True):
 
 
 class PictureNoisy(CauseRecord, frozen=True, kw_only=True):
-    """A picture has more noise (standard deviation, levels) than `most`, the greatest of a sound camera."""
+    """A picture has more noise (standard deviation, in levels) than `most`, the greatest noise of a sound camera."""
 
     picture: str
     noise: float
@@ -298,11 +304,11 @@ class NoPicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoGeneral(CauseRecord, frozen=True, kw_only=True):
-    """The part was not located roughly before it was to be located by its holes."""
+    """A part was to be located by its holes, but had not been located roughly before."""
 
 
 class NoOutline(CauseRecord, frozen=True, kw_only=True):
-    """Nothing of the part's size stands out from the background in the picture."""
+    """In the picture, no shape of the size of the part stands out from the background."""
 
 
 class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
@@ -310,7 +316,7 @@ class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoHoles(CauseRecord, frozen=True, kw_only=True):
-    """The part's two largest holes are not among the dark blobs of the picture."""
+    """The two largest holes of the part are not among the dark blobs of the picture."""
 
     blobs: int
 
@@ -334,19 +340,19 @@ class GasketHoleUnseen(HoleFault, frozen=True, kw_only=True):
 
 
 class GasketHoleOff(HoleFault, frozen=True, kw_only=True):
-    """The hole of the gasket is displaced from that of the base by `off` (m)."""
+    """The hole of the gasket is displaced from the hole of the base by `off` (m)."""
 
     off: float
 
 
 class GasketWrong(CauseRecord, frozen=True, kw_only=True):
-    """A gasket is present but lies wrong; `faults` has the reasons."""
+    """A gasket is present but lies wrong. `faults` gives the reasons."""
 
     faults: tuple[BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff, ...]
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """A part has moved by `off` (m) relative to its surroundings; a fraction `unlike` of it looks different."""
+    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of it looks different."""
 
     off: float
     unlike: float
@@ -360,14 +366,16 @@ class NoSearch(CauseRecord, frozen=True, kw_only=True):
 
 
 class PlacesTried(CauseRecord, frozen=True, kw_only=True):
-    """The search has tried all its places; `around` is the name of the position at which it started, if it has one."""
+    """The search has tried all its places. `around` is the name of the position at which it started, if that has a
+    name.
+    """
 
     places: int
     around: str = ""
 
 
 class Looping(CauseRecord, frozen=True, kw_only=True):
-    """The program loops without time passing; `place` is the line, such as `12` or `pins.al:12`."""
+    """The program loops while no time passes. `place` is the line, such as `12` or `pins.al:12`."""
 
     place: str
 
@@ -383,7 +391,7 @@ class UndoResisted(CauseRecord, frozen=True, kw_only=True):
 
 
 class HoldOff(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) differs from `kept`, the gap at the time of the step."""
+    """The gap (m) differs from `kept` (m), the gap at the time of the step."""
 
     gap: float
     kept: float
@@ -391,7 +399,7 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
 
 
 class MetEarly(CauseRecord, frozen=True, kw_only=True):
-    """Closing fingers touched at a wider gap (m) than `kept`, the gap at the time of the step."""
+    """Closing fingers touched at a wider gap (m) than `kept` (m), the gap at the time of the step."""
 
     fingers: tuple[bool, bool]
     gap: float
@@ -400,25 +408,25 @@ class MetEarly(CauseRecord, frozen=True, kw_only=True):
 
 
 class ScrewFast(CauseRecord, frozen=True, kw_only=True):
-    """The screwdriver turned left with at most `torque` (N m), and the screw rose by only `risen` (m)."""
+    """The screwdriver turned left with at most `torque` (N m), but the screw rose only by `risen` (m)."""
 
     torque: float
     risen: float
 
 
 class ScrewLost(CauseRecord, frozen=True, kw_only=True):
-    """A screw was lost on the way: descending by `way` (m), the hand did not sense `force` (N)."""
+    """A screw was lost on the way: the hand descended by `way` (m) and did not sense `force` (N)."""
 
     way: float
     force: float
 
 
 class BackingOut(CauseRecord, frozen=True, kw_only=True):
-    """The step turned a screw out, which cannot be reversed."""
+    """The step turned a screw out. This cannot be reversed."""
 
 
 class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
-    """The record that a step made for its reversal cannot be used."""
+    """The record that a step made for its reversal is not usable."""
 
 
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part

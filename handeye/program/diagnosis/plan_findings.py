@@ -1,4 +1,4 @@
-"""Findings of the planner, as facts in SI units, each at a step; the language has the sentences."""
+"""Findings of the planner, each at a step, as facts in SI units. The language has their sentences."""
 
 from handeye.core.record import Record
 from handeye.program.diagnosis.reach import (
@@ -12,7 +12,7 @@ from handeye.program.guards import HandLoad
 
 
 class NoConfiguration(Record, frozen=True, kw_only=True):
-    """There are no joint positions for a goal, or for a point at distance `along` (m) on the way to the goal."""
+    """There are no joint positions for a goal, or for a point `along` (m) along the way to the goal."""
 
     step: int
     position: str | None  # the goal or via point; None: the finding is about the motion
@@ -62,7 +62,7 @@ class RunsInto(Record, frozen=True, kw_only=True):
 
 
 class TooHeavy(Record, frozen=True, kw_only=True):
-    """The arm cannot hold a load of `weight` (N); `joint`, from 0, limits the load to `most` (N)."""
+    """The arm cannot hold a load of `weight` (N). The joint `joint` (from 0) limits the load to `most` (N)."""
 
     step: int
     weight: float
@@ -74,7 +74,7 @@ class TooHeavy(Record, frozen=True, kw_only=True):
 
 
 class TooWeak(Record, frozen=True, kw_only=True):
-    """The arm cannot exert a force or moment; `joint`, from 0, limits it to `most` (N, N m)."""
+    """The arm cannot exert a force or moment. The joint `joint` (from 0) limits it to `most` (N or N m)."""
 
     step: int
     exerted: HandLoad
@@ -89,8 +89,8 @@ class TooWeak(Record, frozen=True, kw_only=True):
 
 
 class TooFaint(Record, frozen=True, kw_only=True):
-    """The threshold of a guard is hard to distinguish from joint friction: up to `felt` (N, N m) may be sensed
-    there in free air.
+    """The threshold of a guard is hard to distinguish from joint friction: in free air, up to `felt` (N or N m) may
+    be sensed there.
     """
 
     step: int

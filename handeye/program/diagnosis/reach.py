@@ -1,4 +1,6 @@
-"""Reasons why an arm cannot reach a pose or make a motion, as facts (joints from 0, SI units) and as sentences."""
+"""Reasons why an arm cannot reach a pose or make a motion, as facts and as sentences. The facts count joints from 0
+and are in SI units.
+"""
 
 from collections.abc import Sequence
 from typing import Protocol, assert_never
@@ -13,12 +15,14 @@ class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
 
     @property
     def named_joints(self) -> tuple[int, ...]:
-        """Joints that the sentence names."""
+        """The joints that the sentence names."""
         return ()
 
 
 class BeyondRange(ReachFailureRecord, frozen=True):
-    """Base of failures in which a joint would be at `amount`, beyond the end `limit` of its range (rad, m)."""
+    """Base of failures in which a joint would be at `amount`, beyond the end `limit` of its range (both in rad or
+    m).
+    """
 
     joint: int
     amount: float
@@ -30,7 +34,7 @@ class BeyondRange(ReachFailureRecord, frozen=True):
 
     @property
     def excess(self) -> float:
-        """Distance beyond the limit, rad or m."""
+        """How far the joint would be beyond its limit, rad or m."""
         return abs(self.amount - self.limit)
 
 
@@ -47,25 +51,27 @@ class JointLimit(BeyondRange, frozen=True):
 
 
 class InnerCylinder(ReachFailureRecord, frozen=True):
-    """The wrist would be nearer to the axis of the column (m) than the shoulder's offset allows."""
+    """The distance (m) of the wrist from the axis of the column would be less than the offset of the shoulder
+    allows.
+    """
 
     radius: float
     least: float
 
     @property
     def excess(self) -> float:
-        """Distance by which the wrist is too near, m."""
+        """How much too near the wrist would be, m."""
         return self.least - self.radius
 
 
 class FixedOrientation(ReachFailureRecord, frozen=True):
-    """The hand would have to turn by `angle` (rad), for which the arm has no joint."""
+    """The hand would have to turn by `angle` (rad), and the arm has no joint for this turn."""
 
     angle: float
 
 
 class FixedDirection(ReachFailureRecord, frozen=True):
-    """The hand would be `off` (m) from the line or plane of the prismatic joints."""
+    """The hand would be `off` (m) from the line or plane in which the prismatic joints move it."""
 
     joints: tuple[int, ...]
     off: float
@@ -76,7 +82,7 @@ class FixedDirection(ReachFailureRecord, frozen=True):
 
 
 class HeldJoint(ReachFailureRecord, frozen=True):
-    """A joint that is held at `at` (rad, m) would have to move."""
+    """A joint that is held at `at` (rad or m) would have to move."""
 
     joint: int
     at: float
@@ -87,13 +93,13 @@ class HeldJoint(ReachFailureRecord, frozen=True):
 
 
 class InLine(ReachFailureRecord, frozen=True):
-    """Two joint axes would come into line on the way, where the orientation of the hand cannot be kept."""
+    """Two joint axes would come into line on the way. There the orientation of the hand cannot be kept."""
 
     joints: tuple[int, int]
 
 
 class TooFast(ReachFailureRecord, frozen=True):
-    """A joint would exceed its rate limit (rad/s, m/s)."""
+    """A joint would exceed its rate limit (rad/s or m/s)."""
 
     joint: int
     rate: float
@@ -145,7 +151,7 @@ class NamedArm(Protocol):
 
 
 def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
-    """The sentence for a reach failure, in inches and degrees, with joints by number and name."""
+    """Write the sentence for a reach failure, in inches and degrees, with joints by number and name."""
     match reason:
         case OutOfReach() | TooNear() | JointLimit():
             return _beyond(arm, reason)
@@ -185,7 +191,7 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
 
 
 def named(arm: NamedArm, joint: int) -> str:
-    """The number, from 1, and the name of a joint."""
+    """Write the number, from 1, and the name of a joint."""
     return f"joint {joint + 1} ({arm.joints[joint].name})"
 
 
