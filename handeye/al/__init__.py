@@ -1,4 +1,4 @@
-"""The arm language: compiles a text to a checked program, and formats a text."""
+"""The arm language: compiles a script to a checked program, and formats a script."""
 
 from handeye.al.compiler import LANGUAGE, compile_text
 from handeye.al.extensions import extensions

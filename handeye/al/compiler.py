@@ -1,4 +1,4 @@
-"""Compiles a text to a checked program."""
+"""Compiles a script to a checked program."""
 
 from pathlib import PurePath
 from typing import Final
@@ -24,8 +24,8 @@ LANGUAGE: Final = "wave"  # name of the language in programs and plans: that of 
 
 
 def check_form(source: Source) -> list[Diagnostic]:
-    """Syntax errors of a text alone, without those of the texts that it requires; required texts are read only for
-    the names of their macros.
+    """Find the syntax errors of a text alone. Required texts are read only for the names of their macros; their
+    errors are not reported.
     """
     found = parse_whole(source)[1]
     lost = ("unknown-instruction",) if any(d.code in MISSING for d in found) else ()
@@ -34,11 +34,11 @@ def check_form(source: Source) -> list[Diagnostic]:
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
-    """The program of a text, or None if any diagnostic is an error, and the diagnostics.
+    """Compile a text. Returns the program, or None if a diagnostic is an error, and the diagnostics.
 
-    The required texts are in `source.required` (see `includes.sewn`); spans are offsets in the combined text. The
-    program contains the taught positions and parts, and those that the text adds. Diagnostics are sorted by
-    position, at most `LIMIT`.
+    The required texts are in `source.required` (see `includes.sewn`). Spans are offsets in the combined text. The
+    program contains the taught positions and parts, and those that the text adds. There are at most `LIMIT`
+    diagnostics, sorted by position.
     """
     script, found = parse_whole(source)
     if any(d.code in MISSING for d in found):
@@ -85,7 +85,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
 
 
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
-    """Drop unknown labels that are a consequence of another mistake: a label without a colon, or a wrong operand."""
+    """Drop unknown labels that follow from another mistake: a label without a colon, or a wrong operand."""
     lost = [d for d in found if d.code == "unknown-label"]
     if not lost:
         return found

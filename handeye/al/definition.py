@@ -1,5 +1,5 @@
-"""Definitions of instructions: the operands of each, their kinds and units, and the instruction's role in the
-program flow.
+"""Definitions of instructions: the operands of each instruction, their kinds and units, and the role of the
+instruction in the flow of the program.
 """
 
 from enum import Enum, StrEnum
@@ -21,7 +21,7 @@ NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 
 class OperandUnit(Record, frozen=True, kw_only=True):
-    """A unit of an operand, with its SI value."""
+    """The unit of an operand, with its SI value."""
 
     name: str
     si: float
@@ -73,17 +73,17 @@ class Operand(Record, frozen=True, kw_only=True):
 
     @property
     def is_vector(self) -> bool:
-        """True if the operand accepts only a vector, or the name of one."""
+        """True if the operand must be a vector, or the name of one."""
         return bool(self.components)
 
     @property
     def plain(self) -> str:
-        """The operand in a sentence."""
+        """The operand, as a sentence calls it."""
         return f"vector {self.name}" if self.is_vector else self.name or f"word `{self.word}`"
 
     @property
     def shown(self) -> str:
-        """The operand as the manual shows it, in parentheses if it is optional."""
+        """The operand as the manual shows it; in parentheses if it is optional."""
         text = f"{self.word} {self.name}".strip()
         return f"({text})" if self.optional else text
 
@@ -119,7 +119,9 @@ class Instruction(Record, frozen=True, kw_only=True):
 
     @property
     def origin(self) -> str:
-        """`period` or `ours`; for a word of the period with operands of ours, also these operands."""
+        """`period` or `ours`. If a word of the period has operands that are our additions, these operands are named
+        too.
+        """
         added = ", ".join(f"`{operand.shown}`" for operand in self.operands if operand.ours)
         return "ours" if self.ours else f"period; {added} ours" if added else "period"
 
@@ -137,41 +139,43 @@ MAX_STEP_IN: Final = 1.0
 def number(
     name: str, unit: OperandUnit, low: float = -MAX_NUMBER, *, optional: bool = False, ours: bool = False
 ) -> Operand:
-    """An operand that is a number in a unit, perhaps with a minimum."""
+    """Define an operand that is a number in a unit, with an optional minimum."""
     why = f"the number must be at least {low:g} {unit.name}" if low > -MAX_NUMBER else ANY
     return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
 
 
 def count(name: str, low: float, high: float, why: str, *, word: str = "") -> Operand:
-    """An operand that is a whole number in a range; with a keyword of ours before it, it is optional."""
+    """Define an operand that is a whole number in a range. If it follows a keyword that is our addition, the
+    operand is optional.
+    """
     plain = number(name, ONE, low, optional=bool(word), ours=bool(word))
     return replace(plain, high=high, why=why, whole=True, word=word)
 
 
 def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
-    """An operand that is an opening of the hand, in inches."""
+    """Define an operand that is an opening of the hand, in inches."""
     why = f"the hand opens from 0 to {MAX_GAP_IN:g} in"
     return replace(number(name, IN, 0.0, optional=optional, ours=ours), high=MAX_GAP_IN, why=why)
 
 
 def vector(**components: OperandUnit) -> Operand:
-    """An operand that is a vector, with a letter and a unit for each component."""
+    """Define an operand that is a vector, with a letter and a unit for each component."""
     name, units = f"[{' '.join(components)}]", tuple(components.values())
     return Operand(name=name, takes=(Vector,), units=units, components=tuple(components))
 
 
 def named_vector(unit: OperandUnit) -> Operand:
-    """An operand that is a vector of three components in one unit, or the name of such a vector."""
+    """Define an operand that is a vector of three components in one unit, or the name of such a vector."""
     return replace(vector(x=unit, y=unit, z=unit), takes=(Vector, Name), refers=Refers.VECTOR)
 
 
 def name_of(name: str, refers: Refers) -> Operand:
-    """An operand that is a name of one kind."""
+    """Define an operand that is a name of one kind."""
     return Operand(name=name, takes=(Name,), refers=refers)
 
 
 def word(word: str, *, optional: bool = True, ours: bool = True) -> Operand:
-    """An operand that is a keyword."""
+    """Define an operand that is a keyword."""
     return Operand(name="", takes=(), word=word, optional=optional, ours=ours)
 
 

@@ -16,7 +16,7 @@ _AGAINST = "in 1973, a stop is a vector: `STOP [0 0 -50]`"
 
 
 def extensions(source: Source) -> list[Diagnostic]:
-    """An error for each word and operand that is our addition, including those in required texts."""
+    """Return an error for each word and operand that is our addition, including those in required texts."""
     return arranged(_found(source))
 
 

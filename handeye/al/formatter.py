@@ -1,4 +1,4 @@
-"""Formats programs in the columns of a listing of 1973; comments are kept."""
+"""Formats programs in the columns of a listing of 1973. Comments are kept."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -14,7 +14,9 @@ COMMENT_COLUMN: Final = 32
 
 
 def format_text(text: str) -> str:
-    """`text` in columns, with instructions in capitals; meaning, mistakes and line numbers are unchanged."""
+    """Format a text in columns, with instructions in capitals. Its meaning, its mistakes and its line numbers do
+    not change.
+    """
     return "".join(_format(line) + "\n" for line in scan(text))
 
 
@@ -34,7 +36,7 @@ def _format(line: Line) -> str:
 
 
 def _column(text: str, column: int) -> str:
-    """`text` padded to a column, with at least one blank unless it is empty."""
+    """Pad a text to a column, with at least one blank unless the text is empty."""
     return text.ljust(column) if len(text) < column else text + " " if text else text
 
 
@@ -47,9 +49,10 @@ def _operands(tokens: Sequence[Token]) -> str:
 
 
 def _is_tight(tokens: Sequence[Token]) -> bool:
-    """True if the last token must touch the previous one: after a bracket, or after a comma without blanks.
+    """Return True if the last token must touch the previous token: after a bracket, or after a comma without
+    blanks.
 
-    A blank after a comma is kept, because `0, 5` are two numbers and `0,5` is one number in a wrong form. The same
+    A blank after a comma is kept, because `0, 5` are two numbers, and `0,5` is one number written wrongly. The same
     holds for `O.5`.
     """
     before, token = tokens[-2:]

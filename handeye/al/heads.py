@@ -15,14 +15,14 @@ _CALL_OPERANDS: Final = (Name, Number, Vector, Text)  # the lines of the macro m
 
 
 class MacroHead(msgspec.Struct, frozen=True, gc=False):
-    """A `DEFINE` line with a name, even if the rest of the line is wrong."""
+    """A `DEFINE` line with a name. The rest of the line may be wrong."""
 
     name: Token
     parameters: tuple[Token, ...]
 
     @property
     def word(self) -> str:
-        """The name in capitals, as in the column of instructions."""
+        """The name in capitals, as it appears in the column of instructions."""
         return self.name.text.upper()
 
     @property
@@ -34,7 +34,7 @@ class MacroHead(msgspec.Struct, frozen=True, gc=False):
 
 
 def heads(lines: Iterable[Line]) -> Iterator[MacroHead]:
-    """Heads of all macros in a text."""
+    """Yield the heads of all macros in a text."""
     for line in lines:
         tokens = line.split()[1]
         if len(tokens) > 1 and tokens[0].text.upper() == DEFINE.op and tokens[1].kind is NAME:
@@ -42,13 +42,13 @@ def heads(lines: Iterable[Line]) -> Iterator[MacroHead]:
 
 
 def as_instruction(word: str, parameters: Sequence[str]) -> Instruction:
-    """A macro as an instruction, with its parameters as operands."""
+    """Make an instruction from a macro, with its parameters as operands."""
     operands = tuple(Operand(name=name, takes=_CALL_OPERANDS) for name in parameters)
     return Instruction(op=word, group=RUN, help="", operands=operands)
 
 
 def taken(parameter: str) -> str | None:
-    """The reason why a name cannot be a parameter; None if it can."""
+    """Return the reason why a name cannot be a parameter, or None if it can."""
     if parameter.upper() in (*INSTRUCTIONS, DEFINE.op):
         return f"{quoted(parameter)} is an instruction"
     if parameter.upper() in OPERAND_WORDS:

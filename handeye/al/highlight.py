@@ -1,4 +1,4 @@
-"""Pygments lexer for arm programs, for rich, notebooks and documentation."""
+"""The Pygments lexer for arm programs, used by rich, notebooks and the documentation."""
 
 from typing import ClassVar
 
@@ -16,7 +16,7 @@ def _ops(ops: list[str]) -> words:
 
 
 class ArmLexer(RegexLexer):
-    """The arm language of 1973; the words are from the table of instructions."""
+    """The lexer of the arm language of 1973. Its words come from the table of instructions."""
 
     name = "Arm language (WAVE)"
     aliases: ClassVar = ["armal", "wave"]

@@ -1,4 +1,4 @@
-"""Hints for slips, and for words of other languages."""
+"""Hints for typing slips, and for words of other languages."""
 
 import re
 from typing import Final
@@ -50,31 +50,35 @@ STOP_ALONE: Final = f"it ends the next motion when the hand presses with this fo
 
 
 def elsewhere(word: str) -> str | None:
-    """How this language expresses a word of another language; None if the word is not known."""
+    """Return how this language expresses a word of another language, or None if the word is not known."""
     return _ELSEWHERE.get(word.upper())
 
 
 def with_digits(text: str) -> str | None:
-    """The intended number of a text with letters that look like digits; None if the text is no such number."""
+    """Return the number that was meant by a text with letters that look like digits, or None if the text is no such
+    number.
+    """
     right = text.translate(LOOKALIKES)
     return right if right != text and _PLAIN.fullmatch(right) else None
 
 
 def letters_for_digits(text: str) -> str | None:
-    """A hint for a number with letters instead of digits; None if there are no such letters."""
+    """Return a hint for a number with letters instead of digits, or None if there are no such letters."""
     right = with_digits(text)
     return None if right is None else f"write a digit, not a letter that looks like it: `{right}`"
 
 
 def with_unit(text: str) -> tuple[str, str] | None:
-    """A unit written directly after its number, and the hint for it; None if the text has another form."""
+    """Find a unit written directly after its number. Returns the unit and the hint for it, or None if the text has
+    another form.
+    """
     found = _WITH_UNIT.fullmatch(text)
     said = None if found is None else no_units(found[2])
     return None if found is None or said is None else (found[2], said)
 
 
 def strange(text: str) -> str | None:
-    """A hint for characters outside the language; None if there is none."""
+    """Return a hint for characters outside the language, or None if there are none."""
     first = text[0]
     if first == ":":
         return "a colon ends a label, which begins a line"
@@ -110,6 +114,6 @@ UNIT_WORDS: Final = {
 
 
 def no_units(word: str) -> str | None:
-    """A hint for a word that may be a unit; None if it is not."""
+    """Return a hint for a word that may be a unit, or None if it cannot be one."""
     said = UNIT_WORDS.get(word.lower())
     return None if said is None else f"write numbers without a unit: {said}"

@@ -1,4 +1,6 @@
-"""Scripts that consist of several files: finds the texts that a script requires, and the texts that those require."""
+"""Scripts that consist of several files: finds the texts that a script requires, directly or through other required
+texts.
+"""
 
 import posixpath
 import re
@@ -20,19 +22,19 @@ MAX_FILES: Final = 100  # limit on required files; their total size is limited t
 _LINE: Final = re.compile(rf"^.*\b{REQUIRE}\b.*$", re.ASCII | re.IGNORECASE | re.MULTILINE)
 
 Read = Callable[[str], str]
-"""Returns the text of a file, given by its key, a path from the folder of the main text; raises InvalidInput if the
-file is unreadable.
+"""Function that returns the text of a file. The file is given by its key, which is its path from the folder of the
+main text. Raises InvalidInput if the file is unreadable.
 """
 
 
 def read_script(path: str | Path) -> Source:
-    """Read a text with all texts that it requires; missing files are reported when the text is compiled."""
+    """Read a text with all the texts that it requires. Missing files are reported when the text is compiled."""
     folder = Path(path).parent
     return sewn(read_source(path), lambda key: read_source(folder / key).text)
 
 
 def sewn(source: Source, read: Read) -> Source:
-    """A text with all readable texts that it requires, up to the limits."""
+    """Join a text with all readable texts that it requires, up to the limits."""
     folder, own = PurePath(source.name).parent, own_key(source)
     required: dict[str, Source] = {}
     waiting = [(own, source.text)]
@@ -57,7 +59,7 @@ def sewn(source: Source, read: Read) -> Source:
 
 
 def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
-    """A text with the texts that it requires, taken only from `files` by key."""
+    """Join a text with the texts that it requires. They are taken only from `files`, by key."""
 
     def read(key: str) -> str:
         if key not in files:
@@ -68,17 +70,17 @@ def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
 
 
 def own_key(source: Source) -> str:
-    """Key of the main text."""
+    """Return the key of the main text."""
     return PurePath(source.name).name
 
 
 def key_of(file: str, by: str) -> str:
-    """The key of a file that the text `by` requires: its path from the folder of the main text."""
+    """Return the key of a file that the text `by` requires: its path from the folder of the main text."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(by), file))
 
 
 def required_by(text: str) -> Iterator[Text]:
-    """The files that a text requires directly, in order."""
+    """Yield the files that a text requires directly, in order."""
     for found in _LINE.finditer(text):
         for line in scan(found[0], found.start()):
             tokens = line.split()[1]
@@ -92,7 +94,9 @@ def required_by(text: str) -> Iterator[Text]:
 
 
 def led_by(source: Source, key: str) -> Span | None:
-    """The REQUIRE in the main text that leads to a file, directly or indirectly."""
+    """Find the REQUIRE in the main text that leads to a file, directly or through other files. Returns its span, or
+    None if there is none.
+    """
     texts = {text.key: text.text for text in source.required}
     for file in required_by(source.text):
         waiting, seen = [key_of(file.text, own_key(source))], set[str]()
@@ -124,7 +128,7 @@ class Requirements:
         self.reading = [own_key(self.source)]
 
     def find(self, file: Text) -> Source | Diagnostic | None:
-        """The text to read now, or a diagnostic; None if the limit has already been reported."""
+        """Return the text to read next, or a diagnostic. Returns None if the limit has already been reported."""
         key = key_of(file.text, self.reading[-1])
         found = self.texts.get(key)
         if key.lower().endswith(".toml"):

@@ -1,7 +1,7 @@
-"""The table of instructions, from which parser, checker, formatter and manual are derived.
+"""The table of instructions, from which the parser, the checks, the formatter and the manual are derived.
 
-Words and meanings of the period are from Bolles and Paul, AIM-220 (1973), and from what remains of the arm
-program's manual. Our additions, which no document of the period contains, have `ours` set.
+Words and meanings of the period are from Bolles and Paul, AIM-220 (1973), and from the surviving parts of the
+manual of the arm program. Our additions, which no document of the period contains, have `ours` set.
 """
 
 from typing import Final

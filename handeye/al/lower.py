@@ -31,12 +31,12 @@ from handeye.program.program import SourcePlace, Step
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
 _MODIFIER_KINDS = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
-"""Kinds of modifiers of which a motion can have only one each; all other modifiers are guards."""
+"""Kinds of modifiers that a motion can have only once. All other modifiers are guards."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lowered:
-    """Stages and steps of an expanded program, with the statement of each step, and the RESTOREs of some."""
+    """The stages and steps of an expanded program, with the statement of each step and the RESTOREs of some steps."""
 
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
@@ -51,7 +51,7 @@ def lower(
     *,
     inner: Mapping[str, Name] | None = None,
 ) -> Lowered:
-    """Convert an expanded program to stages and steps, which are valid if no error was reported; `inner` are the
+    """Convert an expanded program to stages and steps. They are valid if no error was reported. `inner` are the
     labels inside macros.
     """
     lowering = _Lowerer(report=report, inner=inner or {})
@@ -90,7 +90,7 @@ def _place(source: Source, statement: Statement) -> SourcePlace:
 
 
 class _Draft(msgspec.Struct, gc=False):
-    """A step whose targets are not known yet; `operation` is None for a statement with an error."""
+    """A step whose targets are not known yet. `operation` is None for a statement with an error."""
 
     statement: Statement
     call: Call
@@ -196,7 +196,7 @@ class _Lowerer:
         self.shiftable = statement.word is not None and statement.word.text == "MOVE"
 
     def modifiers(self, motion: Statement) -> list[Statement]:
-        """Pending modifiers that apply to a motion."""
+        """Return the pending modifiers that apply to a motion."""
         firsts: dict[str, ExpandedStatement] = {}
         fitting = []
         for modifier in self.pending:
@@ -223,7 +223,7 @@ class _Lowerer:
         )  # fmt: skip
 
     def fits(self, modifier: ExpandedStatement, first: ExpandedStatement, motion: Statement) -> bool:
-        """True if a modifier applies to this motion and is the first of its kind."""
+        """Return True if a modifier applies to this motion and is the first of its kind."""
         word = _word(modifier)
         assert motion.word is not None
         fits = INSTRUCTIONS[word.text].fits
@@ -319,7 +319,7 @@ class _Lowerer:
                 draft.operation = replace(draft.operation, searching=True)
 
     def skip(self, index: int) -> int | None:
-        """The step after the skipped instruction; a macro call counts as one instruction."""
+        """Return the step after the skipped instruction. The call of a macro counts as one instruction."""
         draft = self.drafts[index]
         assert draft.statement.word is not None
         if index + 1 == len(self.drafts):
@@ -351,7 +351,7 @@ class _Lowerer:
 
 
 def _shared(one: Call, other: Call) -> int:
-    """Number of outermost calls that both have in common."""
+    """Return the number of outermost calls that two paths of calls have in common."""
     for depth, (a, b) in enumerate(zip(one, other, strict=False)):
         if a != b:
             return depth

@@ -1,4 +1,4 @@
-"""Converts statements to operations; inches, degrees and ounces become SI here."""
+"""Converts statements to operations. Inches, degrees and ounces are converted to SI units here."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -34,8 +34,8 @@ from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look,
 
 PLACE_DEPTH: Final = 3.0 * INCH  # m; the height of an approach
 PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
-"""The first stop of the pin insertion of 1973, N; more than three times the joint friction that can be sensed
-vertically.
+"""The first stop force (N) of the pin insertion of 1973. It is more than three times the joint friction that can be
+sensed vertically.
 """
 SEARCH_STEPS: Final = 3  # to each side
 LINE_STEPS: Final = 4  # to each side, along a line
@@ -54,7 +54,7 @@ class Operands(msgspec.Struct, frozen=True, gc=False):
     places: dict[str, tuple[int, tuple[float, ...]]]
 
     def has(self, key: str) -> bool:
-        """True if an optional operand or word is present."""
+        """Return True if an optional operand or word is present."""
         return self.values[self.places[key][0]] is not None
 
     def number(self, key: str) -> float:
@@ -80,7 +80,7 @@ class Operands(msgspec.Struct, frozen=True, gc=False):
         return self.number(key) if isinstance(self.values[self.places[key][0]], Number) else None
 
     def names(self) -> tuple[str, ...]:
-        """Operands that are names, in order."""
+        """Return the operands that are names, in order."""
         return tuple([value.text for value in self.values if isinstance(value, Name)])
 
     def name(self, key: str) -> str:
@@ -95,7 +95,7 @@ def _operands(statement: Statement) -> Operands:
 
 
 class _Modifiers(msgspec.Struct, frozen=True, kw_only=True):
-    """The settings of a motion that its modifiers make."""
+    """The settings that modifiers make for a motion."""
 
     guards: g.Guards = ()
     press: Vector3 | None = None
@@ -109,7 +109,7 @@ _UNMODIFIED: Final = _Modifiers()
 
 
 def operation(statement: Statement, modifiers: Sequence[Statement]) -> AnyOperation:
-    """The operation of a statement with its modifiers; jumps and skips have no targets yet."""
+    """Make the operation of a statement with its modifiers. Jumps and skips have no targets yet."""
     assert statement.word is not None
     how = _UNMODIFIED
     for modifier in modifiers:
@@ -123,7 +123,7 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> AnyOperat
 
 
 def position(statement: Statement) -> tuple[str, Position]:
-    """Name and position of a `TRANS`."""
+    """Return the name and the position that a `TRANS` defines."""
     operands = _operands(statement)
     x, y, z, o, a, t = operands.vector("[x y z o a t]")
     of = operands.name("part") if operands.has("part") else None
@@ -131,7 +131,7 @@ def position(statement: Statement) -> tuple[str, Position]:
 
 
 def restore(statement: Statement) -> Restore:
-    """The shift that a `RESTORE` adds to its `MOVE`."""
+    """Return the shift that a `RESTORE` adds to its `MOVE`."""
     operands = _operands(statement)
     return Restore(name=operands.name("name"), level=operands.has("LEVEL"))
 

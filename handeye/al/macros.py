@@ -1,4 +1,4 @@
-"""Expands macros: replaces each call by the statements of the macro."""
+"""Expands macros: replaces each call of a macro by the statements of the macro."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -20,8 +20,8 @@ MAX_DEPTH: Final = 20
 
 
 class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
-    """A statement of the expanded program, which is never a macro call; `inside` has the macros that contain it,
-    outermost first.
+    """A statement of the expanded program. It is never the call of a macro. `inside` lists the macros that contain
+    it, the outermost first.
     """
 
     statement: Statement
@@ -31,13 +31,13 @@ class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def macro(self) -> str:
-        """The innermost macro that contains the statement, or ""."""
+        """The innermost macro that contains the statement; empty if there is none."""
         return self.inside[-1] if self.inside else ""
 
     @property
     def jumps_from(self) -> Call:
-        """The call in which the target of the statement's jump is searched; a label given as an operand belongs to
-        the caller.
+        """The call in which the target label of a jump is looked up. A label that was given as an operand belongs
+        to the caller.
         """
         label = self.statement.operands[-1:]
         given = () if self.line is None else self.line.given.values()
@@ -46,14 +46,16 @@ class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
 
 
 def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[ExpandedStatement]:
-    """Statements of the program in order, as far as macros can be expanded."""
+    """Return the statements of the program in order, as far as macros can be expanded."""
     expansion = _Expansion(script=script, report=report)
     expansion.place(script.statements, _Frame())
     return expansion.placed
 
 
 def as_called(script: Script, placed: list[ExpandedStatement]) -> Iterator[Statement]:
-    """Statements of a script and its macros; those of macros with parameters as each call fills them in."""
+    """Yield the statements of a script and of its macros. The statements of a macro with parameters are yielded as
+    each call fills them in.
+    """
     yield from script.statements
     for macro in script.macros.values():
         if not macro.parameters:
@@ -64,7 +66,7 @@ def as_called(script: Script, placed: list[ExpandedStatement]) -> Iterator[State
 
 
 class _Frame(msgspec.Struct, frozen=True):
-    """A call being expanded, or the main text."""
+    """A call that is being expanded, or the main text."""
 
     call: Call = ()
     inside: tuple[str, ...] = ()  # names of the enclosing macros
@@ -98,7 +100,7 @@ class _Expansion:
                 self.placed.append(self.read(statement, frame) if statement.open else frame.placed(statement))
 
     def read(self, statement: Statement, frame: _Frame) -> ExpandedStatement:
-        """A line with parameters, filled in with the operands of the call."""
+        """Fill in the parameters of a line with the operands of the call."""
         assert statement.word is not None
         line = filled(statement, frame.given)
         operands = self.operands(line, INSTRUCTIONS[statement.word.text], frame)
@@ -124,7 +126,7 @@ class _Expansion:
         self.place(macro.body, _Frame(call, inside, given, statement))
 
     def given(self, statement: Statement, macro: Macro, frame: _Frame) -> dict[str, Argument] | None:
-        """Operands of a call, by parameter; None if they are wrong."""
+        """Return the operands of a call by parameter, or None if they are wrong."""
         if not macro.parameters and not statement.open:
             return {}
         names = [parameter.text for parameter in macro.parameters]
@@ -139,7 +141,7 @@ class _Expansion:
     def operands(
         self, line: FilledLine, definition: Instruction, frame: _Frame
     ) -> tuple[Value | None, ...] | None:
-        """Operands of a line; None after reporting a mistake."""
+        """Return the operands of a line, or None after a mistake has been reported."""
         try:
             if len(line.text) > LONGEST_LINE:
                 message = f"with the operands filled in, the line has {len(line.text)} characters"

@@ -1,4 +1,4 @@
-"""Describes operands for the manual and for hover texts in editors."""
+"""Describes operands for the manual, and for the hover texts of editors."""
 
 from typing import Final
 
@@ -14,7 +14,7 @@ _CALLED: Final = {
 
 
 def takes(definition: Instruction, operand: Operand) -> str:
-    """The values that an operand of an instruction accepts, in words."""
+    """Describe the values that an operand of an instruction accepts."""
     kinds = {
         Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
         Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",
@@ -28,12 +28,12 @@ def takes(definition: Instruction, operand: Operand) -> str:
 
 
 def origin(definition: Instruction, operand: Operand) -> str:
-    """The origin of an operand: `ours` or `period`."""
+    """Return the origin of an operand: `ours` or `period`."""
     return "ours" if operand.ours or definition.ours else "period"
 
 
 def part(definition: Instruction) -> str:
-    """The role of an instruction, with its origin."""
+    """Describe the role of an instruction, with its origin."""
     said = f"A {definition.role.value} {'that handeye adds' if definition.ours else 'of the period'}."
     modified = ", ".join(f"`{word}`" for word in definition.fits)
     return f"{said} Modifies {modified}." if modified else said

@@ -1,4 +1,4 @@
-"""Reads operands from tokens, according to the definition of the instruction."""
+"""Reads operands from tokens, as the definition of the instruction says."""
 
 import math
 import re
@@ -20,7 +20,7 @@ _NO_LENGTH = 1e-6
 
 
 class Mistake(Exception):
-    """The first mistake of a line, as a diagnostic."""
+    """Raised at the first mistake of a line, with its diagnostic."""
 
     def __init__(self, code: str, message: str, span: Span, text: str = "", help: str | None = None) -> None:
         super().__init__(message)
@@ -28,7 +28,7 @@ class Mistake(Exception):
 
 
 def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token]) -> tuple[Value | None, ...]:
-    """The value of each operand, None for operands that are left out; raises Mistake."""
+    """Read the value of each operand, or None for an operand that is left out. Raises Mistake."""
     if definition.op in FREE_TEXT:
         return _Reader(definition, head, tokens).read()
     try:
@@ -38,7 +38,7 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
 
 
 def free_text(tokens: Sequence[Token]) -> str:
-    """Text of tokens as on the line, with each blank as a space."""
+    """Return the text of tokens as it stands on the line, with each blank as a space."""
     text, end = "", tokens[0].start
     for token in tokens:
         text += " " * (token.start - end) + token.text
@@ -47,7 +47,7 @@ def free_text(tokens: Sequence[Token]) -> str:
 
 
 def separated(tokens: Sequence[Token]) -> Sequence[Token]:
-    """Tokens without the commas between operands (dialect of 1977); raises Mistake at any other comma."""
+    """Remove the commas between operands (dialect of 1977) from tokens. Raises Mistake at any other comma."""
     commas = [at for at, token in enumerate(tokens) if token.text == ","]
     for at in commas:
         token = tokens[at]
@@ -59,7 +59,7 @@ def separated(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
-    """The cause of a mistake in these operands, if brackets, units or commas show it."""
+    """Return the cause of a mistake in these operands, if brackets, units or commas show it."""
     opened = False
     for token in tokens:
         if token.text == "]" and not opened:
@@ -84,7 +84,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
 
 
 def _is_decimal(tokens: Sequence[Token]) -> bool:
-    """True for two groups of digits separated only by a comma."""
+    """Return True if the tokens are two groups of digits, separated only by a comma."""
     if len(tokens) < 3:
         return False
     whole, comma, part = tokens
@@ -93,7 +93,7 @@ def _is_decimal(tokens: Sequence[Token]) -> bool:
 
 
 def is_unterminated(token: Token) -> bool:
-    """True for a string without its closing quote."""
+    """Return True if the token is a string without its closing quote."""
     return token.kind is STRING and (len(token.text) == 1 or token.text[-1] != '"')
 
 
@@ -137,7 +137,7 @@ class _Reader(msgspec.Struct, gc=False):
         return value
 
     def takes(self, word: str) -> bool:
-        """Consume a keyword if it is the next token; returns whether it was."""
+        """Consume a keyword if it is the next token. Returns True if it was."""
         if self.at == len(self.tokens):
             return False
         token = self.tokens[self.at]
@@ -174,7 +174,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise _unexpected(token)
 
     def axes(self) -> Vector:
-        """Read axes such as `2 X Y`: a vector with 1 along each named axis."""
+        """Read axes such as `2 X Y`. Returns a vector with 1 along each named axis."""
         count, *letters = self.tokens
         for letter in letters:
             if letter.text not in AXES:
@@ -219,7 +219,7 @@ class _Reader(msgspec.Struct, gc=False):
         return Mistake("wrong-operand", message, value.span, help=self.cure(value, operand) or self.usage())
 
     def cure(self, value: Value, operand: Operand) -> str | None:
-        """A hint for a value of the wrong kind."""
+        """Return a hint for a value of the wrong kind."""
         if isinstance(value, Name) and value.text.upper() in INSTRUCTIONS:
             return _begins_a_line(value.text)
         if isinstance(value, Name) and Number in operand.takes:
@@ -299,7 +299,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise Mistake("too-many-operands", message, span, help=help)
 
     def is_too_early(self, token: Token) -> bool:
-        """True if a keyword was read as a name, one operand too early."""
+        """Return True if a keyword was read as a name, one operand too early."""
         read = zip(self.definition.operands, self.values, strict=True)
         return token.kind is NAME and token.text.upper() in {o.word for o, v in read if v is None} - {"", NIL}
 

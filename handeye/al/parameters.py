@@ -1,7 +1,7 @@
-"""Lines of a macro with the operands of a call in place of the parameters.
+"""The lines of a macro, with the operands of a call in place of the parameters.
 
-An operand is read where its parameter stands; a mistake in the operand alone is reported where the operand is
-written.
+An operand is read at the place of its parameter. If only the operand is wrong, the mistake is reported at the place
+where the operand is written.
 """
 
 import re
@@ -22,8 +22,8 @@ _BRACED: Final = re.compile(r"\{([A-Za-z_]\w*)\}", re.ASCII)  # a parameter in a
 
 
 class Argument(Located, frozen=True, gc=False):
-    """An operand of a macro call, at the place where it is written; `call` is the scope of its names, `by` the
-    statement of the call.
+    """An operand of a macro call, at the place where it is written. `call` is the scope of its names, and `by` is
+    the statement of the call.
     """
 
     tokens: tuple[Token, ...]
@@ -33,7 +33,7 @@ class Argument(Located, frozen=True, gc=False):
 
 
 class _Piece(Located, frozen=True, gc=False):
-    """A token of the line, or the argument in place of a parameter."""
+    """A token of the line, or the argument that takes the place of a parameter."""
 
     tokens: tuple[Token, ...]
     text: str
@@ -41,7 +41,7 @@ class _Piece(Located, frozen=True, gc=False):
 
 @dataclass(frozen=True, slots=True)
 class FilledLine:
-    """A line of a macro with arguments filled in; `given` has the arguments by the span of their parameter."""
+    """A line of a macro with arguments filled in. `given` has the arguments by the span of their parameter."""
 
     statement: Statement
     pieces: Sequence[_Piece]
@@ -56,7 +56,7 @@ class FilledLine:
 
     @property
     def tokens(self) -> list[Token]:
-        """Tokens of the operands; arguments have the position of their parameter."""
+        """The tokens of the operands. An argument has the position of its parameter."""
         return [token for piece in self.pieces for token in piece.tokens]
 
     @property
@@ -66,11 +66,11 @@ class FilledLine:
 
     @property
     def calls(self) -> tuple[Statement, ...]:
-        """The calls in which the arguments are written."""
+        """The calls in whose text the arguments are written."""
         return tuple(dict.fromkeys(given.by for given in self.given.values()))
 
     def at_source(self, values: Sequence[Value | None]) -> tuple[Value | None, ...]:
-        """The values, each located where it is written."""
+        """Return the values, each located where it is written."""
         return tuple(
             msgspec.structs.replace(value, start=given.start, end=given.end, use=value.span)
             if value is not None and (given := self.given.get(value.span)) is not None
@@ -79,7 +79,7 @@ class FilledLine:
         )
 
     def located(self, mistake: Diagnostic, call: Statement) -> Diagnostic:
-        """A mistake located at the argument, if only the argument is wrong; else at the line."""
+        """Locate a mistake at the argument if only the argument is wrong, or else at the line."""
         given = self.given.get(mistake.primary.span)
         if given is None or mistake.code == "too-many-operands":
             return replace(mistake, secondary=(Label(span=call.span, text="called here"),))
@@ -87,7 +87,7 @@ class FilledLine:
         return replace(mistake, primary=at, secondary=(used(mistake.primary.span),))
 
     def passed(self, value: Value, call: Call) -> Argument:
-        """An operand of a nested macro call, as an argument."""
+        """Make an argument from an operand of a nested macro call."""
         given = self.given.get(value.span)
         if given is not None:
             return given
@@ -97,7 +97,7 @@ class FilledLine:
 
 
 def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
-    """A line of a macro, or a call, with arguments in place of parameters."""
+    """Fill in a line of a macro, or a call, with arguments in place of parameters."""
     assert statement.word is not None
     words = statement.word.text in FREE_TEXT
     uses = {t.span: given[t.text] for t in parameters_in(statement) if t.text in given}
@@ -106,13 +106,13 @@ def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
 
 
 def parameters_in(statement: Statement) -> Iterator[Token]:
-    """Operands that may be parameters: names, but not the words of a text."""
+    """Yield the operands that may be parameters: names, but not the words of a text."""
     if statement.word is not None and statement.word.text not in FREE_TEXT:
         yield from (token for token in statement.tokens if token.kind is NAME)
 
 
 def braced_in(statement: Statement) -> Iterator[tuple[str, Span]]:
-    """Names in braces in the texts of a line."""
+    """Yield the names in braces in the texts of a line, with their spans."""
     words = statement.word is not None and statement.word.text in FREE_TEXT
     for token in statement.tokens:
         if words or token.kind is STRING:
@@ -120,23 +120,23 @@ def braced_in(statement: Statement) -> Iterator[tuple[str, Span]]:
 
 
 def braced(token: Token) -> Iterator[tuple[str, Span]]:
-    """Names in braces, with their spans."""
+    """Yield the names in braces, with their spans."""
     for found in _BRACED.finditer(token.text):
         yield found[1], Span(start=token.start + found.start(), end=token.start + found.end())
 
 
 def used(parameter: Span) -> Label:
-    """A label at the parameter that an argument replaces."""
+    """Make a label at the parameter that an argument replaces."""
     return Label(span=parameter, text="in the macro it is here")
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:
-    """A label at the parameter that an operand replaces, if it replaces one."""
+    """Make a label at the parameter that an operand replaces. Returns none if the operand replaces no parameter."""
     return () if operand.use is None else (used(operand.use),)
 
 
 def across(one: Operand, other: Operand) -> Span:
-    """The span from one operand to another; only the first if either is an argument."""
+    """Return the span from one operand to another, or only that of the first if either is an argument."""
     return one.span if one.use or other.use else Span(start=one.start, end=other.end)
 
 

@@ -32,12 +32,12 @@ _CONSOLE_WORDS: Final = ("DO", "GO")  # console commands that execute an instruc
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
-    """The syntax tree of a text alone, and its syntax errors; stops after `LIMIT` errors."""
+    """Parse a text alone. Returns its syntax tree and its syntax errors. Stops after `LIMIT` errors."""
     return _parsed(Source(name="", text=text), None)
 
 
 def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
-    """The syntax tree of a text including its required texts, and their syntax errors."""
+    """Parse a text and the texts that it requires. Returns the syntax tree and the syntax errors."""
     return _parsed(source, Requirements(source))
 
 
@@ -156,7 +156,7 @@ class _Parser:
             self.tell(mistake.diagnostic)
 
     def parameter(self, token: Token) -> None:
-        """Add a parameter to the open macro; raises Mistake if the token cannot be a parameter."""
+        """Add a parameter to the open macro. Raises Mistake if the token cannot be a parameter."""
         if token.kind is not NAME:
             said = "the macro names its parameters; a call gives the numbers and vectors"
             message = f"a parameter is a name, not {quoted(token.text)}"
@@ -211,7 +211,7 @@ class _Parser:
         return statement if is_call else replace(statement, operands=operands)
 
     def is_open(self, statement: Statement) -> bool:
-        """True if a line contains a parameter of its macro."""
+        """Return True if a line contains a parameter of its macro."""
         if not self.parameters:
             return False
         names = {token.text for token in parameters_in(statement)} | {n for n, _ in braced_in(statement)}
@@ -225,7 +225,7 @@ class _Parser:
             self.tell(problem("parameter-name-taken", message, label.span, parameter))
 
     def unknown(self, word: Name, line: Line, rest: tuple[Token, ...]) -> None:
-        """Report an unknown word, unless it is a macro whose head has an error."""
+        """Report an unknown word, unless it is the name of a macro whose head has an error."""
         if word.text in self.known:
             return
         if word.text in _CONSOLE_WORDS:
@@ -241,7 +241,7 @@ class _Parser:
         self.tell(problem("unknown-instruction", message, word.span, help=help, meant=meant))
 
     def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> tuple[str | None, Meant | None]:
-        """A hint for an unknown first word, and the text that may have been intended."""
+        """Find a hint for an unknown first word, and the text that was probably meant."""
         label = f"a label ends with a colon: `{written}:`"
         behind = rest[0].text.upper() if rest else ""
         if not rest and line.comment is not None and line.tokens[-1].end == line.end - len(line.comment):

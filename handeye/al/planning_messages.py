@@ -1,4 +1,6 @@
-"""Makes diagnostics from the planner's findings, in the language's units, each at its place in the script."""
+"""Makes diagnostics from the findings of the planner, in the units of the language, each at its place in the
+script.
+"""
 
 import math
 from collections.abc import Callable, Iterable
@@ -44,7 +46,9 @@ _EIGHTHS: Final = 8
 def planning_diagnostics(
     program: Program, arm: NamedArm, findings: Iterable[PlanFinding]
 ) -> list[Diagnostic]:
-    """Diagnostics for planning findings, by position; spans are offsets in the combined text."""
+    """Make diagnostics from the findings of the planner, sorted by position. Spans are offsets in the combined
+    text.
+    """
     phrases = _Phrases(program, arm)
     return arranged(_PHRASES[type(finding)](phrases, finding) for finding in findings)
 
@@ -117,7 +121,7 @@ class _Phrases:
         return self.at_position(found, message, help=help, notes=(f"it reaches its limit {place}",))
 
     def radians(self, name: str | None) -> str | None:
-        """A hint for a position whose angles seem to be in radians."""
+        """Return a hint for a position whose angles seem to be in radians."""
         position = None if name is None else self.program.positions.get(name)
         for angle in () if position is None else position.at[3:]:
             parts = angle / DEGREE / (math.pi / 4)
@@ -128,7 +132,7 @@ class _Phrases:
         return None
 
     def counted(self, name: str) -> str:
-        """`; it is relative to ...` for a position that is relative to a part, else ""."""
+        """Write `; it is relative to ...` if a position is relative to a part, or "" if it is not."""
         position = self.program.positions.get(name)
         of = None if position is None else position.of
         return "" if of is None else f"; it is relative to {quoted(of)}"
@@ -205,7 +209,7 @@ class _Phrases:
         notes: tuple[str, ...] = (),
         secondary: tuple[Label, ...] = (),
     ) -> Diagnostic:
-        """A diagnostic at the position that a finding concerns, or at the word of its motion."""
+        """Make a diagnostic at the position that a finding concerns, or at the word of the motion."""
         name = found.position
         span = self.word_span(found.step) if name is None else self.name_span(found.step, name)
         return problem(found.code, message, span, *secondary, notes=notes, help=help)
@@ -225,19 +229,23 @@ class _Phrases:
         return self.find(step, step.word) or self.span(step)
 
     def name_span(self, number: int, name: str) -> Span:
-        """Span of a position's name in a statement or its modifiers; if neither has the name, of the word."""
+        """Return the span of the name of a position in a statement or its modifiers. If the name is in neither,
+        return the span of the statement's word.
+        """
         step = self.program.steps[number]
         places: tuple[Step | SourcePlace, ...] = (*step.modifiers, step)
         found = (self.find(words, name, behind=1) for words in places)
         return next((span for span in found if span is not None), self.word_span(number))
 
     def modifier_span(self, number: int, word: str) -> Span:
-        """Span of a modifier; of the statement's word if there is none, because `PLACE` has no modifier."""
+        """Return the span of a modifier. If there is none, as with `PLACE`, return the span of the statement's
+        word.
+        """
         found = (self.find(words, word) for words in self.program.steps[number].modifiers)
         return next((span for span in found if span is not None), self.word_span(number))
 
     def find(self, words: Step | SourcePlace, word: str, *, behind: int = 0) -> Span | None:
-        """Span of a word, searched after the first `behind` tokens."""
+        """Find the span of a word, searching after the first `behind` tokens."""
         span = self.span(words)
         text, start = self.whole.find(span.start)
         lines = scan(text.text[start : start + span.end - span.start], span.start)

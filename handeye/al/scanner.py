@@ -1,4 +1,4 @@
-"""Splits text into tokens in one pass; every character is accepted."""
+"""Splits a text into tokens in one pass. Every character is accepted."""
 
 import re
 from enum import Enum
@@ -20,14 +20,14 @@ NAME, NUMBER, STRING, MARK, JUNK = TokenKind  # members by name: looking one up 
 
 
 class Token(Located, frozen=True, gc=False):
-    """A token; its offsets are in the combined text."""
+    """A token. Its offsets are in the combined text."""
 
     kind: TokenKind
     text: str
 
 
 class Line(msgspec.Struct, frozen=True, gc=False):
-    """A line, numbered from 1; `comment` begins at the `;` and has no trailing blanks."""
+    """A line, numbered from 1. `comment` begins at the `;` and has no trailing blanks."""
 
     number: int
     start: int
@@ -37,7 +37,7 @@ class Line(msgspec.Struct, frozen=True, gc=False):
     indented: bool  # starts with a blank
 
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
-        """The tokens of labels, and the tokens after them."""
+        """Split the tokens of a line. Returns the tokens of its labels, and the tokens after them."""
         tokens, at = self.tokens, 0
         if len(tokens) < 2 or tokens[1].text != ":":
             return (), tokens
@@ -47,7 +47,7 @@ class Line(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def is_blank(self) -> bool:
-        """True for an empty line, which ends a macro."""
+        """True if the line is empty, and therefore ends a macro."""
         return not self.tokens and self.comment is None
 
 
@@ -69,7 +69,7 @@ _COMMENT = _TOKEN.groupindex["COMMENT"]
 
 
 def scan(text: str, offset: int = 0) -> list[Line]:
-    """Lines of a text that begins at `offset`; a final newline starts no line."""
+    """Split a text that begins at `offset` into lines. A final newline starts no line."""
     lines: list[Line] = []
     tokens: list[Token] = []
     comment = None

@@ -1,4 +1,4 @@
-"""Statements of a script by word, and the names that they use."""
+"""The statements of a script by word, and the names that they use."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -19,14 +19,14 @@ _NAMED = {
 
 
 def all_statements(script: Script) -> Iterator[Statement]:
-    """Statements of a script and its macros."""
+    """Yield the statements of a script and of its macros."""
     yield from script.statements
     for macro in script.macros.values():
         yield from macro.body
 
 
 def by_word(statements: Iterable[Statement]) -> ByWord:
-    """Statements by their words."""
+    """Group statements by word."""
     found = defaultdict(list)
     for statement in statements:
         if statement.word is not None:
@@ -35,7 +35,7 @@ def by_word(statements: Iterable[Statement]) -> ByWord:
 
 
 def used_names(words: ByWord) -> Used:
-    """All names that refer to an object, by kind."""
+    """Collect all names that refer to an object, by kind."""
     found: dict[Refers, list[Name]] = {refers: [] for refers in Refers}
     for word, statements in words.items():
         for place, refers in _NAMED.get(word, ()):
@@ -47,7 +47,9 @@ def used_names(words: ByWord) -> Used:
 
 
 def pairs(statement: Statement) -> Iterable[tuple[Operand, Value | None]]:
-    """Definitions of operands with their values; empty for a macro call or a statement with an error."""
+    """Pair the definitions of the operands of a statement with their values. Returns none for a macro call or a
+    statement with an error.
+    """
     if statement.word is None or statement.broken or not statement.operands:
         return ()
     return zip(INSTRUCTIONS[statement.word.text].operands, statement.operands, strict=True)
@@ -61,7 +63,7 @@ _UNITS: Final = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0
 
 
 def named_vectors(words: ByWord) -> Vectors:
-    """Named vectors of a script, including the axes."""
+    """Collect the named vectors of a script, including the axes."""
     known: dict[str, tuple[float, ...]] = dict(_UNITS)
     for statement in words.get("VECT", ()):
         if not statement.broken:
@@ -73,7 +75,7 @@ def named_vectors(words: ByWord) -> Vectors:
 
 
 def with_vectors(statement: Statement, known: Vectors) -> Statement:
-    """A statement with vectors in place of their names."""
+    """Replace the names of vectors in a statement by the vectors."""
     named = statement.word is not None and statement.word.text in _TAKE_NAMES
     if not named or statement.broken or not any(isinstance(value, Name) for value in statement.operands):
         return statement

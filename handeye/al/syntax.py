@@ -1,4 +1,4 @@
-"""The syntax tree of an arm program. It has no cycles, so its classes are made with `gc=False`."""
+"""The syntax tree of an arm program. It has no reference cycles, so its classes are made with `gc=False`."""
 
 from typing import ClassVar, Final
 
@@ -11,7 +11,7 @@ LONGEST_LINE: Final = 1000  # characters; steps, plans and traces repeat it for 
 
 
 class Operand(Located, frozen=True, gc=False, kw_only=True):
-    """An operand; `use` is the span of the macro parameter that it replaces, if any."""
+    """An operand. `use` is the span of the macro parameter that the operand replaces, if any."""
 
     use: Span | None = None
 
@@ -48,7 +48,7 @@ Value = Name | Number | Vector | Text
 
 
 class Statement(Located, frozen=True, gc=False):
-    """A line: labels, and an instruction or macro call, which may be missing."""
+    """A line: labels, and an instruction or a macro call. Either may be missing."""
 
     labels: tuple[Name, ...]
     word: Name | None  # instruction in capitals, or macro; None if there are only labels
@@ -68,7 +68,7 @@ class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):
 
 
 class Script(msgspec.Struct, frozen=True, gc=False, kw_only=True):
-    """A whole text, including the texts that it requires."""
+    """A whole script, including the texts that it requires."""
 
     statements: tuple[Statement, ...]
     macros: dict[str, Macro]

@@ -1,4 +1,4 @@
-"""Finds stops and checks that have only one possible outcome, whatever the arm meets."""
+"""Finds stops and checks whose outcome is always the same, whatever the arm meets."""
 
 import math
 import re
@@ -19,7 +19,7 @@ TOLERANCE_M: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class AlwaysFails:
-    """A step that can never have its effect; `cause` is the step that is the reason."""
+    """A step that can never have its effect. `cause` is the step that is to blame, if any."""
 
     code: str
     step: int
@@ -53,7 +53,7 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
-    """Grasps that expect a wider object than the hand was opened for."""
+    """Yield the grasps that expect a wider object than the hand was opened for."""
     least = min(_gaps(graph, graph.which(Open)), default=math.inf)  # no OPEN is too little for less
     grasps: Iterator[tuple[int, Close | Center]] = chain(graph.each(Close), graph.each(Center))
     for number, grasp in grasps:
@@ -71,12 +71,12 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
-    """Gaps (m) of the OPEN steps among `numbers`."""
+    """Return the gaps (m) of the OPEN steps among `numbers`."""
     return [opened.gap for n in numbers if (opened := graph.at(n, Open)) is not None]
 
 
 def _travels(graph: Graph) -> Iterator[AlwaysFails]:
-    """TRAVELs that require more than the length of the motion before."""
+    """Yield the TRAVELs that require a greater distance than the length of the motion before."""
     for number, travel in graph.each(Travel):
         before = graph.last(number, Change)
         changes = (graph.at(n, Change) for n in before)
@@ -91,7 +91,7 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _torques(graph: Graph) -> Iterator[AlwaysFails]:
-    """Stops on a torque while the screwdriver is switched off."""
+    """Yield the stops on a torque while the screwdriver is switched off."""
     tools = graph.each(Tool)
     running = {number for number, tool in tools if tool.speed}
     started: set[int] | None = None
@@ -105,7 +105,7 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _touches(graph: Graph) -> Iterator[AlwaysFails]:
-    """Stops on a touch while the fingers are closed."""
+    """Yield the stops on a touch while the fingers are closed."""
     for number in _guarded(graph, GuardKind.TOUCH):
         last = graph.last(number, Open, Close, Center)
         if last and not any(graph.at(n, Open) for n in last):
@@ -118,14 +118,14 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
-    """Motions with a guard of this kind."""
+    """Yield the motions that have a guard of this kind."""
     for number in graph.which(*(one for one in graph.kinds if one.family == "motion")):
         if any(guard.kind is kind for guard in graph.steps[number].operation.guards):
             yield number
 
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
-    """WAITs that were intended as a delay."""
+    """Yield the WAITs that were intended as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
             message = "`WAIT` stops the run and calls the operator; it is not a delay"
@@ -134,7 +134,7 @@ def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _undoes(graph: Graph) -> Iterator[AlwaysFails]:
-    """Stages that are undone unconditionally."""
+    """Yield the stages that are undone unconditionally."""
     steps = graph.steps
     for number, _ in graph.each(Undo):
         stage = steps[number].stage

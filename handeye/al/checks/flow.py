@@ -1,7 +1,7 @@
-"""Checks of control flow, on the graph of steps.
+"""Checks of control flow, made on the graph of steps.
 
-A statement of a macro becomes several steps, one for each call; it is reported only if it is wrong in every call
-with the same operands.
+A statement of a macro becomes several steps, one for each call of the macro. It is reported only if it is wrong in
+every call with the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -28,7 +28,7 @@ _CURES = {
 
 
 def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
-    """Diagnostics on the control flow of a program without errors; `origins` has the statement of each step."""
+    """Check the control flow of a program without errors. `origins` has the statement of each step."""
     flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
     for check in (flow.tests, flow.rounds, flow.vain, *(_order(flow, order) for order in _ORDERS)):
@@ -38,7 +38,9 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after another one, or with `later` only before it."""
+    """An operation that makes sense only after an operation of another kind, or if `later` is True, only before
+    one.
+    """
 
     code: str
     of: type[Operation]
@@ -120,7 +122,7 @@ class _Flow:
         self.trapped = graph.trapped(graph.which(Wait, Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
-        """Diagnostics of a check that applies to all reachable steps of a statement."""
+        """Yield the diagnostics of a check that applies to all reachable steps of a statement."""
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
             return
@@ -130,7 +132,7 @@ class _Flow:
                 yield diagnostic
 
     def unreachable(self) -> Iterator[Diagnostic]:
-        """The first statement of each unreachable part, unless it only follows an endless loop."""
+        """Report the first statement of each unreachable part, unless the part only follows an endless loop."""
         if len(self.reached) == len(self.graph.steps):
             return
         reached = {self.span(number) for number in self.reached}
@@ -145,7 +147,7 @@ class _Flow:
             before = lost
 
     def loops(self) -> Iterator[Diagnostic]:
-        """Loops without an exit, each reported once."""
+        """Report the loops without an exit, each once."""
         known: set[int] = set()
         for number in sorted(self.trapped & self.reached, reverse=True):
             loop = set() if number in known else self.graph.loop(number, known)
@@ -167,7 +169,7 @@ class _Flow:
         return problem(code, message, self.word(number).span, *head, notes=(note,))
 
     def tests(self) -> Iterator[Finding]:
-        """Tests of errors that cannot be pending at that point."""
+        """Report the tests of errors that cannot be pending at the place of the test."""
         raised, actions = self.incoming()
         for number, operation in self.graph.each(Test):
             if not actions[number]:
@@ -181,7 +183,7 @@ class _Flow:
                 yield number, self.problem("test-of-no-effect", number, message, help=help)
 
     def rounds(self) -> Iterator[Finding]:
-        """Searches and counts that repeat the same round forever."""
+        """Report the searches and counts that repeat the same round forever."""
         reported: dict[int, Span] = {}
         for jump, cause in stale_rounds(self.graph):
             word = self.word(jump).text
@@ -203,13 +205,13 @@ class _Flow:
             yield jump, self.problem(code, jump, message, there, help=help)
 
     def vain(self) -> Iterator[Finding]:
-        """Stops and checks with only one possible outcome."""
+        """Report the stops and checks whose outcome is always the same."""
         for found in always_failing(self.graph):
             cause = () if found.cause is None else (Label(span=self.span(found.cause), text="by this"),)
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
 
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
-        """For each test, the errors that can be pending there, and the actions that can raise them."""
+        """Return, for each test, the errors that can be pending there, and the actions that can raise these errors."""
         steps, onward = self.graph.steps, self.graph.onward
         tests = self.graph.which(Test)
         raised: dict[int, set[int]] = {number: set() for number in tests}
@@ -244,7 +246,9 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """True if a test skips only the next test, of an error that can be pending, and both lead to the same step."""
+        """Return True if a test skips only the next test, which tests for an error that can be pending, and if both
+        tests lead to the same step.
+        """
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)
         if behind is None or second is None or second.number not in raised[behind]:
@@ -287,7 +291,9 @@ Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """The jumps that repeat the same round of a search or count; the cause is None if nothing advances the round."""
+    """Yield the jumps that repeat the same round of a search or count, each with the step that restarts it. The
+    step is None if nothing advances the round.
+    """
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))
     places = searches | moves
@@ -306,7 +312,9 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """A jump back that restarts the search or count in every round; none if another path leads to the end."""
+    """Yield the jump back if it restarts the search or count in every round. If another path leads to the end,
+    yield nothing.
+    """
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
         return
     if target in circles()[jump]:

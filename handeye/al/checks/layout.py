@@ -1,4 +1,4 @@
-"""Checks of layout: indentation and blank lines that suggest a meaning that they do not have."""
+"""Checks of layout: indentation and blank lines that suggest a wrong meaning."""
 
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -16,7 +16,7 @@ _MIN_BODY = 2  # steps: more than a skip skips
 
 
 def check_layout(script: Script, source: Source) -> Iterator[Diagnostic]:
-    """Warnings on the layout of a script without errors."""
+    """Yield warnings about the layout of a script without errors."""
     for statements in (script.statements, *(macro.body for macro in script.macros.values())):
         yield from _bodies(statements, source)
     ending = [macro for macro in script.macros.values() if macro.body and _modifies(macro.body[-1])]
@@ -30,7 +30,9 @@ def check_layout(script: Script, source: Source) -> Iterator[Diagnostic]:
 
 
 def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnostic]:
-    """Skips followed by several lines that are indented deeper, as if all of them were skipped."""
+    """Report skips that are followed by several lines with deeper indentation, as if all of these lines were
+    skipped.
+    """
     for number, statement in enumerate(statements):
         skip = statement.word
         if number == 0 or skip is None or skip.text not in SKIPS:
@@ -50,7 +52,7 @@ def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnos
 
 
 def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
-    """Words of the first steps after a skip, up to a label, at most `_MIN_BODY`."""
+    """Return the words of the first steps after a skip, up to a label, at most `_MIN_BODY`."""
     words: list[Name] = []
     for number in range(skip + 1, len(statements)):
         word = statements[number].word
@@ -62,7 +64,7 @@ def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
 
 
 def _column(word: Name, source: Source) -> int:
-    """Column of a word, from 0, with tabs expanded."""
+    """Return the column of a word, from 0, with tabs expanded."""
     text, start = source.find(word.start)
     return len(text.text[text.text.rfind("\n", 0, start) + 1 : start].expandtabs())
 
@@ -73,7 +75,7 @@ def _modifies(statement: Statement) -> bool:
 
 
 def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnostic]:
-    """A macro that ends in a modifier, separated from its motion by blank lines."""
+    """Report a macro that ends in a modifier, if blank lines separate the modifier from its motion."""
     modifier, motion = macro.body[-1].word, behind.word
     assert modifier is not None
     fits = {*INSTRUCTIONS[modifier.text].fits} - {*_OPENING_MOTIONS}

@@ -29,7 +29,9 @@ _DECLARING = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 def check_names(
     statements: Sequence[Statement], words: ByWord, used: Used, taught: Taught
 ) -> list[Diagnostic]:
-    """Diagnostics for names, including those of macros, that are unknown or defined twice."""
+    """Check names, including the names in macros. Returns a diagnostic for each name that is unknown or defined
+    twice.
+    """
     declared = {
         op: [name for s in words.get(op, ()) if s.operands and isinstance(name := s.operands[0], Name)]
         for op in _DECLARING
@@ -59,7 +61,7 @@ def check_names(
 
 
 def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
-    """Pairs of operands that would be valid in the other order."""
+    """Report pairs of operands that would be valid in the other order."""
     labels = {label.text for statement in statements for label in statement.labels}
     known = {**known, Refers.LABEL: labels}
     for statement in statements:
@@ -93,7 +95,7 @@ def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[
 
 
 def _twice(what: str, names: list[Name], taken: Mapping[str, str]) -> Iterator[Diagnostic]:
-    """Errors for names that are defined again; `taken` gives the reason why some names are not free."""
+    """Report names that are defined again. `taken` gives, for some names, the reason why they are not free."""
     first: dict[str, Name] = {}
     for name in names:
         before, why = first.setdefault(name.text, name), taken.get(name.text)

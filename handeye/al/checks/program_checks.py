@@ -25,8 +25,8 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledScript:
-    """A script with the intermediate results of its compilation; in `statements`, macros with parameters appear as
-    they are called.
+    """A script with the intermediate results of its compilation. In `statements`, each macro with parameters
+    appears as it is called.
     """
 
     source: Source
@@ -40,7 +40,9 @@ class CompiledScript:
 
 
 def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]) -> list[Diagnostic]:
-    """The diagnostics of all checks of a whole program; `positions` are the taught and the written positions."""
+    """Run all checks of a whole program and return their diagnostics. `positions` are the taught positions and the
+    positions written in the script.
+    """
     graph = Graph(whole.lowered.steps)
     found = check_flow(graph, whole.lowered.origins)
     found += check_sights(whole.words, taught)
@@ -53,7 +55,7 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
 
 
 def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Warnings for unused names, except on lines that are never executed."""
+    """Return warnings for unused names, except on lines that are never executed."""
     lost = {_line(whole.source, d) for d in found if d.code == "unreachable-code"}
     unused = [
         *unused_parameters(whole.script),
@@ -68,7 +70,7 @@ def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnost
 
 
 def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
-    """Key of the file, and line, of a diagnostic."""
+    """Return the key of the file, and the line, of a diagnostic."""
     text, offset = source.find(diagnostic.primary.span.start)
     return text.key, text.position(offset)[0]
 
@@ -77,8 +79,8 @@ _POSITION_KINDS: Final = (Refers.POSITION, Refers.TARGET)
 
 
 def check_here(placed: Sequence[ExpandedStatement], known: Container[str]) -> Iterator[Diagnostic]:
-    """An error for each use of a position before the `HERE` that defines it, in text order; `known` are the taught
-    and the written positions.
+    """Report each use of a position before the `HERE` that defines it, in text order. `known` are the taught
+    positions and the positions written in the script.
     """
     defined: dict[str, int] = {}
     for number, item in enumerate(placed):
@@ -117,8 +119,8 @@ _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 def check_unused(
     script: Script, statements: Iterable[Statement], words: ByWord, used: Used, source: Source
 ) -> Iterator[Diagnostic]:
-    """Warnings for unused names in a script without errors. Taught positions do not count, because another script
-    may use them.
+    """Report unused names in a script without errors. Taught positions do not count, because another script may use
+    them.
     """
     targets = {name.text for name in used[Refers.LABEL]}
     for statement in statements:
@@ -143,7 +145,9 @@ def check_unused(
 
 
 def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagnostic]:
-    """All diagnostics; a jump too far back and an unused label that it may refer to are reported as one mistake."""
+    """Join the diagnostics. If a jump goes too far back and an unused label may be the label that it means, the two
+    are reported as one mistake.
+    """
     left, merged = list(unused), []
     for diagnostic in found:
         if diagnostic.code in _TOO_FAR:
@@ -158,7 +162,7 @@ def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagn
 
 
 def _in_comments(source: Source, refers: tuple[Refers, ...]) -> dict[str, int]:
-    """First operands of the instructions in comments, with their lines."""
+    """Find the first operands of instructions that stand in comments. Returns the line of each."""
     words = {i.op for i in INSTRUCTIONS.values() if i.operands and i.operands[0].refers in refers}
     found: dict[str, int] = {}
     for comment in _COMMENTED_OUT.finditer(source.text):
@@ -180,7 +184,7 @@ _NEEDS: Final = {
 
 
 def check_sights(words: ByWord, taught: Taught) -> Iterator[Diagnostic]:
-    """Diagnostics for vision instructions, in a script whose names are valid."""
+    """Check the vision instructions of a script whose names are valid."""
     for op, needs in _NEEDS.items():
         for statement in words.get(op, ()):
             name = statement.operands[0] if statement.operands else None
@@ -202,7 +206,7 @@ def _not_described(
 
 
 def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
-    """Comparisons with a picture that was taken without `HOLD`."""
+    """Report comparisons with a picture that was taken without `HOLD`."""
     looks: dict[str, list[tuple[Name, bool]]] = {}
     for look in words.get("LOOK", ()):
         name, hold = look.operands
@@ -230,7 +234,7 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
 
 
 def check_parameters(script: Script) -> Iterator[Diagnostic]:
-    """Warnings for words in braces, in the texts of a macro, that name no parameter of the macro."""
+    """Report words in braces, in the texts of a macro, that name no parameter of the macro."""
     for macro in script.macros.values():
         known = {parameter.text for parameter in macro.parameters}
         for name, span in (found for s in macro.body if known for found in braced_in(s)):
@@ -242,7 +246,7 @@ def check_parameters(script: Script) -> Iterator[Diagnostic]:
 
 
 def unused_parameters(script: Script) -> Iterator[Diagnostic]:
-    """Warnings for parameters that no line of their macro uses."""
+    """Report parameters that no line of their macro uses."""
     for macro in script.macros.values():
         used = {name for line in macro.body for name, _ in braced_in(line)}
         used |= {token.text for line in macro.body for token in parameters_in(line)}

@@ -1,7 +1,7 @@
-"""Finds RESTOREs of differences that are not saved on any path to them.
+"""Finds RESTOREs of differences that are not saved on any path leading to them.
 
-A difference that is saved from the goal to which it is restored follows a moving reference, and is allowed to start
-at zero.
+A difference may be saved relative to the goal to which it is restored. It then follows a moving reference, and is
+allowed to start at zero.
 """
 
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ from handeye.program.motion_operations import Move
 
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
-    """Warnings for RESTOREs that are wrong in every call; names without any SAVE are left to `check_names`."""
+    """Report RESTOREs that are wrong in every call. Names without any SAVE are left to `check_names`."""
     saves = {number: _name(lowered.origins[number]) for number in graph.which(Save)}
     first: dict[str, Name] = {}
     for save in saves.values():
@@ -49,7 +49,7 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """True if the difference is saved relative to the goal of this MOVE, before the next MOVE."""
+    """Return True if the difference is saved relative to the goal of this MOVE, before the next MOVE."""
     seen: set[int] = set()
     waiting = list(graph.onward[move])
     while waiting:
@@ -66,7 +66,8 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
 
 
 def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
-    """For each step, the bit set of the names that may have been saved before it; None if the step is unreachable.
+    """Return, for each step, the names that may have been saved before it, as a bit set, or None if the step is
+    unreachable.
 
     The sets are propagated forwards through the steps until nothing changes.
     """
