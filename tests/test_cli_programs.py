@@ -62,7 +62,7 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
         ("world --task block_task:HALF",
          "`block_task:HALF` is not a task: an instance of a class derived from handeye.Task"),
         ("world --task clock-TASK", "there is no task `clock-TASK`; "),
-        ("world --task :x", "name a task as MODULE:NAME, such as my_task:TASK; `:x` is not"),
+        ("world --task :x", "name a task as MODULE:NAME, such as my_task:TASK, not `:x`"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_taken_is_told_in_a_sentence(command: Command, words: str, said: str) -> None:

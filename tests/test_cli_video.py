@@ -147,7 +147,7 @@ REFUSALS = {
         "2",
         "--seconds",
         "2",
-    ): "give either the length or the speed of a video: each follows from the other",
+    ): "give either the length or the speed of a video, not both: each determines the other",
     ("--speed", "1e-9"): "at 1e-09 times the speed of the run, the video would take ",
     ("--camera", "nowhere"): "no camera nowhere; there are orbit, follow, tv, studio, pump, work, belt",
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",

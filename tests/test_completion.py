@@ -63,7 +63,7 @@ def test_bash_completes_a_command(command: Command, home: Path) -> None:
 
 @pytest.mark.parametrize(
     ("named", "found"),
-    [("/bin/tcsh", "the variable SHELL names `tcsh`"), ("", "the variable SHELL names none of them")],
+    [("/bin/tcsh", "the variable SHELL names `tcsh`"), ("", "the variable SHELL names no shell")],
 )
 def test_for_an_unknown_shell_nothing_is_written(
     command: Command, home: Path, monkeypatch: pytest.MonkeyPatch, named: str, found: str

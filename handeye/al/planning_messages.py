@@ -151,7 +151,7 @@ class _Phrases:
             into = f"would go {depth} into {quoted(found.fixture)}"
         place, help = (
             self.along(found.step, found.along),
-            "add a position on the way that leads around it or higher",
+            "add a position on the way that leads the hand around the obstacle or over it",
         )
         if self.goal(found.step) is None:
             place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place

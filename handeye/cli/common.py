@@ -118,8 +118,8 @@ NoKeep = Annotated[
     bool,
     Parameter(
         name="--no-keep",
-        help="Keep no record of the run. By default it is saved in a new folder in `runs`, which keeps the "
-        "newest ten runs.",
+        help="Keep no record of the run. By default the run is saved in a new folder in `runs`, where only the newest "
+        "ten runs are kept.",
     ),
 ]
 CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")

@@ -48,7 +48,7 @@ def _shell_of_the_user() -> Shell:
     named = Path(os.environ.get("SHELL", "")).name
     if named in SHELLS:
         return SHELLS[named]
-    found = f"the variable SHELL names `{named}`" if named else "the variable SHELL names none of them"
+    found = f"the variable SHELL names `{named}`" if named else "the variable SHELL names no shell"
     raise BadArgument(f"completion is available for bash, zsh and fish, but {found}: choose one with --shell")
 
 

@@ -35,8 +35,8 @@ def faults(
     stage: Annotated[
         str | None,
         Parameter(
-            help="Stage at which faults begin that can begin during the work. Default: "
-            "the usual stage of each."
+            help="Stage at which a fault begins, if it can begin during the work. Default: the usual stage of "
+            "each fault."
         ),
     ] = None,
     n: Annotated[
@@ -51,8 +51,8 @@ def faults(
         Path | None,
         Parameter(
             help="Folder for a run without faults in each world, created if missing. A fault that begins at a "
-            "later stage then starts from a checkpoint of that run. By default each fault takes a whole run. The "
-            "outcome is the same."
+            "later stage then starts from a checkpoint of that run. By default a whole run is made for each "
+            "fault. The outcomes are the same in both ways."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,

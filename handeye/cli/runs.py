@@ -48,7 +48,7 @@ Live = Annotated[
     bool,
     Parameter(
         help="With --step and piped commands: print each line as it begins, and accept `pause` and `pace` during "
-        "the run, as on a terminal. Send a command only after the answer to the last one."
+        "the run, as on a terminal. Send each command only after the answer to the previous one."
     ),
 ]
 OnStop = Annotated[

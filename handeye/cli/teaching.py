@@ -29,11 +29,14 @@ if TYPE_CHECKING:
     from handeye.teaching.workplace import Workplace
 
 TaughtFile = Annotated[
-    Path | None, Parameter(name="--taught", help="Taught file. Default: the one of `assemble`.")
+    Path | None,
+    Parameter(name="--taught", help="Taught file. Default: the taught file that `assemble` uses."),
 ]
 Looking = Annotated[bool, Parameter(name="--look", help="Calibrate the camera first, as `assemble` does.")]
-From = Annotated[Path | None, Parameter(name="--from", help="Start from the cell of this checkpoint.")]
-Keep = Annotated[Path | None, Parameter(help="At the end, save the cell to this checkpoint.")]
+From = Annotated[
+    Path | None, Parameter(name="--from", help="Start with the cell in the state of this checkpoint.")
+]
+Keep = Annotated[Path | None, Parameter(help="At the end, save the state of the cell as this checkpoint.")]
 
 
 @Parameter(name="*")

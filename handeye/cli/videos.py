@@ -40,7 +40,7 @@ def video(
     size: Size = "480x360",
     seconds: Annotated[float | None, Parameter(help="Length of the video in seconds. Default: 14.")] = None,
     speed: Annotated[
-        float | None, Parameter(help="Instead of a length: how many times faster than the run.")
+        float | None, Parameter(help="Instead of --seconds: how many times faster than the run.")
     ] = None,
     first: Annotated[
         str | None,
@@ -57,8 +57,7 @@ def video(
     """Make a video of a recorded run, without simulating it again.
 
     An animated WebP (for a README), a WebM or an MP4; browsers play all three. Long waits for the camera's mechanism
-    are cut. With a length, short stages play slower so that each can be seen; with a speed, all stages play at
-    that speed.
+    are cut. Short stages play slower, so that each can be seen; with --speed, all stages play at that speed.
 
     ```
     handeye video pump

@@ -36,7 +36,8 @@ def view(
     teach: Annotated[
         Path | None,
         Parameter(
-            help="Teach positions instead, as `handeye teach` does. Give a taught file, or its script."
+            help="Teach positions instead of running a plan, as `handeye teach` does. Give a taught file, or its "
+            "script."
         ),
     ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0: any free port.")] = 0,
@@ -48,9 +49,9 @@ def view(
 ) -> int:
     """Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
 
-    Prints the address to open, which contains a secret and works on this computer only. Several pages can watch, one
-    controls; watching neither changes nor slows the run. Exit codes are those of `run`, and with --teach
-    those of `teach`; for a recorded run the code is 0 when Ctrl-C ends it.
+    Prints the address to open, which contains a secret and works on this computer only. Several pages can
+    show the run, but only one controls it; showing neither changes nor slows the run. Exit codes are those of `run`,
+    and with --teach those of `teach`; for a recorded run the code is 0 when Ctrl-C ends it.
     """
     from handeye.cli.job import Job, work
     from handeye.core import resources

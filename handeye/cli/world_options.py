@@ -46,9 +46,9 @@ class ErrorOptions:
         list[str] | None,
         Parameter(
             help="Errors, or groups of errors, to switch off, separated by commas; `handeye world` lists their "
-            "names. `assemble`, `run` and `trials assembly` also take senses (vision, touch, search, force, "
-            "centring): without one, the program relies on its plan. They also take macros that the program "
-            "calls, and skip them: such as HEADS and TOOLS, which check screws and tools of the pump.",
+            "names. `assemble`, `run` and `trials assembly` also accept senses (vision, touch, search, force, "
+            "centring): without a sense, the program relies on its plan. These commands also accept macros of the "
+            "program, and skip them: for example HEADS and TOOLS, which check screws and tools of the pump.",
             consume_multiple=False,
         ),
     ] = None

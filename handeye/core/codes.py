@@ -34,7 +34,7 @@ def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
 
 CODES: Final[dict[str, Code]] = {
     "always-undone": _warning("a stage is undone without a test before it", "MOVE P\nUNDO STAGE"),
-    "aoj-without-search": _warning("there is no SEARCH before an AOJ on any path to it", "L: MOVE T\nAOJ L"),
+    "aoj-without-search": _warning("no SEARCH can be executed before an AOJ", "L: MOVE T\nAOJ L"),
     "axis-count": _error(
         "the count of a FREE or SPIN does not match its number of axes", "FREE 2 X\nCHANGE X 1"
     ),
@@ -55,7 +55,10 @@ CODES: Final[dict[str, Code]] = {
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
-    "endless-loop": _warning("a loop moves the arm, and only an untested error ends it", "L: MOVE T\nJUMP L"),
+    "endless-loop": _warning(
+        "a loop moves the arm, and only an error that the program does not test can end it",
+        "L: MOVE T\nJUMP L",
+    ),
     "error-never-raised": _warning(
         "a test names an error that the action before it cannot raise", "OPEN 1\nSKIPE 23\nPARK"
     ),
@@ -111,7 +114,7 @@ CODES: Final[dict[str, Code]] = {
     "modifier-twice": _error("a motion has two modifiers of one kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
     "never-saved": _warning(
-        "there is no SAVE of a restored difference on any path to it", "MOVE T\nRESTORE H"
+        "no SAVE of the difference can be executed before a RESTORE", "MOVE T\nRESTORE H"
     ),
     "number-out-of-range": _error("a number is too small or too large for its operand", "OPEN 5"),
     "opened-too-little": _warning(
@@ -137,7 +140,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "recursive-macro": _error("a macro uses itself", "DEFINE A\nOPEN 1\nA\n\nA"),
     "require-circle": _error(
-        "a file requires itself, or one that requires it",
+        "a file requires itself, directly or through another file",
         "REQUIRE pins.al\nPARK",
         {"pins.al": "REQUIRE gasket.al", "gasket.al": "REQUIRE pins.al"},
     ),
@@ -148,9 +151,9 @@ CODES: Final[dict[str, Code]] = {
         {"pins.al": "PARK"},
     ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
-    "save-without-move": _warning("there is no MOVE before a SAVE on any path to it", "CLOSE\nSAVE H"),
+    "save-without-move": _warning("no MOVE can be executed before a SAVE", "CLOSE\nSAVE H"),
     "search-begun-anew": _warning(
-        "a SEARCH is inside its own loop, so that every round starts it again",
+        "a SEARCH is inside its own loop, so every round of the loop restarts the search",
         "L: SEARCH .07\nMOVE T\nSTOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
     "search-stands-still": _warning(
@@ -169,7 +172,7 @@ CODES: Final[dict[str, Code]] = {
         "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
     ),
     "specific-without-general": _warning(
-        "there is no GENERAL before a SPECIFIC on any path to it", "LOOK V\nSPECIFIC BASE V"
+        "no GENERAL can be executed before a SPECIFIC", "LOOK V\nSPECIFIC BASE V"
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
@@ -201,9 +204,7 @@ CODES: Final[dict[str, Code]] = {
     "travel-too-long": _warning(
         "a TRAVEL has a minimum above the length of the motion before it", "CHANGE Z .6\nTRAVEL .7 .9"
     ),
-    "travel-without-change": _warning(
-        "there is no CHANGE before a TRAVEL on any path to it", "PARK\nTRAVEL .1 .2"
-    ),
+    "travel-without-change": _warning("no CHANGE can be executed before a TRAVEL", "PARK\nTRAVEL .1 .2"),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
     "unit-written": _error("a unit follows a number", "OPEN 1.5 in"),

@@ -163,7 +163,7 @@ def _loaded(words: str) -> AnyTask:
     """Import the task MODULE:NAME; raises InvalidInput if there is none, or if the import fails."""
     module, _, name = words.partition(":")
     if not all(part.isidentifier() for part in (*module.split("."), name)):
-        raise BadArgument(f"name a task as MODULE:NAME, such as my_task:TASK; {quoted(words)} is not")
+        raise BadArgument(f"name a task as MODULE:NAME, such as my_task:TASK, not {quoted(words)}")
     if module.partition(".")[0] != "handeye" and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())  # last: nothing there takes the place of what is installed
     found = loaded(words, "the task ")

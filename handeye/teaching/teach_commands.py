@@ -199,7 +199,7 @@ def _along(axis: str, size: float) -> Vector3:
     return x, y, z
 
 
-_TABLE_HELP: Final = "move the hand along an axis of the table; or `table turn z 10`"
+_TABLE_HELP: Final = "move the hand along an axis of the table, or turn it about one: `table turn z 10`"
 _HAND_HELP: Final = (
     "move the hand along one of its own axes (z is its pointing direction); or `hand turn y 5`"
 )

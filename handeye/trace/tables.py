@@ -50,7 +50,9 @@ def _joints(trace: Trace) -> Table:
         for number, name in enumerate(motion.names)
         for what, values in (("position", motion.joints), ("rate", motion.rates), ("torque", motion.efforts))
     ]
-    gap = Column(name="gap", about="opening of the fingers by the sensor", unit="m", values=motion.gaps)
+    gap = Column(
+        name="gap", about="opening of the fingers, as the gap sensor reads it", unit="m", values=motion.gaps
+    )
     about = "What the sensors measured at the end of each servo period, and the commands of that period."
     if trace.thinned:
         about += " The trace is thinned: it holds some of the periods, not all."
@@ -70,7 +72,7 @@ def _forces(trace: Trace) -> Table:
         ("force", "force of the hand on its surroundings", "N", forces.force),
         (
             "moment",
-            "moment of the hand on its surroundings about its tool centre point",
+            "moment that the hand exerts on its surroundings, about the tool centre point",
             "N m",
             forces.moment,
         ),

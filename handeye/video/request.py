@@ -36,7 +36,9 @@ class VideoRequest:
                 f"{LARGEST} pixels"
             )
         if self.seconds is not None and self.speed is not None:
-            raise BadArgument("give either the length or the speed of a video: each follows from the other")
+            raise BadArgument(
+                "give either the length or the speed of a video, not both: each determines the other"
+            )
         if self.seconds is not None and not (_is_number(self.seconds) and 0 < self.seconds <= LONGEST):
             raise BadArgument(
                 f"the length of a video must be more than 0 and at most {LONGEST:g} s, not {self.seconds} s"

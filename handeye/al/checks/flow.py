@@ -161,7 +161,11 @@ class _Flow:
             for target in self.graph.onward[number]
             if target is not None and target <= number
         )
-        code, message, note = "endless-loop", "this loop has no exit", "only an untested error ends it"
+        code, message, note = (
+            "endless-loop",
+            "this loop has no exit",
+            "only an error that the program does not test can end this loop",
+        )
         if not any(self.graph.steps[n].operation.takes_time for n in loop):
             code, message = "idle-loop", "this loop has no exit, and nothing moves in it"
             note = "the run would stop here and call the operator"

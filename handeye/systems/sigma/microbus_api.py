@@ -39,7 +39,7 @@ class Microbus:
             clock_spread: greatest clock error, as a fraction, for example .005.
         """
         if not 0 <= clock_spread < 1:
-            raise BadArgument(f"clocks are off by a share of 0 to 1, not by {clock_spread:g}")
+            raise BadArgument(f"the clock error must be a fraction from 0 to 1, not {clock_spread:g}")
         self._bus = WiredBus(defects=[defect(text) for text in faults], seed=seed, clock_spread=clock_spread)
         self._log: list[AnyBusEvent] = []
         self._bus.tell.append(self._log.append)

@@ -104,24 +104,24 @@ def arm() -> Iterator[Quantity]:
             f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over its torques in both "
             'directions. Data sheet of 1974: "8 bits or more".'),
         group("arm.drive_gain", numbered(Normal, *[1.0] * 6), "%",
-            "True torque of a drive divided by the commanded torque.", least=-90.0,
+            "Relative deviation of a drive's true torque from the commanded torque.", least=-90.0,
             unsourced="a linear current amplifier is as accurate as its resistors, and 1 % is the class of the E96 "
                       f"series (IEC 60063); the error of the motors is not known. {DOUBLED}"),
         _friction(),
         group("arm.damping", numbered(Uniform, *[30.0] * 6), "%",
-            "True viscous friction of a joint divided by the controller's value.", least=-90.0,
+            "Relative deviation of a joint's true viscous friction from the controller's value.", least=-90.0,
             unsourced="the friction of robot joints changes much as they warm up (Bittencourt and others, IROS 2010; "
                       "Simoni "
             f"and others, Robotica 2017), but none of the Stanford arm was measured. {DOUBLED}"),
         group("arm.armature", numbered(Uniform, *[5.0] * 6), "%",
-            "True inertia of a drive divided by the controller's value.", least=-90.0,
+            "Relative deviation of a drive's true inertia from the controller's value.", least=-90.0,
             unsourced=f"no data sheet of the arm's motors is known. {DOUBLED}"),
         group("arm.link_mass", numbered(Normal, *[3.0] * 6), "%",
-            "True mass of each link divided by the controller's value.", least=-90.0,
+            "Relative deviation of a link's true mass from the controller's value.", least=-90.0,
             unsourced=f"the masses were published without their accuracy. The arm weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-            "True distance of each link's centre of mass from its joint, divided by the controller's "
-            "value.", least=-90.0,
+            "Distance of a link's centre of mass from its joint: relative deviation of the true value from the "
+            "controller's.", least=-90.0,
             unsourced="the centres of mass were also published without their accuracy. The arm weighs its links. "
                 f"{DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
@@ -147,7 +147,8 @@ def _friction() -> Iterator[Quantity]:
         "arm.friction", dict(others), _TORQUES[1:],
         f"{what} Inferred from the paper, where the released arm stays in place: joints 2 and 3 hold half a step of "
         f"their torques and the gravity that remains after the arm has weighed its links (at the parked posture, "
-        "in the worst of 200 worlds, .25 N m and .7 N); the wrist holds half a step.", nominal=means[1:], least=0.0,
+        "in the worst of 200 worlds, .25 N m and .7 N); the joints of the wrist hold half a step of their torques.",
+        nominal=means[1:], least=0.0,
     )  # fmt: skip
 
 
@@ -180,7 +181,7 @@ def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
     """Yield, for each named kind of shape, the relative error of its coefficient of friction."""
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
-        "Coefficients of friction divided by those of the drawing.", least=-100.0,
+        "Relative deviation of the coefficients of friction from those of the drawing.", least=-100.0,
         unsourced="two laboratories measure different friction for the same pair of metals (VAMAS round robin, Wear "
                   f"114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
     )  # fmt: skip

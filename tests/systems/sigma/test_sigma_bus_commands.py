@@ -247,7 +247,7 @@ def test_the_log_from_python_is_that_of_the_port() -> None:
         (lambda bus: bus.pause(-1), "a time on the bus is 0 to 86400 s, not -1 s"),
         (lambda bus: bus.diagram(1, 0), "a diagram must end after its beginning"),
         (lambda _: handeye.Microbus(faults=["dead:Q"]), "no microcomputer is called `Q`"),
-        (lambda _: handeye.Microbus(clock_spread=2), "clocks are off by a share of 0 to 1"),
+        (lambda _: handeye.Microbus(clock_spread=2), "the clock error must be a fraction from 0 to 1"),
     ],
 )
 def test_a_wrong_call_from_python_is_refused_in_a_sentence(

@@ -219,7 +219,7 @@ def test_the_kill_switch_records_nothing() -> None:
             "* DANCE",
             "`DANCE` is not an action on the table; type `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`",
         ),
-        ("M B\nUP", "`UP` is not on the teach box; type `X -30`, `Z BY 12`, `RECORD` or `KILL`"),
+        ("M B\nUP", "`UP` is not a control of the teach box; type `X -30`, `Z BY 12`, `RECORD` or `KILL`"),
         ("M B\nX 500 RECORD", "X would be 500 mm; the arm goes from -200 to 200"),
         ("M B\nX 500 RECORD\nM C", "X would be 500 mm; the arm goes from -200 to 200"),
         ("M B\nRECORD X 3", "RECORD ends the work with the teach box; `X` is too late"),

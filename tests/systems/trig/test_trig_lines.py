@@ -34,7 +34,7 @@ def test_a_program_is_taught_line_by_line(
     )
     assert [step.position for step in session.program.graph.steps()] == ["CENTER", "CENTER"]
     out = capsys.readouterr().out
-    assert "`UP` is not on the teach box" in out
+    assert "`UP` is not a control of the teach box" in out
     assert "did you mean GRASP?" in out
     assert "`perhaps` is not an answer; type Yes or No" in out
     assert out.endswith(" o[o]\n\n   ***  CENTER\n▶  ***  CENTER\n\nX 10 Y 0 Z 300, hand open\n")

@@ -44,14 +44,14 @@ KINDS: Final[dict[str, Defects]] = {
         most=99,
     ),
     "slow-lines": Defects(
-        help="a changed data line shows its new level late, by this time",
+        help="a data line shows a new level later by this time",
         value="microseconds",
         amount=6,
         most=19,
     ),
     "dead": Defects(help="a microcomputer does nothing", where="microcomputer"),
     "clock": Defects(
-        help="the clock of a microcomputer is slow by this share, or fast if it is negative",
+        help="the clock of a microcomputer is slow by this fraction; a negative value makes it fast",
         where="microcomputer",
         value="permille",
         amount=200,

@@ -67,7 +67,10 @@ def run(
     /,
     *,
     arm: Arm = "none",
-    seed: Annotated[WholeNumber, Parameter(help="Seed of the errors of `--arm gantries`.")] = 0,
+    seed: Annotated[
+        WholeNumber,
+        Parameter(help="Seed of the world of `--arm gantries`: it decides the errors of the machine."),
+    ] = 0,
     statement_us: StatementTime = 2000,
     json: Json = False,
     details: Details = False,
@@ -139,7 +142,9 @@ def check(
             help="Try every order in which the tasks may run, and show what can go wrong in which order."
         ),
     ] = False,
-    most: Annotated[WholeNumber, Parameter(help="Stop after this number of different states.")] = 50_000,
+    most: Annotated[
+        WholeNumber, Parameter(help="Stop after visiting this number of different states of the program.")
+    ] = 50_000,
     json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
     """Check a program as `handeye check` does, and try the orders of its tasks.

@@ -19,14 +19,16 @@ def crash(
     endless_loop: Annotated[
         bool,
         Parameter(
-            negative=(), help="The central computer hangs once it has sent the move, and reads no status."
+            negative=(),
+            help="After sending the move, the central computer hangs and no longer reads the status of the motors.",
         ),
     ] = False,
     json: Json = False,
 ) -> int:
     """Let arm 1 run into the stationary hand of arm 2: force, steps lost, what the program believes, and what is true.
 
-    The collision is a study, so no outcome is right or wrong. The page `docs/safety_study.md` compares ten.
+    The collision is a study, so no outcome is right or wrong. The page `docs/safety_study.md` compares ten
+    collisions.
 
     Exit code 0: simulated; 2: bad input.
     """

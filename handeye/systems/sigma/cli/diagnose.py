@@ -21,12 +21,17 @@ def diagnose(
         bool, Parameter(negative=(), help="Find a planted fault yourself: type tests, then accuse a part.")
     ] = False,
     demo: Annotated[
-        bool, Parameter(negative=(), help="Play the game of `--seed` by the order of the paper.")
+        bool,
+        Parameter(
+            negative=(),
+            help="Let the program play the game of `--seed`, with tests in the order of the paper.",
+        ),
     ] = False,
     seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Draws the fault of a game, or the places of faults. Default: 0 for a game, else usual places."
+            help="Seed of the world: draws the fault of a game, or the place of each fault. Default: 0 for a game; "
+            "without a game, each fault is at its usual place."
         ),
     ] = None,
     json: Json = False,
@@ -36,7 +41,7 @@ def diagnose(
     Without options, the tests run on a sound machine.
 
     Exit code 0: the part was found, or the machine is sound; with `--all`, at least 17 parts were found and none was
-    wrongly accused; 1: not so; 2: bad input.
+    wrongly accused; 1: anything else; 2: bad input.
     """
     if sum((fault is not None, every, game or demo)) > 1:
         raise BadArgument("--fault, --all and --game exclude each other")

@@ -37,7 +37,7 @@ class Means(NamedTuple):
 
 MEANS: Final = {
     "selftest": Means("selftest", "the self-tests of power-on"),
-    "clocks": Means("clocks", "time the answers of all microcomputers"),
+    "clocks": Means("clocks", "measure how long each microcomputer takes to answer"),
     "strobe": Means("strobe", "let a microcomputer become free amid a command to another one"),
     "force": Means("force ARM", "load each component of a wrist with known forces"),
     "beam": Means("beam ARM", "hold nothing, a rod and a grey glass into the beam of a hand"),

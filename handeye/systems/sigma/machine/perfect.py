@@ -128,7 +128,7 @@ class PerfectMotors(MicrobusPort):
 
     def remember(self, memory: MutableRecord) -> None:
         if not isinstance(memory, PerfectMemory):
-            raise BadFile("what the machine remembers is not of perfect motors")
+            raise BadFile("the saved state does not belong to a machine with perfect motors")
         if {*memory.motors} != {*_AXIS} or {*memory.hands} != {*_HANDS}:
             raise BadFile("what the machine remembers has other motors or hands")
         put_back(self._memory, memory)

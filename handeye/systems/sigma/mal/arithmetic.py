@@ -51,7 +51,7 @@ UNARY: Final[dict[str, Callable[[float], float]]] = {
 def checked(value: float) -> float:
     """Return a number; raises Trap if it is not finite."""
     if not math.isfinite(value):
-        raise Trap("this is beyond the largest number")
+        raise Trap("the value is beyond the largest number of MAL")
     return float(value)
 
 

@@ -76,5 +76,5 @@ def lines(found: BusRun, log: Sequence[AnyBusEvent]) -> list[str]:
         known = {event.frame for event in log if isinstance(event, CommandSent)}
         first = next(e for e in log if isinstance(e, FrameTaken) and e.frame not in known)
         frames = counted(found.misread, "frame")
-        out.append(f"{frames} taken that were never sent; the first is {spaced(first.frame)}")
+        out.append(f"{frames} received that were never sent; the first: {spaced(first.frame)}")
     return out

@@ -73,7 +73,7 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
 def judge_hand(truth: Array, place: Array, what: str) -> Finding:
     """Check that the true position of the hand is at a place; both of shape (6,), m and rad."""
     off = float(np.linalg.norm(truth[:3] - place[:3]))
-    return at_most(off * _MM, HAND, "mm", f"distance of the hand from where the program {what}")
+    return at_most(off * _MM, HAND, "mm", f"distance of the hand from the place where the program {what}")
 
 
 def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Findings:

@@ -103,7 +103,7 @@ def buttons(line: str) -> list[Button]:
 def _jog(word: str, words: deque[str]) -> Jog:
     if word not in AXES:
         raise BadArgument(
-            f"{quoted(word)} is not on the teach box; type `X -30`, `Z BY 12`, `RECORD` or `KILL`"
+            f"{quoted(word)} is not a control of the teach box; type `X -30`, `Z BY 12`, `RECORD` or `KILL`"
         )
     by = bool(words) and words[0] == "BY"
     if by:

@@ -151,7 +151,7 @@ def _losses() -> Iterator[MishapFault]:
         ("gasket", "gasket", "the gasket", gasket),
         ("top", "top", "the top", top),
     ):
-        meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED_M / INCH:.1f} in."
+        meaning = f"The hand lifts {told} by {LIFTED_M / INCH:.1f} in, and then loses {told}."
         yield declared(f"{name}.dropped", meaning, always(Mishap(partial(_lose, part), part)), expected)
 
 

@@ -128,7 +128,7 @@ def _screws() -> Iterator[MishapFault]:
         )
         meaning = (
             f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began: in the "
-            "last stage, after it was driven again."
+            "last stage, after the screw was driven again."
         )
         yield declared(
             f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE
@@ -148,7 +148,7 @@ def _rotors() -> Iterator[MishapFault]:
     hard = ExpectedDetection(calls=(detect.STIFF_ROTOR,))
     yield declared("rotor.jammed", "The rotor does not turn.", always(Mishap(_jam)), hard)
     size = Size(unit="deg", usual=75.0, limits=(-170.0, 170.0))
-    meaning = "The rotor meets a stop at this angle from its position."
+    meaning = "The rotor meets a stop at this angle from its present position."
     yield declared("rotor.stops", meaning, _stop, hard, size, stage=LAST_STAGE)
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),

@@ -90,7 +90,7 @@ def _camera() -> Iterator[Quantity]:
         group("camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
             f"Rotation of the camera's mount. {_VISION}"),
         group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
-            f"Focal length of each lens divided by that of the drawing. {_VISION}", least=-50.0),
+            f"Relative deviation of each lens's focal length from that of the drawing. {_VISION}", least=-50.0),
         group("camera", {"pot_noise": Noise(0.07)}, "deg",
             "Noise of the pan and tilt readings. In the vision study, .07 to .10 deg reproduces the errors of 1973."),
         *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
@@ -115,7 +115,7 @@ def _light() -> Iterator[Quantity]:
         limits = {"zenith": (0.0, 89.0), "azimuth": (-360.0, 360.0)}.get(name, (0.0, 1.0))
         yield Quantity(
             name=f"light.{name}", unit=unit, distribution=Range(low, high), nominal=nominal, limits=limits,
-            source=f"{source} Vision study 0.1.",
+            source=f"{source} Vision study, section 0.1.",
         )  # fmt: skip
 
 
@@ -138,7 +138,7 @@ def _holes() -> Iterator[Quantity]:
         for hole in range(1, max(MAKES) + 1):
             yield from _of(hole, group(
                 f"holes.{part}.{hole}", {"x": Normal(0.0015), "y": Normal(0.0015)}, "in",
-                f"Position of the screw hole of the {part}, relative to its drawing. The holes of the base are "
+                f"Position of a screw hole of the {part}, relative to its drawing. The holes of the base are "
                 f"tapped; those of gasket and top are drilled separately.",
                 unsourced="no drawing of the pump is known; two sigma are +-.003 in, the accuracy of a drilling jig. "
                           "Bound: +-.004 in "
@@ -158,7 +158,7 @@ def _parts() -> Iterator[Quantity]:
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
-    masses = "Masses of base and top divided by those of the drawing."
+    masses = "Relative deviation of the masses of base and top from those of the drawing."
     cast = (
         "no drawing of the castings is known. Bound: 10 to 15 %, the tolerance of foundries for the wall thickness "
         "of sand castings (Badger Iron Works)."
