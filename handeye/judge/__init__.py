@@ -1,1 +1,2 @@
-"""The referee: measurements on the simulator's true state, and findings. Each task defines which results are right."""
+"""The referee: it measures the simulator's true state and records findings. Each task defines which results are
+right."""

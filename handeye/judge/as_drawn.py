@@ -1,4 +1,4 @@
-"""Finds the parts of a scene that differ from the original model, and in which properties; colours and sleep
+"""Finds the parts of a scene that differ from the original model, and in which properties. Colours and sleep
 settings do not count.
 """
 
@@ -33,11 +33,11 @@ _PHYSICS: Final = (
 
 
 def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[str, list[str]]:
-    """Find the bodies of `model` that differ from the original model `drawn`, each with the kinds of figures that
-    differ.
+    """Find the bodies of `model` that differ from the original model `drawn`, each with the kinds of properties
+    that differ.
 
-    The mask `parts`, shape (nbody,), selects the bodies to compare. Any difference counts, however small, because a
-    scene is built identically to the byte each time.
+    The mask `parts`, shape (nbody,), selects the bodies to compare. Any difference counts, however small,
+    because a scene is the same, byte for byte, each time that it is built.
     """
     if any(getattr(model, count) != getattr(drawn, count) for count in (*_COUNTS.values(), "nmeshvert")):
         return {"the scene": ["number of things in it"]}
@@ -48,7 +48,7 @@ def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[s
 
 
 def told(differing: Mapping[str, list[str]]) -> str:
-    """The differences in words: `rotor (joint, place), gasket (shape)`."""
+    """Return the differences in words, such as `rotor (joint, place), gasket (shape)`."""
     return ", ".join(f"{part} ({', '.join(kinds)})" for part, kinds in differing.items())
 
 
@@ -68,7 +68,8 @@ def _differences(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> I
 
 
 def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
-    """Names of the model fields to compare, each with the body to which each row of the field belongs."""
+    """Yield the names of the model fields to compare. For each row of a field, also give the body to which the
+    row belongs."""
     bodies = {
         "body": np.arange(drawn.nbody, dtype=np.int32), "jnt": drawn.jnt_bodyid, "dof": drawn.dof_bodyid,
         "geom": drawn.geom_bodyid, "site": drawn.site_bodyid, "eq": _bonded(drawn), "actuator": _driven(drawn),
@@ -87,8 +88,8 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
 
 
 def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
-    """Names of the model fields to compare that belong to no single body; vertices of meshes are compared by shape
-    instead.
+    """Yield the names of the model fields to compare that do not belong to a single body. Vertices of meshes
+    are compared separately, by shape.
     """
     for field in dir(drawn):
         kind, _, what = field.partition("_")
@@ -97,8 +98,8 @@ def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
 
 
 def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
-    """The body of the first of the two objects that each equality constraint binds; the world body if the
-    constraint names none.
+    """Return, for each equality constraint, the body of the first of the two objects that it connects, or the
+    world body if it names none.
     """
     of_joint = drawn.eq_type == mujoco.mjtEq.mjEQ_JOINT
     of_body = drawn.eq_objtype == mujoco.mjtObj.mjOBJ_BODY
@@ -107,7 +108,7 @@ def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
 
 
 def _driven(drawn: mujoco.MjModel) -> NDArray[np.int32]:
-    """The body that each actuator moves; -1 if it moves a tendon."""
+    """Return, for each actuator, the body that it moves; -1 if it moves a tendon."""
     kinds, bodies = mujoco.mjtTrn, np.full(drawn.nu, -1, np.int32)
     for kind, owners in (
         (kinds.mjTRN_JOINT, drawn.jnt_bodyid),
@@ -120,7 +121,7 @@ def _driven(drawn: mujoco.MjModel) -> NDArray[np.int32]:
 
 
 def _meshes(model: mujoco.MjModel, drawn: mujoco.MjModel) -> Mask:
-    """The meshes whose vertices differ, as a mask of shape (nmesh,)."""
+    """Return a mask of the meshes whose vertices differ, shape (nmesh,)."""
     mesh = np.repeat(np.arange(drawn.nmesh), drawn.mesh_vertnum)
     other = np.zeros(drawn.nmesh, bool)
     other[mesh[(model.mesh_vert != drawn.mesh_vert).any(axis=1)]] = True
@@ -128,7 +129,7 @@ def _meshes(model: mujoco.MjModel, drawn: mujoco.MjModel) -> Mask:
 
 
 def _owner(drawn: mujoco.MjModel, field: str, row: int, body: int) -> str:
-    """Name of the body, or of the geom if it is fixed to the world body."""
+    """Return the name of the body, or of the geom if the geom is fixed to the world body."""
     if body == 0 and field.startswith("geom"):
         return drawn.geom(row).name or "the cell"
     return drawn.body(body).name

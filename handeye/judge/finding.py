@@ -1,4 +1,4 @@
-"""Findings of the referee, as data."""
+"""Defines findings of the referee as data."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ Relation = Literal["at most", "at least"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """A measured value and its limit; `ok` if the value is within the limit.
+    """A measured value and its limit. `ok` is True if the value is within the limit.
 
     >>> finding = handeye.at_most(0.3, 0.2, "mm", "gap under the head")
     >>> finding.ok, finding.limited(0.5).ok
@@ -30,7 +30,8 @@ class Finding:
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """The same measurement with another limit, in the same unit; a value beyond it makes the work wrong."""
+        """Return the same measurement with another limit in the same unit. If the value exceeds the limit, the
+        work is wrong."""
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)
 
@@ -44,8 +45,8 @@ Findings = Mapping[str, Finding]  # by the names of the points
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
-    """A finding that is right if the value is at most `limit`; with `caution`, a greater value only gives a
-    warning.
+    """Return a finding that is right if the value is at most `limit`. With `caution`, a greater value is only a
+    warning, and does not make the work wrong.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True
@@ -54,7 +55,7 @@ def at_most(value: float, limit: float, unit: str, subject: str, *, caution: boo
 
 
 def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
-    """A finding that is right if the value is at least `limit`.
+    """Return a finding that is right if the value is at least `limit`.
 
     >>> handeye.at_least(70, 40, "N", "smallest clamping force").ok
     True
@@ -63,7 +64,7 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
 
 
 def worse(one: Findings, other: Findings) -> Findings:
-    """For each name, the worse of the findings of two inspections."""
+    """Return, for each name, the worse of the findings of two inspections."""
     return {
         name: max(found, other[name], key=lambda finding: (not finding.ok, finding.beyond))
         for name, found in one.items()
@@ -71,7 +72,7 @@ def worse(one: Findings, other: Findings) -> Findings:
 
 
 def all_right(findings: Findings) -> bool:
-    """True if there are findings and none of them makes the work wrong."""
+    """Return True if there are findings and none of them makes the work wrong."""
     return bool(findings) and not any(finding.refuses for finding in findings.values())
 
 

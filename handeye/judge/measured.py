@@ -1,4 +1,4 @@
-"""Measurements on a copy of the simulator's state."""
+"""Measures a copy of the simulator's state."""
 
 import copy
 from collections.abc import Sequence
@@ -14,10 +14,10 @@ from handeye.judge.finding import Finding, at_most
 
 
 class SettledState:
-    """A copy of a cell's state, as the run left it, or after it has settled."""
+    """A copy of a cell's state, either as the run left it or after it has settled."""
 
     def __init__(self, truth: Truth, settle: float = 0.0) -> None:
-        """Copy the state, wake all bodies and simulate `settle` seconds."""
+        """Copy the state, wake all bodies, and simulate `settle` seconds."""
         self.model, self.data = truth.copy()
         self.drawn = truth.drawn  # the scene at its start, to compare with
         self._start = mujoco.MjData(truth.drawn)
@@ -25,22 +25,22 @@ class SettledState:
         mujoco.mj_step(self.model, self.data, round(settle / self.model.opt.timestep))
 
     def pose(self, body: str) -> Pose:
-        """Pose of a body in W."""
+        """Return the pose of a body in W."""
         number = self.model.body(body).id
         return pose(self.data.xmat[number].reshape(3, 3), self.data.xpos[number])
 
     def relative(self, body: str, other: str) -> Pose:
-        """Pose of `body` in the frame of `other`."""
+        """Return the pose of `body` in the frame of `other`."""
         return inverse(self.pose(other)) @ self.pose(body)
 
     def from_site(self, body: str, site: str) -> float:
-        """Distance of a body from the initial position of a site, m."""
+        """Return the distance of a body from the initial position of a site (m)."""
         there = self._start.site_xpos[self.drawn.site(site).id]
         return float(np.linalg.norm(self.pose(body)[:3, 3] - there))
 
     def strayed(self, bodies: Sequence[str], places: Sequence[str]) -> float:
-        """Greatest distance of the bodies from their places, m; the places are the initial positions of the bodies
-        named in `places`.
+        """Return the greatest distance of the bodies from their places (m). The places are the initial
+        positions of the bodies named in `places`.
 
         Any body may take any place, but each place takes one body; the nearest pairs are assigned first.
         """
@@ -55,13 +55,13 @@ class SettledState:
         return farthest
 
     def turned(self, body: str) -> float:
-        """Angle between a body's present and initial orientation, rad."""
+        """Return the angle between a body's present and initial orientation (rad)."""
         number = self.model.body(body).id
         R = self._start.xmat[number].reshape(3, 3).T @ self.data.xmat[number].reshape(3, 3)
         return acos(max(-1.0, min(1.0, (float(np.trace(R)) - 1) / 2)))
 
     def speed(self, body: int) -> float:
-        """Upper bound of the speed of any point of a body, m/s."""
+        """Return an upper bound on the speed of any point of a body (m/s)."""
         model, data, found = self.model, self.data, np.zeros(6)
         mujoco.mj_objectVelocity(model, data, int(mujoco.mjtObj.mjOBJ_BODY), body, found, 0)
         mine = np.flatnonzero(model.geom_bodyid == body)
@@ -70,13 +70,14 @@ class SettledState:
         return float(way + turn * away.max(initial=0.0))
 
     def gap(self, geom: str, other: str) -> float:
-        """Signed distance between two geoms, m; negative when they overlap."""
+        """Return the signed distance between two geoms (m), which is negative if they overlap."""
         ends = np.zeros(6)
         ids = self.model.geom(geom).id, self.model.geom(other).id
         return float(mujoco.mj_geomDistance(self.model, self.data, *ids, 0.5, ends))
 
     def nearest(self, geoms: NDArray[np.intp], others: NDArray[np.intp], most: float) -> float:
-        """Least distance between two groups of geoms, m, but at most `most`."""
+        """Return the least distance between two groups of geoms (m). Distances are measured up to `most` (m),
+        which is also the greatest value returned."""
         model, ends = self.model, np.zeros(6)
         between = self.data.geom_xpos[geoms][:, None] - self.data.geom_xpos[others]
         reach = model.geom_rbound[geoms][:, None] + model.geom_rbound[others]
@@ -87,8 +88,8 @@ class SettledState:
         )
 
     def overlaps(self, solid: NDArray[np.bool_]) -> tuple[NDArray[np.int32], Array]:
-        """Pairs of `solid` geoms that belong to different bodies and overlap, whatever their contact bits, and the
-        depth of each overlap, m.
+        """Return the pairs of `solid` geoms that belong to different bodies and overlap, and the depth of each
+        overlap (m). Contact bits are ignored.
         """
         model = copy.deepcopy(self.model)
         for field in (model.geom_contype, model.geom_conaffinity):
@@ -103,15 +104,15 @@ class SettledState:
 
 
 def mm(value_m: float, limit_mm: float, subject: str) -> Finding:
-    """A finding for a length in m, against an upper limit in mm."""
+    """Return a finding for a length in m with an upper limit in mm."""
     return at_most(value_m * 1e3, limit_mm, "mm", subject)
 
 
 def deg(value_rad: float, limit_deg: float, subject: str) -> Finding:
-    """A finding for an angle in rad, against an upper limit in degrees."""
+    """Return a finding for an angle in rad with an upper limit in degrees."""
     return at_most(degrees(value_rad), limit_deg, "deg", subject)
 
 
 def tilt(X: Pose) -> float:
-    """Angle between the z axis of a frame and the vertical, rad."""
+    """Return the angle between the z axis of a frame and the vertical (rad)."""
     return acos(max(-1.0, min(1.0, float(X[2, 2]))))

@@ -1,5 +1,7 @@
-"""The interfaces of all devices of a cell, through which the working phase senses and acts, under one clock.
+"""Defines the interfaces of all devices of a cell, and the cell's clock. The working phase senses and acts only
+through them.
 
-No body pose, contact list or true force is available through these interfaces. Lengths are in metres, angles in
-radians, forces in newtons, times in seconds. World frame W: origin at the table corner, z up.
+These interfaces reveal no pose of a body, no list of contacts and no true force. Lengths are in metres, angles
+in radians, forces in newtons, times in seconds. The world frame W has its origin at the table corner, and z
+points up.
 """

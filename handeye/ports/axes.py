@@ -1,4 +1,4 @@
-"""Machines with servos outside the computer: the computer sends goals, reads channels and sets outputs."""
+"""Defines machines with servos outside the computer. The computer sends goals, reads channels and sets outputs."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ from handeye.core.record import Record
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AxisSpec:
-    """One axis, as the machine's manual describes it; a hand that opens and closes counts as an axis."""
+    """One axis, as the machine's manual describes it. A hand that opens and closes also counts as an axis."""
 
     name: str
     kind: Literal["revolute", "prismatic"]
@@ -36,7 +36,7 @@ class Channel(Record, frozen=True, kw_only=True):
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names of the channel's components in readings, such as `range`, `force_x`, `beam_1`."""
+        """Names of the channel's components in readings, for example `range`, `force_x` or `beam_1`."""
         if self.width == 1:
             return (self.name,)
         ends = "xyz" if self.width == len("xyz") else map(str, range(1, self.width + 1))
@@ -53,7 +53,7 @@ class AxesReading:
 
 
 class Axes(ABC):
-    """A machine whose servos bring its axes to their goals."""
+    """A machine whose servos move its axes to their goals."""
 
     name: str  # name of the machine, unlike that of any other under the same clock
 
@@ -70,25 +70,25 @@ class Axes(ABC):
     @property
     @abstractmethod
     def period(self) -> float:
-        """Time between two goals that the machine's controller accepts, s."""
+        """The time between two goals that the machine's controller accepts (s)."""
 
     @abstractmethod
     def read(self) -> AxesReading:
-        """Read the machine now. Reading twice without letting time pass gives the same values."""
+        """Read the machine. Until time passes, further readings give the same values."""
 
     @abstractmethod
     def put(self, goal: Array) -> None:
-        """Set the goals of all axes from now on, shape (n,), rad or m."""
+        """Set the goals of all axes from now on (rad or m, shape (n,))."""
 
     def power(self, on: bool) -> None:
-        """Switch the servos on, so that they hold their present positions, or off; raises Refused if the machine
-        does not allow it.
+        """Switch the servos on, so that they hold their present positions, or off. Raises Refused if the
+        machine does not allow it.
         """
         raise Refused(f"the power of {self.name} cannot be switched")
 
     def clear(self, channel: str) -> None:
-        """Clear a latched channel, so that it shows its reading again; raises InvalidInput if there is no latched
-        channel of that name.
+        """Clear a latched channel, so that it follows its sensor again. Raises InvalidInput if no latched
+        channel is called `channel`.
         """
         raise NoSuchName(f"{self.name} has no latched channel {channel}")
 
@@ -103,6 +103,6 @@ class Outputs(ABC):
 
     @abstractmethod
     def set(self, name: str, value: float) -> None:
-        """Set an output (a switch to 0 or 1, other outputs in SI units); raises InvalidInput if the name is unknown
-        or the value is not finite.
+        """Set an output. A switch takes 0 or 1; other outputs take a value in SI units. Raises InvalidInput if
+        the name is unknown or the value is not finite.
         """

@@ -1,4 +1,4 @@
-"""The television camera: a pan/tilt mount, a two-lens turret, a vidicon and its digitiser."""
+"""Defines the television camera: a pan/tilt mount, a turret with two lenses, a vidicon, and a digitiser."""
 
 from abc import ABC, abstractmethod
 from typing import Final, Literal
@@ -25,7 +25,7 @@ Picture = NDArray[np.uint8]  # a digitised television picture: ROWS by COLUMNS o
 
 
 class Renderer(Record, frozen=True, kw_only=True):
-    """The method by which pictures are rendered; two methods, or two platforms, may give different pictures."""
+    """The method by which pictures are rendered. Pictures may differ between methods, and between platforms."""
 
     method: Literal["opengl", "rays", "none", "replaced"]  # `replaced`: by code of the calling program
     platform: str = ""
@@ -33,46 +33,49 @@ class Renderer(Record, frozen=True, kw_only=True):
 
 
 class TvCamera(ABC):
-    """The television camera on its pan/tilt mount with a two-lens turret.
+    """The television camera on its pan/tilt mount, with two lenses in a turret.
 
     `lens`, `aim` and `focus` start a slow mechanical movement and return its duration. The mechanism makes one
-    movement after another, while the arm may move; the executor takes no picture before all movements have ended.
+    movement after another; the arm may move meanwhile. The executor takes no picture until all movements have
+    ended.
     """
 
     @abstractmethod
     def lens(self, focal_length: float) -> float:
-        """Turn the turret to a lens, given by its focal length (m, of LENSES); returns the duration, s. Raises
-        InvalidInput if there is no such lens.
+        """Turn the turret to the lens with a focal length (m), which must be one of LENSES. Returns the
+        duration (s). Raises InvalidInput if there is no such lens.
         """
 
     @abstractmethod
     def aim(self, pan: float, tilt: float) -> float:
-        """Turn the mount until the potentiometers read these angles (rad); returns the duration, s. Raises
+        """Turn the mount until the potentiometers read these angles (rad). Returns the duration (s). Raises
         InvalidInput if an angle is not finite.
         """
 
     @abstractmethod
     def focus(self, distance: float) -> float:
-        """Focus on a distance (m); returns the duration, s. Raises InvalidInput if no lens focuses so near."""
+        """Focus on a distance (m). Returns the duration (s). Raises InvalidInput if no lens can focus on so
+        near a distance."""
 
     @abstractmethod
     def pots(self) -> tuple[float, float]:
-        """Pan and tilt as the potentiometers read now (rad).
+        """Return the pan and tilt angles that the potentiometers read now (rad).
 
-        The mount is driven until the potentiometers read the angles given to `aim`, so these are always the
-        readings. An error of a potentiometer changes where the mount then points.
+        The mount turns until the potentiometers read the angles given to `aim`, so the readings are always
+        these angles. An error of a potentiometer changes the true direction of the mount, not the reading.
         """
 
     @abstractmethod
     def digitise(self, *, hold_target: bool = False) -> Picture:
-        """Take a picture of the present state; tube and digitiser have been working on it for DIGITISE seconds.
+        """Take a picture of the present state. The caller must first let DIGITISE seconds pass, in which tube
+        and digitiser work on the picture.
 
         Args:
-            hold_target: keep the vidicon's target voltage (gain) of the previous picture instead of adjusting it,
-                as is necessary for the difference of two pictures.
+            hold_target: keep the vidicon's target voltage (gain) of the previous picture instead of adjusting
+                it. This is necessary if the two pictures will be subtracted from each other.
         """
 
     @property
     @abstractmethod
     def renderer(self) -> Renderer:
-        """The renderer that makes the pictures."""
+        """The renderer that produces the pictures."""

@@ -1,4 +1,4 @@
-"""The clock of a cell: time passes only through it, for all devices at once."""
+"""Defines the clock of a cell. Time passes only through the clock, for all devices at once."""
 
 import math
 from abc import ABC, abstractmethod
@@ -16,36 +16,38 @@ _DIGITS: Final = ".12g"  # digits of a period in a message, so that what is writ
 
 
 class Clock(ABC):
-    """A clock whose time passes only on request.
+    """A clock on which time passes only on request.
 
-    While time passes, the last commands of all devices stay in force; new readings are taken at the end.
+    While time passes, the last command to each device remains in effect. New readings are taken at the end.
     """
 
     @property
     @abstractmethod
     def now(self) -> float:
-        """Seconds since the program began; before that, since the cell was switched on."""
+        """Seconds since the program began. Before the program begins, seconds since the cell was switched on."""
 
     @property
     def tick(self) -> Fraction | None:
-        """The time unit, s, up to whose multiples all waiting times are rounded; None: times that are not multiples
-        of the physics step are refused.
+        """The unit of time (s): waiting times are rounded up to a multiple of it. If it is None, the clock
+        refuses any waiting time that is not a multiple of the physics step.
         """
         return None
 
     @property
     def next_event(self) -> Fraction | None:
-        """Seconds until the next event that happens by itself and for which tasks may wait; None if there is none."""
+        """Seconds until the next event that happens without a command and for which tasks may wait, or None if
+        there is none."""
         return None
 
     @abstractmethod
     def advance(self, seconds: float) -> None:
-        """Let time pass; raises InvalidInput unless `seconds` is a whole number of physics steps, at least one."""
+        """Let time pass. Raises InvalidInput unless `seconds` is a whole number of physics steps, and at least
+        one."""
 
 
 def whole_steps(seconds: float, step: float) -> int:
-    """Number of physics steps (s each) in a period (s); raises InvalidInput unless it is whole and the period at
-    most `LONGEST` s.
+    """Return the number of physics steps (of `step` s each) in a period (s). Raises InvalidInput if the number
+    is not whole, or if the period is longer than `LONGEST` s.
     """
     if not (math.isfinite(seconds) and seconds > 0):
         raise BadArgument(

@@ -1,7 +1,7 @@
-"""A bus of microcomputers, as seen from the central computer that runs the user's program.
+"""Defines a bus of microcomputers as the central computer sees it, which runs the user's program.
 
-The interface carries commands of five bytes, levels of status lines, one interrupt, bytes of answers, and a clock
-in whole microseconds, and nothing else of the machine.
+The interface carries commands of five bytes, levels of status lines, one interrupt, bytes of answers, and a
+clock in whole microseconds. It reveals nothing else of the machine.
 """
 
 from abc import ABC, abstractmethod
@@ -20,7 +20,7 @@ PAGE: Final = 5  # microcomputers whose status lines are read at once
 
 
 class Status(IntEnum):
-    """The two status lines of a microcomputer: line A is the upper bit, line B the lower one."""
+    """The two status lines of a microcomputer as one number. Line A is the upper bit, line B the lower bit."""
 
     FREE = 0b00
     BUSY = 0b01  # still executing the previous command
@@ -29,13 +29,13 @@ class Status(IntEnum):
 
     @property
     def aborted(self) -> bool:
-        """True if line A is high: the motion was aborted."""
+        """True if line A is high, which means that the motion was aborted."""
         return self >= Status.RAIL
 
 
 class Command(Record, frozen=True, kw_only=True):
-    """A command of five bytes: number of the microcomputer, operation, `detail`, and `value` with the high byte
-    first.
+    """A command of five bytes: the number of the microcomputer, the operation, `detail`, and the two bytes of
+    `value`, the high byte first.
     """
 
     number: Annotated[int, Meta(ge=0, le=0xFF)]  # of the microcomputer
@@ -50,17 +50,17 @@ class Command(Record, frozen=True, kw_only=True):
 
     @classmethod
     def of(cls, frame: bytes) -> "Command":
-        """The command in five bytes."""
+        """Decode the command in five bytes."""
         number, op, detail, *value = frame
         return cls(number=number, op=op, detail=detail, value=int.from_bytes(bytes(value), "big"))
 
 
 class BusFault(HandeyeError):
-    """The bus did not carry an answer according to the protocol."""
+    """Raised if the bus did not carry an answer according to the protocol."""
 
 
 class NoAnswer(BusFault):
-    """A microcomputer did not answer in full before the time limit."""
+    """Raised if a microcomputer did not send its whole answer before the time limit."""
 
     def __init__(self, number: int, got: int, wanted: int) -> None:
         super().__init__(
@@ -70,7 +70,7 @@ class NoAnswer(BusFault):
 
 
 class StrayAnswer(BusFault):
-    """A byte arrived that no question asked for: the answer is longer than expected."""
+    """Raised if a byte arrived for which no question asked, because an answer was longer than expected."""
 
     def __init__(self, number: int) -> None:
         super().__init__(f"STRAY {number}: a byte arrived that no question asked for")
@@ -80,8 +80,8 @@ class StrayAnswer(BusFault):
 class MicrobusPort(ABC):
     """The bus of one central computer.
 
-    `begin` only begins to send a command. Time passes only in `wait`, so that a state can be saved while bytes are
-    on the bus. `send` and `ask` wait until the transfer is complete.
+    `begin` begins to send a command, and returns at once. Time passes only in `wait`, so a state can be saved
+    while bytes are on the bus. `send` and `ask` wait until the transfer is complete.
     """
 
     @property
@@ -92,18 +92,19 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def next_event(self) -> int | None:
-        """Time (microseconds) before which no status line, nor the interrupt, nor `free` changes; None if none
-        changes without a command.
+        """The time (microseconds) until which no status line will change, nor the interrupt, nor `free`. None
+        if none of them will change without a command.
         """
 
     @abstractmethod
     def wait(self, until: int) -> int:
-        """Let time pass until `until`, or until a status line, the interrupt or `free` first changes; returns the
-        new time, microseconds.
+        """Let time pass until `until` (microseconds), or until a status line, the interrupt or `free` first
+        changes. Returns the new time (microseconds).
 
         The new time may be later than `until` if the machine is simulated in longer steps.
 
-        It may return earlier where a machine is slow to simulate, so that a person can interrupt it: wait again.
+        The new time may also be earlier than `until`, if the machine is slow to simulate, so that a person can
+        interrupt the wait. The caller must then wait again.
         """
 
     @property
@@ -113,16 +114,17 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def begin(self, command: Command, answer: int = 0) -> None:
-        """Begin to send a command, and expect `answer` bytes of answer; raises Refused unless the bus is free."""
+        """Begin to send a command that is answered by `answer` bytes. Raises Refused unless the bus is free."""
 
     @abstractmethod
     def answer(self) -> bytes:
-        """The answer to the last question; raises BusFault if the transfer failed, Refused while it is in progress."""
+        """Return the answer to the last question. Raises BusFault if the transfer failed, and Refused while it
+        is still in progress."""
 
     @abstractmethod
     def page(self, number: int) -> int:
-        """Ten status lines at once, those of microcomputers 5n to 5n + 4: lines A in bits 1, 3, 5, 7, 9, each line
-        B in the bit below its line A.
+        """Return ten status lines at once, those of microcomputers 5n to 5n + 4. Lines A are in bits 1, 3, 5, 7
+        and 9; each line B is in the bit below its line A.
 
         No time passes.
         """
@@ -130,37 +132,38 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def interrupt(self) -> bool:
-        """Level of the interrupt input, to which line A of every motor is connected."""
+        """Level of the interrupt input, which is connected to line A of every motor."""
 
     @property
     @abstractmethod
     def memory(self) -> MutableRecord:
-        """The whole state of the machine behind the bus, including bytes in transfer, as a record for checkpoints."""
+        """The complete state of the machine behind the bus, including bytes in transfer, as a record for
+        checkpoints."""
 
     @abstractmethod
     def remember(self, memory: MutableRecord) -> None:
-        """Restore the machine to a state; raises BadFile if the state does not fit."""
+        """Restore the machine to a state. Raises BadFile if the state does not fit the machine."""
 
     # -- made of these -------------------------------------------------------------------------------------
 
     def status(self, number: int) -> Status:
-        """The status lines of one microcomputer. No time passes."""
+        """Return the status lines of one microcomputer. No time passes."""
         return Status(self.page(number // PAGE) >> 2 * (number % PAGE) & 0b11)
 
     def send(self, command: Command) -> None:
-        """Send a command, and wait until its last byte has left."""
+        """Send a command, and wait until its last byte has been sent."""
         self.begin(command)
         self._finish()
 
     def ask(self, command: Command, count: int) -> bytes:
-        """Send a question, and wait for `count` bytes of answer; raises NoAnswer or StrayAnswer."""
+        """Send a question, and wait for `count` bytes of answer. Raises NoAnswer or StrayAnswer."""
         self.begin(command, answer=count)
         self._finish()
         return self.answer()
 
     def wait_free(self, number: int, limit: int) -> Status:
-        """Wait until a microcomputer is not busy, for at most `limit` microseconds; returns its status, BUSY only
-        at the time limit.
+        """Wait until a microcomputer is not busy, for at most `limit` microseconds. Returns its status, which
+        is BUSY only if the time limit was reached.
         """
         end = self.now + limit
         while (status := self.status(number)) is Status.BUSY and self.now < end:

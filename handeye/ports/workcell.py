@@ -1,4 +1,4 @@
-"""The interfaces of all devices of a cell, and all their readings as one record."""
+"""Defines the interfaces of all devices of a cell, and a record of all their readings."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
@@ -18,29 +18,29 @@ from handeye.ports.clock import Clock
 class ScrewdriverPort(ABC):
     """The motor of a screwdriver.
 
-    The watchdog of the arm that carries the screwdriver also stops its motor, until the program has set the brakes
-    of the arm and then a new speed.
+    The watchdog of the arm that carries the screwdriver also stops the screwdriver's motor. The motor starts
+    again only when the program has set the brakes of the arm, and has then set a new speed.
     """
 
     @abstractmethod
     def torque(self) -> float:
-        """Torque of the motor, estimated from its current, N m, positive when it drives a screw in; constant until
-        time passes.
+        """Return the torque of the motor (N m), estimated from its current. It is positive if the motor drives
+        a screw in. The value does not change until time passes.
         """
 
     @abstractmethod
     def drive(self, speed: float) -> None:
-        """Set the speed of the spindle, rad/s, positive to drive a screw in; raises InvalidInput if the speed is
-        not finite.
+        """Set the speed of the spindle (rad/s), which is positive to drive a screw in. Raises InvalidInput if
+        the speed is not finite.
         """
 
     @abstractmethod
     def attract(self, on: bool) -> None:
-        """Switch the magnet of the bit on or off; it is on at the beginning."""
+        """Switch the magnet of the bit on or off. At the beginning it is on."""
 
 
 class LampPort(ABC):
-    """A lamp."""
+    """The lamp of a cell."""
 
     @abstractmethod
     def switch(self, lit: bool) -> None:
@@ -56,16 +56,16 @@ class HandReading(Record, frozen=True, kw_only=True):
 
 
 class HandPort(ABC):
-    """Motor and sensors of a hand."""
+    """The motor and the sensors of a hand."""
 
     @abstractmethod
     def read(self) -> HandReading:
-        """Read the hand now. Reading twice without letting time pass gives the same values."""
+        """Read the hand. Until time passes, further readings give the same values."""
 
     @abstractmethod
     def drive(self, gap: float, grip: float) -> None:
-        """Set the goal of the gap (m) and the greatest force (N) of each finger; raises InvalidInput unless both
-        are finite.
+        """Set the goal of the gap between the fingers (m), and the greatest force of each finger (N). Raises
+        InvalidInput unless both are finite.
         """
 
 
@@ -78,27 +78,28 @@ class ArmReading(Record, frozen=True, kw_only=True):
 
 
 class ArmPort(ABC):
-    """Motors, brakes and sensors of an arm.
+    """The motors, brakes and sensors of an arm.
 
-    A watchdog guards the arm: if it gets no new command before the clock has advanced by a servo period, its drives
-    are switched off and its brakes set, until the program sets the brakes itself. If the clock advances by more
-    than a servo period at once, the drives are off from the beginning. The hand is not switched off: it keeps its
-    grip.
+    A watchdog guards the arm. If no new command arrives before the clock has advanced by a servo period, the
+    watchdog switches the drives off and sets the brakes, until the program sets the brakes itself. If the clock
+    advances by more than a servo period at once, the drives are off from the beginning. The watchdog does not
+    switch off the hand, which keeps its grip.
     """
 
     @abstractmethod
     def read(self) -> ArmReading:
-        """Read the arm now. Reading twice without letting time pass gives the same values."""
+        """Read the arm. Until time passes, further readings give the same values."""
 
     @abstractmethod
     def drive(self, torque: Array | None) -> None:
-        """Apply joint torques (n,), N m and N, for a servo period, or with None set the brakes; raises InvalidInput
-        unless there are n finite torques.
+        """Apply joint torques (N m, or N for prismatic joints; shape (n,)) for a servo period or, with None,
+        set the brakes. Raises InvalidInput unless there are n finite torques.
         """
 
 
 class Sensed(Record, frozen=True, kw_only=True):
-    """All readings at the end of a servo period; zero and False for devices that the cell does not have."""
+    """All readings at the end of a servo period. Readings of devices that the cell does not have are zero or
+    False."""
 
     time: float
     q: Array  # as `ArmReading.q`, shape (n,)
@@ -112,11 +113,12 @@ class Sensed(Record, frozen=True, kw_only=True):
 
 
 def sense_axes(machines: Sequence[Axes], before: Sensed | None = None) -> Sensed:
-    """Readings of machines under one clock, with their axes one after another. With several machines, the names of
-    channels begin with the machine's name, as in `left.force`.
+    """Read machines that share a clock, and list their axes one after another. If there are several machines,
+    the name of a channel begins with the machine's name, as in `left.force`.
 
     Args:
-        before: the previous readings, from which rates are computed; without them all rates are zero.
+        before: the previous readings, from which velocities are computed. Without them, all velocities are
+            zero.
     """
     readings = [machine.read() for machine in machines]
     time, q = readings[0].time, np.concatenate([reading.q for reading in readings])
@@ -133,8 +135,8 @@ def sense_axes(machines: Sequence[Axes], before: Sensed | None = None) -> Sensed
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Workcell:
-    """An arm with the devices around it, under one clock. A cell with two arms consists of two workcells with the
-    same clock.
+    """An arm with the devices around it, and a clock. A cell with two arms consists of two workcells that share
+    a clock.
     """
 
     clock: Clock

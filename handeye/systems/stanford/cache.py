@@ -1,4 +1,4 @@
-"""`handeye cache`: calibrations that are kept for other runs."""
+"""The command `handeye cache`, which shows the calibrations that are stored for later runs."""
 
 from typing import TYPE_CHECKING, Annotated, Final
 

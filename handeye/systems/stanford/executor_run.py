@@ -1,4 +1,4 @@
-"""The hand-eye system of 1973 as a `System`: executes plans of motions in the cell of a task."""
+"""The hand-eye system of 1973 as a `System`. It executes plans of motions in the cell of a task."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -57,11 +57,11 @@ from handeye.vision.marks import Mark
 
 
 class RunningPlan(RunningSystem):
-    """A plan in execution, with the arm of a simulated cell."""
+    """A plan that the arm of a simulated cell is executing."""
 
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
-        """Build the cell; raises InvalidInput if the plan is for another arm, or the camera cannot work as
-        requested.
+        """Build the cell. Raises InvalidInput if the plan was made for another arm, or if the camera cannot
+        work as requested.
         """
         self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
         self._anew, self._prepared, self._took_up = around.calibrate, 0.0, False
@@ -146,8 +146,8 @@ class RunningPlan(RunningSystem):
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: CameraSetup) -> float:
-        """Measure the joints and calibrate the camera, or restore a kept preparation; returns the time for the
-        joints, s.
+        """Measure the joints and calibrate the camera, or restore a stored preparation. Returns the time in
+        which the joints were measured (s).
         """
         kept = KeptCalibrations.of_user()
         conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
@@ -166,7 +166,7 @@ class RunningPlan(RunningSystem):
         return seconds
 
     def _goes_on_from(self, earlier: Preparation) -> bool:
-        """Restore a kept preparation; False, with nothing changed, if that is impossible."""
+        """Restore a stored preparation. If that is impossible, change nothing and return False."""
         try:
             take_up(earlier, self.context, self._cell)
         except InvalidInput:
@@ -176,7 +176,7 @@ class RunningPlan(RunningSystem):
         return True
 
     def _set_clock(self) -> None:
-        """Set the clock to 0, as the program begins."""
+        """Set the clock to 0, because the program begins now."""
         self._prepared += self.time
         self._cell.set_to_zero()
 
@@ -230,7 +230,8 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _measure_joints(self) -> float:
-        """Measure friction and link weights if the program uses force; returns the simulated time, s."""
+        """Measure friction and link weights if the program uses force. Returns the simulated time that this
+        took (s)."""
         if not self.plan.program.feels:
             return 0.0
         before = self.time
@@ -242,7 +243,7 @@ class RunningPlan(RunningSystem):
         return round(self.time - before, 6)
 
     def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
-        """The event for a friction measurement that took `seconds`; none if there was no measurement."""
+        """Yield the event for a friction measurement that took `seconds`, unless nothing was measured."""
         drive = self.state.drive
         if drive.links is not None:
             joints = ArmNames.of(self.arm).joints
@@ -254,7 +255,7 @@ class RunningPlan(RunningSystem):
             yield FrictionMeasured(time=self.time, joints=frictions, links=links, seconds=seconds)
 
     def _calibrate(self, eye: CameraSetup) -> None:
-        """Calibrate the camera, then hold the arm where it is."""
+        """Calibrate the camera. The arm then holds its present position."""
         cell, drive = self._cell.devices, self.state.drive
         assert self._cell.camera is not None
         try:
@@ -269,7 +270,7 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _take_calibration(self) -> None:
-        """Use the calibrated camera model, or the design without one."""
+        """Use the calibrated camera model or, if there is none, the camera model of the design."""
         if self.state.calibration is not None:
             self.context.camera = self.state.calibration.model
         elif self._eye is not None:
@@ -363,8 +364,8 @@ class PlanSystem(System):
         return plan.arm, plan.arm_digest
 
     def check(self, setup: Setup) -> None:
-        """Raises InvalidInput for a plan for another arm than the task's, and for a world or faults that the task
-        does not have.
+        """Raise InvalidInput unless the plan was made for the task's arm, and the task has this world and these
+        faults.
         """
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)

@@ -1,7 +1,8 @@
-"""Calibrations kept for later runs, as files in the user's cache, named by a digest of their conditions.
+"""Stores calibrations for later runs, as files in the user's cache. A file's name is a digest of the conditions
+of the calibration.
 
-A file that cannot be used is replaced. Files are written completely or not at all, and equal conditions give equal
-bytes, so that several processes may write at once.
+A file that cannot be used is replaced. Several processes may write at the same time, because each file is
+written atomically, and equal conditions give equal bytes.
 """
 
 import hashlib
@@ -31,7 +32,7 @@ _ABANDONED_S: Final = 3600.0  # age at which an unfinished file is removed
 
 
 class KeptCalibration(Record, frozen=True, kw_only=True):
-    """A kept calibration, as `handeye cache` lists it."""
+    """A stored calibration, as `handeye cache` lists it."""
 
     file: str
     bytes: int
@@ -42,20 +43,20 @@ class KeptCalibration(Record, frozen=True, kw_only=True):
 
 
 class KeptCalibrations:
-    """The calibrations in a folder; without a folder none are found or kept."""
+    """The calibrations in a folder. Without a folder, none are stored or found."""
 
     def __init__(self, folder: Path | None, most: int = MOST) -> None:
-        """`most` is the greatest size of all files together, bytes."""
+        """Use a folder. `most` is the greatest total size of its files (bytes)."""
         self.folder, self.most = folder, most
 
     @classmethod
     def of_user(cls) -> "KeptCalibrations":
-        """The calibrations in the user's cache."""
+        """Return the calibrations in the user's cache."""
         folder = cache_folder()
         return cls(None if folder is None else folder / "calibrations")
 
     def find(self, wanted: Conditions) -> Preparation | None:
-        """The preparation kept for these conditions; None if there is none or it cannot be used."""
+        """Return the preparation stored for these conditions, or None if there is none or it cannot be used."""
         if self.folder is None:
             return None
         try:
@@ -64,7 +65,8 @@ class KeptCalibrations:
             return None
 
     def keep(self, conditions: Conditions, preparation: Preparation) -> None:
-        """Keep a preparation, in place of an earlier one, and remove old files; raises CannotWrite."""
+        """Store a preparation, replacing an earlier one for the same conditions, and remove old files. Raises
+        CannotWrite."""
         if self.folder is None:
             return
         try:
@@ -76,14 +78,14 @@ class KeptCalibrations:
         self._trim()
 
     def files(self) -> list[Path]:
-        """The files of the calibrations, newest first."""
+        """Return the files of the calibrations, the newest first."""
         if self.folder is None:
             return []
         dated = [(_written(path), path) for path in self.folder.glob(f"[0-9a-f]*{ENDING}")]
         return [path for _, path in sorted(dated, reverse=True)]
 
     def entries(self) -> Iterator[KeptCalibration]:
-        """The readable calibrations, newest first."""
+        """Yield the readable calibrations, the newest first."""
         for path in self.files():
             with suppress(InvalidInput, ValueError):
                 line = read_whole(path, LARGEST).split(b"\n", 2)[1:2]
@@ -98,14 +100,14 @@ class KeptCalibrations:
                 )
 
     def clear(self) -> int:
-        """Remove all calibrations and no other files; returns their number."""
+        """Remove all calibrations, but no other files. Returns the number of calibrations removed."""
         files = self.files()
         for path in (*files, *self._unfinished()):
             _remove(path)
         return len(files)
 
     def _trim(self) -> None:
-        """Remove the oldest files beyond the limit, and abandoned unfinished ones."""
+        """Remove the oldest files that exceed the limit, and unfinished files whose writer has ended."""
         together = 0
         for path in self.files():
             together += _size(path)
@@ -116,7 +118,7 @@ class KeptCalibrations:
                 _remove(path)
 
     def _unfinished(self) -> Iterator[Path]:
-        """Files that are being written, or whose writer was killed."""
+        """Yield files that are still being written, or whose writer was killed."""
         return iter(()) if self.folder is None else self.folder.glob(f".[0-9a-f]*{ENDING}.*")
 
 
@@ -125,7 +127,7 @@ def _place(folder: Path, conditions: Conditions) -> Path:
 
 
 def _decoded(data: bytes, wanted: Conditions) -> Preparation:
-    """The preparation in a file; raises ValueError unless it was made under these conditions."""
+    """Return the preparation in a file. Raises ValueError unless it was made under these conditions."""
     line, _, rest = data.partition(b"\n")[2].partition(b"\n")
     if line != wanted.line or data != sealed(MAGIC, VERSION, line + b"\n" + rest):
         raise ValueError("it is damaged, or belongs to other conditions")
@@ -133,7 +135,7 @@ def _decoded(data: bytes, wanted: Conditions) -> Preparation:
 
 
 def _written(path: Path) -> float:
-    """Time at which a file was written, s since the epoch; 0 if it no longer exists."""
+    """Return the time at which a file was written, in seconds since the epoch; 0 if the file no longer exists."""
     try:
         return path.lstat().st_mtime
     except OSError:

@@ -1,7 +1,7 @@
-"""Preparation of a run: the arm measures its joints and calibrates the camera before the first instruction.
+"""Prepares a run: the arm measures its joints and calibrates the camera before the first instruction.
 
-The preparation does not depend on the instructions, so that runs of other programs can start from a kept one
-(`systems/stanford/kept_calibrations.py`). Equal conditions give equal preparations, byte for byte.
+The preparation does not depend on the instructions, so runs of other programs can start from a stored
+preparation (`systems/stanford/kept_calibrations.py`). Equal conditions give equal preparations, byte for byte.
 """
 
 import platform
@@ -38,7 +38,7 @@ class Preparation(Record, frozen=True, kw_only=True):
 def preparation_of(
     run: ExecutionContext, cell: SimulatedCell, seconds: float, friction_s: float
 ) -> Preparation:
-    """The preparation that a run has just completed; the clock of the cell is now 0."""
+    """Return the preparation that a run has just completed. The clock of the cell must be 0."""
     return Preparation(
         cell=cell.capture(),
         drive=copied(run.state.drive),
@@ -50,8 +50,8 @@ def preparation_of(
 
 
 def take_up(preparation: Preparation, run: ExecutionContext, cell: SimulatedCell) -> None:
-    """Set cell and run to the state after a preparation; raises InvalidInput, with nothing changed, if the
-    preparation does not fit.
+    """Set cell and run to the state after a preparation. If the preparation does not fit, change nothing and
+    raise InvalidInput.
     """
     state = copied(run.state)
     state.drive, state.lens = preparation.drive, preparation.lens
@@ -75,12 +75,12 @@ class Conditions(Record, frozen=True, kw_only=True):
 
     @property
     def line(self) -> bytes:
-        """The conditions as one line of JSON, equal for equal conditions."""
+        """The conditions as one line of JSON. Equal conditions give equal lines."""
         return msgspec.json.encode(self, order="deterministic")
 
 
 def conditions_of(setup: Setup, camera: Renderer) -> Conditions | None:
-    """The conditions of a run with this renderer; None if the run uses code of the caller."""
+    """Return the conditions of a run with this renderer, or None if the run uses the caller's own code."""
     ours = type(task(setup.task)).__module__.startswith("handeye.")
     if camera.method == "replaced" or not ours:
         return None

@@ -1,4 +1,4 @@
-"""The stepper's views of a run of a plan: sensor readings, and the state of the executor."""
+"""Defines what the stepper can show in a run of a plan: sensor readings, and the state of the executor."""
 
 import math
 from typing import Final
@@ -42,7 +42,7 @@ def _hand(runner: Runner) -> HandView:
 
 
 def _force(runner: Runner) -> Vector3 | None:
-    """The force, oz, at which a guard stopped the hand in this servo period; None if none did."""
+    """Return the force (oz) at which a guard stopped the hand in this servo period, or None if no guard did."""
     tripped = next((event for event in reversed(runner.events) if isinstance(event, GuardTripped)), None)
     if tripped is None or tripped.time != runner.time:
         return None

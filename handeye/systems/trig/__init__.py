@@ -1,4 +1,5 @@
-"""TRIG (MIT, 1982): programs that are taught by doing, drawn as they grow, and run forwards and backwards."""
+"""TRIG (MIT, 1982): the user teaches a program by doing the task, and the program is displayed as it grows, and
+can be run forwards and backwards."""
 
 from handeye.core.entries import Entry
 

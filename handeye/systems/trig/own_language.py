@@ -1,4 +1,5 @@
-"""The language service for scripts of lines typed at TRIG, and for programs written by the command W."""
+"""The language service for scripts, which contain lines typed at TRIG, and for programs that the command W has
+written."""
 
 from typing import Final
 
@@ -21,12 +22,12 @@ _CODES: Final = {
 
 
 class TrigLanguage(OwnLanguage):
-    """Checks scripts by typing them at an imaginary arm; nothing moves."""
+    """Checks scripts by executing them with an imaginary arm. Nothing moves."""
 
     system = ENTRY.name
 
     def check(self, source: Source) -> list[Diagnostic]:
-        """A diagnostic for the first line that is refused, or for a file that is no program."""
+        """Return a diagnostic for the first line that is refused, or for a file that is not a program."""
         first = Span(start=0, end=len(source.line(1)))
         try:
             if source.name.endswith(ENDING):
@@ -48,7 +49,7 @@ class TrigLanguage(OwnLanguage):
         return help(word) if SYNONYMS.get(word.upper(), word.upper()) in COMMANDS else None
 
     def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
-        """The commands, for completion at the beginning of a line."""
+        """Return the commands, for completion at the beginning of a line."""
         number, column = source.position(offset)
         before = source.line(number)[: column - 1].removeprefix(">").split()
         if len(before) > 1:

@@ -1,4 +1,4 @@
-"""A session of TRIG from Python: lines are typed, and both displays show the resulting program."""
+"""A TRIG session that is used from Python: lines are typed, and both displays show the resulting program."""
 
 from typing import Final, get_args
 
@@ -15,8 +15,8 @@ _WIDE: Final = 100  # characters of a line of the displays
 
 
 class TrigSession:
-    """A session at TRIG's editor, with a teach box: each typed line is executed, and most commands add a step to
-    the program.
+    """A session at TRIG's editor, with a teach box. Each typed line is executed, and most commands add a step
+    to the program.
 
     The session is displayed as the steps of its program; notebooks also show the program in miniature.
 
@@ -51,7 +51,7 @@ class TrigSession:
             the messages, one sentence each.
 
         Raises:
-            InvalidInput: a line cannot be executed; the lines before it have been.
+            InvalidInput: a line cannot be executed. The lines before it have already been executed.
         """
         told: list[str] = []
         script = Script(text.splitlines(), told.append)
@@ -61,12 +61,13 @@ class TrigSession:
 
     @property
     def hand(self) -> tuple[float, float, float]:
-        """Commanded position of the hand: X, Y and Z of the arm, mm."""
+        """Commanded position of the hand: X, Y and Z of the arm (mm)."""
         x, y, z, *_ = self._session.arm.here().measures()
         return x, y, z
 
     def photograph(self, *, width: int = 640, height: int = 480) -> Photograph:
-        """A photograph of arm and table from the front, shape (height, width, 3), red, green and blue.
+        """Return a photograph of arm and table from the front, as red, green and blue values of shape (height,
+        width, 3).
 
         Raises:
             InvalidInput: the arm is imaginary, OpenGL is missing, or the size is impossible.

@@ -1,4 +1,5 @@
-"""Commands of TRIG: programs taught by doing, drawn as they grow, and run forwards and backwards."""
+"""The commands of TRIG: programs are taught by doing the task, displayed as they grow, and run forwards and
+backwards."""
 
 import sys
 from collections.abc import Callable
@@ -117,12 +118,12 @@ def show(
 
 
 def at_terminal() -> bool:
-    """True if standard input and output are a terminal."""
+    """Return True if standard input and output are a terminal."""
     return sys.stdin.isatty() and sys.stdout.isatty()
 
 
 def _piped(session: "Session", halted: Callable[[], bool]) -> int:
-    """Execute lines of standard input; a refused one is reported, and the next is read."""
+    """Execute the lines of standard input. A refused line is reported, and the next one is read."""
     from handeye.systems.trig.language.command_input import Script, hear
 
     code = 0
@@ -137,7 +138,7 @@ def _piped(session: "Session", halted: Callable[[], bool]) -> int:
 
 
 def _conversed(session: "Session", arm: str) -> int:
-    """Run a session at a terminal: on a screen, or line by line where that is missing."""
+    """Run a session at a terminal: on a full screen or, if the screen library is missing, line by line."""
     try:
         from handeye.systems.trig.cli.screen import PACE, Screen
     except ModuleNotFoundError:

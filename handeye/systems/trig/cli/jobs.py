@@ -1,4 +1,5 @@
-"""Commands that teach, run, judge and undo the paper's two examples in worlds with errors, once or many times."""
+"""The commands that teach, run, judge and undo the paper's two examples in worlds with errors, once or many
+times."""
 
 import shlex
 from collections.abc import Callable, Sequence
@@ -39,7 +40,7 @@ Seed = Annotated[
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KeptOptions:
-    """Options for the records of a job."""
+    """Options that choose which records of a job are written."""
 
     out: Annotated[
         Path | None,
@@ -119,7 +120,8 @@ def bucket(
 
 
 def _world(name: "JobName", seed: int, errors: OwnErrorOptions, fault: Faults) -> WorldSpec:
-    """The world of a job; raises InvalidInput if an option names a quantity or fault that the job's table lacks."""
+    """Return the world of a job. Raises InvalidInput if an option names a quantity or fault that the job does
+    not have."""
     return broken(errors.of(name).spec(seed), fault, any_task(name))
 
 
@@ -152,7 +154,7 @@ def _carried_out(
     folder: "RunFolder | None",
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
-    """Teach a job and execute it; the result is written to the folder before the user can interrupt."""
+    """Teach a job and execute it. The result is written to the folder before the user can interrupt."""
     from handeye.results.cautions import losses
     from handeye.results.finishing import finished, outcome
     from handeye.runs.host_seconds import Meter
@@ -187,7 +189,7 @@ def _taught(
     folder: "RunFolder | None",
     observers: "Callable[[Runner], Sequence[Observer]]",
 ) -> "Runner":
-    """Start a run with its job taught; if that fails, a new folder is removed."""
+    """Start a run and teach its job. If that fails, a newly created folder is removed."""
     from handeye.execution.servo import Halted
     from handeye.runs.runner import Runner
 
@@ -203,7 +205,7 @@ def _taught(
 
 
 def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
-    """Write the video; False if that fails, which is reported."""
+    """Write the video. If that fails, report the error and return False."""
     try:
         with drawing() as told:
             video.write(job, done.ended_s, told)
@@ -214,7 +216,7 @@ def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
 
 
 def _check_apart(kept: KeptOptions) -> None:
-    """Raise CannotWrite if the video would lie in the run's folder."""
+    """Raise CannotWrite if the video would be written into the run's folder."""
     if kept.out is None or kept.video is None:
         return
     if kept.video.absolute().is_relative_to(kept.out.absolute()):

@@ -1,4 +1,4 @@
-"""An interface for terminals without a screen: lines in, lines out."""
+"""The user interface for terminals without a full screen: the user types lines, and TRIG prints lines."""
 
 import sys
 from collections import deque
@@ -23,7 +23,7 @@ ROWS = 12  # of the partial display
 
 
 class LineDesk(Desk):
-    """Reads typed lines, including those for the teach box."""
+    """Reads typed lines, including those with the actions on the teach box."""
 
     def __init__(self, panic: PanicButton) -> None:
         self._panic = panic
@@ -31,7 +31,7 @@ class LineDesk(Desk):
         self.words: Callable[[], Iterable[str]] = lambda: COMMANDS
 
     def line(self, prompt: str) -> str | None:
-        """A typed line, or None at the end of the input."""
+        """Return a typed line, or None at the end of the input."""
         return next(typed_lines(prompt, self._panic.aside, self.words, droppable=prompt == PROMPT), None)
 
     def answer(self, question: str) -> str:
@@ -65,7 +65,7 @@ class LineDesk(Desk):
 
 
 def converse(session: Session, panic: PanicButton) -> None:
-    """Execute lines until the user leaves, showing both displays after each change."""
+    """Execute lines until the user leaves. After each change, show both displays."""
     session.desk = desk = LineDesk(panic)
     desk.words = lambda: (*COMMANDS, *_names(session))
     shown = ""
@@ -88,7 +88,7 @@ def _names(session: Session) -> Iterable[str]:
 
 
 def _picture(session: Session) -> str:
-    """Both displays, and the place of the arm."""
+    """Return both displays, and the place of the arm, as text."""
     symbols, width = symbols_for(sys.stdout.encoding), screen.width
     lines = [*full_display(session.program, width, ROWS, symbols), []]
     lines += partial_display(session.program, width, ROWS, symbols)

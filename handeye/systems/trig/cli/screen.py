@@ -1,8 +1,8 @@
-"""An interface with a screen: live displays, and keys for the teach box.
+"""The user interface with a full screen: live displays, and keys for the teach box.
 
-The session runs in a separate thread, so that the screen reads keys while the arm moves. The displays are drawn by
-the thread that may read the program: the screen's thread while the session waits, the session's thread while it
-works.
+The session runs in a thread of its own, so that the screen can read keys while the arm moves. The displays are
+drawn by whichever thread may read the program at that time: the screen's thread while the session waits, and
+the session's thread while it works.
 """
 
 from collections import deque
@@ -33,7 +33,7 @@ Mode = Literal["line", "box", "busy"]
 
 
 class Screen(Desk):
-    """Shows a session on the screen, and reads its input."""
+    """Shows a session on the full screen, and reads its input."""
 
     def __init__(
         self,
@@ -44,7 +44,7 @@ class Screen(Desk):
         input: Input | None = None,
         output: Output | None = None,
     ) -> None:
-        """Attach to a session; each step is shown for `pace` (s), and `waits` is called when the session waits for
+        """Attach to a session. Each step is shown for `pace` (s). `waits` is called when the session waits for
         input.
         """
         self.session, self.question = session, PROMPT
@@ -130,7 +130,7 @@ class Screen(Desk):
 
     @property
     def size(self) -> tuple[int, int]:
-        """Columns and rows of the terminal."""
+        """Number of columns and rows of the terminal."""
         size = self.app.output.get_size()
         return size.columns, size.rows
 
@@ -151,12 +151,12 @@ class Screen(Desk):
         return False
 
     def put_line(self, line: str | None) -> None:
-        """Pass a line to the session; None at the end of the input."""
+        """Pass a line to the session, or None for the end of the input."""
         self.mode = "busy"
         self._lines.put(line)
 
     def put_button(self, button: Button | None) -> None:
-        """Pass an action on the teach box to the session; None if the user put the teach box down."""
+        """Pass an action on the teach box to the session, or None if the user has put the teach box down."""
         if not isinstance(button, Jog):
             self.mode = "busy"
         self._buttons.put(button)
@@ -171,7 +171,7 @@ class Screen(Desk):
         self.scroll = max(0, min(self.scroll + 8 * by, len(self.page) - 1))
 
     def drop_line(self) -> None:
-        """Cancel the question; at the prompt, only drop the line."""
+        """Cancel the question that is being asked. At the prompt, only discard the line."""
         if self.question != PROMPT:
             self.put_line(None)
 

@@ -23,7 +23,7 @@ _REFRESH_S: Final = 0.1  # least time between updates of the progress line
 
 
 def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Session:
-    """A session with an arm: empty, or with a script that was typed or a program that was read."""
+    """Open a session with an arm. The program is empty, typed from a script, or read from a program file."""
     session = new_session(arm)
     if file is not None and file.name.endswith(ENDING):
         session.program, session.file = read_program(file), file
@@ -38,7 +38,7 @@ def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Sessi
 
 @contextmanager
 def watched(session: Session, halted: Halted) -> Iterator[None]:
-    """In this context, the progress of a running program is shown at the terminal."""
+    """Within this context, show the progress of a running program at the terminal."""
     with watched_desk(session, halted) as desk:
         session.desk = desk
         yield
@@ -46,7 +46,7 @@ def watched(session: Session, halted: Halted) -> Iterator[None]:
 
 @contextmanager
 def watched_desk(session: Session, halted: Halted) -> Iterator[Desk]:
-    """An interface that shows progress at the terminal."""
+    """Yield a user interface that shows progress at the terminal."""
     with notes.status("running") as status:
         yield _ProgressDesk(session, status, halted)
 
@@ -58,7 +58,7 @@ class _ProgressDesk(Script):
         self._since = HostTimer()
 
     def refresh(self) -> None:
-        """Update the progress, but not often, because counting executed steps takes time."""
+        """Update the progress, but not often, because counting the executed steps takes time."""
         if self._since.wall_s < _REFRESH_S:
             return
         self._since = HostTimer()
@@ -72,7 +72,7 @@ class _ProgressDesk(Script):
 
 
 def interrupting(halted: Callable[[], bool]) -> Halted:
-    """A halt function for typing a script; pressing Ctrl-C interrupts everything."""
+    """Return a halt function for typing a script, with which Ctrl-C interrupts everything."""
 
     def ask() -> bool:
         if halted():

@@ -1,4 +1,4 @@
-"""The windows of the screen (full display, partial display, program editor, arm status), and its keys."""
+"""Defines the windows of the screen (full display, partial display, program editor, arm status), and its keys."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -116,7 +116,7 @@ class Picture:
 
 
 def pictured(session: Session, size: tuple[int, int]) -> Picture:
-    """Draw both displays for a terminal with this many columns and rows."""
+    """Draw both displays for a terminal of this size (columns, rows)."""
     columns, rows = size
     symbols = symbols_for("utf-8")
     full = full_display(session.program, columns - 2, FULL_ROWS, symbols)
@@ -131,7 +131,7 @@ def pictured(session: Session, size: tuple[int, int]) -> Picture:
 
 
 def editor_rows(rows: int) -> int:
-    """Number of terminal rows for input and answers."""
+    """Return the number of terminal rows for input and answers."""
     return max(1, min(EDITOR_ROWS, rows // 4 - 1))
 
 
@@ -178,7 +178,7 @@ def _told(screen: "Screen") -> StyleAndTextTuples:
 
 
 def _text(text: Callable[[], StyleAndTextTuples], height: Callable[[], int] | None = lambda: 1) -> Window:
-    """A text window; without a height it takes the remaining rows."""
+    """Return a text window. Without a height, it gets the remaining rows."""
     rows = Dimension(weight=1) if height is None else lambda: Dimension.exact(height())
     return Window(FormattedTextControl(text), height=rows)
 
@@ -190,7 +190,7 @@ def _rule(title: str, beside: str, screen: "Screen") -> StyleAndTextTuples:
 
 
 def _drawn(lines: list[Line]) -> StyleAndTextTuples:
-    """A display, indented by one blank."""
+    """Return a display, indented by one blank."""
     drawn: StyleAndTextTuples = []
     for line in lines:
         drawn += [("", " "), *((f"class:{style}", text) for style, text in line), ("", "\n")]
@@ -198,7 +198,7 @@ def _drawn(lines: list[Line]) -> StyleAndTextTuples:
 
 
 def _page(screen: "Screen") -> StyleAndTextTuples:
-    """A long answer from the present scroll position on."""
+    """Return a long answer, from the present scroll position on."""
     return [("", "\n".join(f" {line}" for line in screen.page[screen.scroll :]))]
 
 
@@ -209,7 +209,7 @@ def _help(screen: "Screen") -> str:
 
 
 def _file(session: Session) -> str:
-    """The name of the file, with a star if there are unsaved changes."""
+    """Return the name of the program's file. A star marks unsaved changes."""
     star = "*" if session.program.changed else ""
     return f"{printable(str(session.file))}{star}" if session.file else "not written" if star else ""
 

@@ -1,1 +1,1 @@
-"""The bench of TRIG's examples: blocks on the platter of a Purbrick arm."""
+"""The bench for TRIG's examples: blocks on the platter of a Purbrick arm."""

@@ -1,4 +1,4 @@
-"""Finds benches and jobs by name, and loads the physics only when one is opened."""
+"""Finds benches and jobs by name. The physics is loaded only when a bench or job is opened."""
 
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Literal
@@ -32,18 +32,18 @@ class SeenTable(Tabletop):
 
     @abstractmethod
     def photograph(self, width: int, height: int) -> "Photograph":
-        """A photograph of arm and table, which the program never sees."""
+        """Return a photograph of arm and table. The program never sees it."""
 
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":
-    """A switched-on TRIG arm and its table, in a world without errors."""
+    """Return a TRIG arm that is switched on, and its table, in a world without errors."""
     from handeye.systems.trig.jobs.table import purbrick  # with its physics: only where it is asked for
 
     return {"purbrick": purbrick}[name]()
 
 
 class BlockPose(Record, frozen=True, kw_only=True):
-    """The true pose of a block's centre relative to the platter."""
+    """The true pose of a block's centre, relative to the platter."""
 
     name: str
     at: tuple[float, float, float]  # mm
@@ -51,7 +51,7 @@ class BlockPose(Record, frozen=True, kw_only=True):
 
 
 def new_session(arm: ArmName) -> "Session":
-    """A new TRIG session with the imaginary or the simulated arm."""
+    """Return a new TRIG session with the imaginary or the simulated arm."""
     from handeye.systems.trig.language.command_input import Script
     from handeye.systems.trig.language.no_arm import NoArm
     from handeye.systems.trig.language.session import Session
@@ -67,7 +67,7 @@ Moment = Literal["taught", "turned", "now"]  # just taught, about to be reversed
 
 
 class TaughtPlan(Record, frozen=True, kw_only=True):
-    """A job with its script; each world teaches the script with other errors."""
+    """A job with its script. Each world teaches the script with different errors."""
 
     job: JobName
     script: str
@@ -79,7 +79,7 @@ class TaughtPlan(Record, frozen=True, kw_only=True):
 
 
 def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
-    """Decode a plan without typing its script yet; raises BadFile."""
+    """Decode a plan, without executing its script. Raises BadFile."""
     try:
         plan = msgspec.json.decode(data, type=TaughtPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -100,11 +100,11 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def teach(self, halted: "Halted") -> None:
-        """Type the program with imprecise teaching, and prepare the table for a run."""
+        """Type the program with the teaching errors of the world, and prepare the table for a run."""
 
     @abstractmethod
     def lay(self) -> None:
-        """Prepare the table as after teaching, before a state is restored."""
+        """Prepare the table as it is after teaching, before a state is restored."""
 
     @property
     @abstractmethod
@@ -118,40 +118,40 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def lying(self, when: "Moment") -> tuple[BlockPose, ...]:
-        """Poses of the blocks at a given moment, in the order in which the arm picks them up."""
+        """Return the poses of the blocks at a given moment, in the order in which the arm picks them up."""
 
     @abstractmethod
     def turn(self) -> None:
         """Record the scene for the referee before the reversal."""
 
     def built(self) -> "Findings":
-        """The referee's findings on the work before its reversal; empty if there was no reversal."""
+        """Return the referee's findings on the work before its reversal. Empty if there was no reversal."""
         return {}
 
     @property
     def stack(self) -> int | None:
-        """Number of blocks in the stack of a run; None if there is no stack."""
+        """Number of blocks in the stack, or None if there is no stack."""
         return None
 
     @property
     @abstractmethod
     def goals(self) -> tuple[tuple[float, float], ...]:
-        """Goals of the blocks, mm, in the order in which the arm picks them up."""
+        """The goals of the blocks (mm), in the order in which the arm picks the blocks up."""
 
     def remembered(self) -> "Findings":
-        """Findings on the program after its reversal; empty by default."""
+        """Return findings on the program after its reversal; empty by default."""
         return {}
 
 
 def job_script(name: JobName, blocks: int = MOST_BLOCKS) -> str:
-    """The script of a job; `blocks` is the size of the palletiser's stack."""
+    """Return the script of a job. `blocks` is the number of blocks in the palletiser's stack."""
     from handeye.systems.trig.jobs.jobs import script_of
 
     return script_of(name, blocks)
 
 
 def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob:
-    """Open a job in a world, or without errors if `world` is None, with nothing typed yet."""
+    """Open a job in a world, or without errors if `world` is None. Nothing is taught yet."""
     from handeye.systems.trig.jobs.jobs import BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 

@@ -1,4 +1,4 @@
-"""The paper's two examples as jobs: taught line by line in a world, executed, and judged."""
+"""The paper's two examples as jobs, which are taught line by line in a world, executed, and judged."""
 
 import math
 import re
@@ -31,7 +31,7 @@ _LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")  # the one for a r
 
 
 def script_of(name: JobName, blocks: int) -> str:
-    """The script of a job; `blocks` is the size of the palletiser's stack."""
+    """Return the script of a job. `blocks` is the number of blocks in the palletiser's stack."""
     text = read_source(plans() / f"{name}.trig").text
     if name == "bucket":
         return text
@@ -83,7 +83,7 @@ class _Job(TaughtJob):
         return turned or stands(self.bench.data, began.blocks)
 
     def _taken(self, poses: dict[str, Pose]) -> list[tuple[str, Pose]]:
-        """Names and poses of the blocks in the order in which the arm picks them up."""
+        """Return the names and poses of the blocks, in the order in which the arm picks them up."""
         return list(poses.items())
 
     def turn(self) -> None:
@@ -91,7 +91,7 @@ class _Job(TaughtJob):
 
 
 class PalletJob(_Job):
-    """The second example: put a stack into a pallet of three rows and five columns."""
+    """The second example: move a stack into a pallet of three rows and five columns."""
 
     task, undoable = PALLET, True
 
@@ -129,6 +129,6 @@ class BucketJob(_Job):
 
 
 def _mm(at: Sequence[float] | Array) -> tuple[float, float, float]:
-    """Coordinates (m) in mm, rounded to a thousandth."""
+    """Convert coordinates (m) to mm, rounded to a thousandth."""
     x, y, z = (round(float(value) / MILLIMETRE, 3) for value in at[:3])
     return x, y, z

@@ -1,4 +1,4 @@
-"""The referee of the block bench, which uses the true poses of blocks and hand."""
+"""The referee of the block bench. It uses the true poses of the blocks and of the hand."""
 
 from collections.abc import Mapping, Sequence
 from math import acos, degrees
@@ -26,8 +26,8 @@ Poses = Mapping[str, Pose]  # of blocks over the platter, by name
 
 
 def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings:
-    """Check that the uppermost blocks of a stack lie at their places in order, and that all others are where they
-    were.
+    """Check that the uppermost blocks of a stack lie at their places in order, and that all other blocks are
+    where they were before.
     """
     taken = list(before)[::-1][: len(places)]
     there = [now[name] for name in taken]
@@ -46,12 +46,13 @@ def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings
 
 
 def judge_back(before: Poses, now: Poses) -> Findings:
-    """Check that every block is where it was."""
+    """Check that every block is where it was before."""
     return _as_before(before, now, list(before), "back in the stack")
 
 
 def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pose) -> Findings:
-    """Check that one block lies in a bucket, with its centre at `inside`, and another block at `place`; x, y in m."""
+    """Check that one block lies in a bucket, with its centre at `inside` (x, y, m), and that another block lies
+    at `place` (m)."""
     aside = float(np.max(np.abs(X[:2, 3] - inside)))
     return {
         "below_its_rim": at_most(float(X[2, 3]) * _MM, RIM, "mm", "height of the centre of block A"),
@@ -71,13 +72,13 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
 
 
 def judge_hand(truth: Array, place: Array, what: str) -> Finding:
-    """Check that the true position of the hand is at a place; both of shape (6,), m and rad."""
+    """Check that the true position of the hand is at a place. Both have shape (6,), in m and rad."""
     off = float(np.linalg.norm(truth[:3] - place[:3]))
     return at_most(off * _MM, HAND, "mm", f"distance of the hand from the place where the program {what}")
 
 
 def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Findings:
-    """Check that a position has its taught value, and that all loop counts are 0."""
+    """Check that the position PALLET has its taught value, and that all loop counts are 0."""
     now, taught = pallet
     off = float(np.linalg.norm(np.array(now) - np.array(taught)))
     return {

@@ -1,4 +1,4 @@
-"""The Purbrick arm for TRIG, with blocks and a bucket on its platter, which are placed between commands."""
+"""The Purbrick arm for TRIG, with blocks and a bucket on its platter. The user places them between commands."""
 
 import math
 from typing import Final
@@ -86,7 +86,7 @@ class BlockTable(SeenTable):
 
     @property
     def poses(self) -> dict[str, Pose]:
-        """True poses of the blocks' centres relative to the platter, lower blocks first, for the referee."""
+        """True poses of the blocks' centres relative to the platter, for the referee. Lower blocks come first."""
         return block_poses(self.bench.data, self._names)
 
 
@@ -94,6 +94,6 @@ NOMINAL = BlocksWorld()
 
 
 def purbrick(world: BlocksWorld = NOMINAL) -> tuple[AxesArm, BlockTable]:
-    """A switched-on arm with an open hand above the centre of an empty platter."""
+    """Return an arm that is switched on, with an open hand above the centre of an empty platter."""
     table = BlockTable(world)
     return AxesArm(PURBRICK.on_bench(table.bench, world.bending), table.bench, PURBRICK.limits), table

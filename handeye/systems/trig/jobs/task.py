@@ -1,4 +1,4 @@
-"""The paper's two examples as tasks, with the checks of the referee."""
+"""The paper's two examples as tasks, with the checks that their referee makes."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class _BlocksTask(AnyTask):
 
 
 class Pallet(_BlocksTask):
-    """Put a stack into a pallet of three rows and five columns."""
+    """Move a stack into a pallet of three rows and five columns."""
 
     name = "palletise"
     words = Words(
@@ -71,7 +71,7 @@ class Pallet(_BlocksTask):
         return self.judge_built(initial_scene(truth), stands(truth.data, initial_scene(truth).blocks))
 
     def judge_built(self, seen: InitialScene, stood: ObservedScene) -> Findings:
-        """Findings on the finished work at one moment."""
+        """Return findings on the finished work at one moment."""
         placed = judge_placed(seen.poses, stood.poses, self.places(seen))
         return {**placed, "hand": _ends_at(seen, stood, "DONE")}
 
@@ -82,7 +82,7 @@ class Pallet(_BlocksTask):
         return {**judge_back(seen.poses, stood.poses), "hand": back}
 
     def places(self, seen: InitialScene) -> list[Place]:
-        """Places at which the arm releases the blocks, in order, as taught."""
+        """Return the places at which the arm releases the blocks, in order, computed from the taught positions."""
         above, places = seen.place("PALLET"), []
         for _ in range(COLUMNS):
             for _ in range(ROWS):
@@ -114,7 +114,7 @@ def _ends_at(seen: InitialScene, stood: ObservedScene, name: str) -> Finding:
 
 
 def lay(table: BlockTable, script: str) -> None:
-    """Prepare a table by the lines of a script that describe it."""
+    """Prepare a table as described by the lines of a script that concern the table."""
     for line in map(stripped, script.splitlines()):
         if line.startswith(MARK):
             arrange(table, line)

@@ -1,4 +1,5 @@
-"""The witness: records the true scene before a run and before its reversal, for the referee only."""
+"""The witness, which records the true scene before a run and before its reversal. Only the referee uses these
+records."""
 
 from collections.abc import Iterable
 from typing import Final
@@ -35,20 +36,20 @@ class ObservedScene(Record, frozen=True, kw_only=True):
 
     @property
     def sound(self) -> bool:
-        """True if the record is well formed and finite."""
+        """True if the record is well formed and all its numbers are finite."""
         rows = [*self.blocks.values()]
         whole = len(self.hand) == len(PURBRICK.axes) and all(len(row) == _ENTRIES for row in rows)
         return whole and all(np.isfinite(row).all() for row in (self.hand, *rows))
 
 
 class InitialScene(ObservedScene, frozen=True, kw_only=True):
-    """The scene before a run, and the scene before its reversal."""
+    """The scene before a run, and, once there is one, the scene before the run's reversal."""
 
     taught: dict[str, Place]  # taught positions
     turned: ObservedScene | None = None  # scene before the reversal, if recorded
 
     def place(self, name: str) -> Place:
-        """A taught position; raises Refused if the script does not teach it."""
+        """Return a taught position. Raises Refused if the script does not teach it."""
         found = self.taught.get(name)
         if found is None:
             raise Refused(f"the referee needs the position {name}, which the script does not teach")
@@ -65,7 +66,7 @@ class Witness(Mechanism[InitialScene]):
         self.began = InitialScene(blocks={}, hand=(0.0,) * len(PURBRICK.axes), taught={})
 
     def look(self, data: mujoco.MjData, names: Iterable[str], program: TrigProgram) -> None:
-        """Record the scene with these blocks, and the positions of a program."""
+        """Record the scene with these blocks, and the taught positions of a program."""
         now = stands(data, names)
         taught = {name: position.init for name, position in program.positions.items()}
         self.began = InitialScene(blocks=now.blocks, hand=now.hand, taught=taught)
@@ -94,11 +95,11 @@ def stands(data: mujoco.MjData, names: Iterable[str]) -> ObservedScene:
 
 
 def block_poses(data: mujoco.MjData, names: Iterable[str]) -> dict[str, Pose]:
-    """True poses of the blocks' centres relative to the platter."""
+    """Return the true poses of the blocks' centres relative to the platter."""
     platter = data.body("platter").xpos
     return {name: pose(data.body(name).xmat.reshape(3, 3), data.body(name).xpos - platter) for name in names}
 
 
 def hand(data: mujoco.MjData) -> Array:
-    """True place of the hand relative to the platter, shape (6,), m and rad."""
+    """Return the true place of the hand relative to the platter (m and rad, shape (6,))."""
     return np.array([data.joint(spec.name).qpos[0] for spec in PURBRICK.axes])

@@ -1,4 +1,4 @@
-"""Worlds of the block bench: errors of teaching, machine and block poses, generated from a seed."""
+"""The worlds of the block bench: errors of teaching, of the machine and of block poses, generated from a seed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -104,29 +104,30 @@ _MAX_SIGMAS: Final = 2.0  # larger errors are corrected by people
 
 @dataclass(frozen=True, slots=True)
 class BlocksWorld:
-    """A world; without a specification it has no errors. Each number is drawn from a separate stream, by name."""
+    """A world of the block bench. Without a specification, it has no errors. Each number is drawn from a stream
+    of its own, which is selected by the number's name."""
 
     spec: WorldSpec | None = None
 
     def fault(self, name: str) -> float | None:
-        """Size of a fault, SI; None if the world does not have the fault."""
+        """Return the size of a fault (SI), or None if the world does not have the fault."""
         faults = () if self.spec is None else self.spec.faults
         return next((fault.value for fault in faults if fault.name == name), None)
 
     def normal(self, name: str, quantity: str) -> float:
-        """A normally distributed number by name; its sigma is a quantity of the world, and it is clipped at two
-        sigma.
+        """Draw the normally distributed number called `name`. Its standard deviation is the world's value of
+        `quantity`, and it is clipped at two standard deviations.
         """
         return 0.0 if self.spec is None else VARIATION.value(quantity, self.spec) * self._drawn(name)
 
     def _drawn(self, name: str) -> float:
-        """A standard normal number by name, clipped at two sigma."""
+        """Draw the standard normal number called `name`, clipped at two standard deviations."""
         assert self.spec is not None
         drawn = float(random_numbers(self.spec.seed, f"blocks.{name}").standard_normal())
         return min(max(drawn, -_MAX_SIGMAS), _MAX_SIGMAS)
 
     def slip(self, number: int) -> float:
-        """Teaching error (m) of one jog of an axis, by the number of the jog from 0."""
+        """Return the teaching error (m) of one jog of an axis. Jogs are numbered from 0."""
         return self.normal(f"taught.{number}", TAUGHT)
 
     @property
@@ -141,7 +142,7 @@ class BlocksWorld:
 
     @property
     def bending(self) -> Callable[[Array], Array]:
-        """Errors (m, rad) of the six potentiometers as a function of their readings."""
+        """The errors of the six potentiometers (m or rad), as a function of their readings."""
         if self.spec is None:
             return np.zeros_like
         sigmas = [*3 * (SLIDES,), *3 * (TURNS,)]

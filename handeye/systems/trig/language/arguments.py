@@ -1,4 +1,4 @@
-"""Reads the arguments of a command according to their kinds."""
+"""Parses the arguments of a command according to their kinds."""
 
 import re
 from collections.abc import Callable
@@ -21,7 +21,8 @@ _VECTOR: Final = re.compile(r"\(\s*(\S+)[\s,]+(\S+)[\s,]+(\S+?)\s*\)")
 
 @dataclass(slots=True, kw_only=True)
 class Arguments:
-    """The arguments of a command; None if omitted. `negate`: the position has a minus sign; `threshold` is in N."""
+    """The arguments of a command; None if omitted. `negate` is True if the position has a minus sign;
+    `threshold` is in N."""
 
     position: str | None = None
     negate: bool = False
@@ -34,8 +35,8 @@ class Arguments:
 
 
 def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Arguments:
-    """Read arguments of these kinds, of which the first `needs` are required; raises BadArgument with `usage` in
-    the sentence.
+    """Parse arguments of these kinds, of which the first `needs` are required. Raises BadArgument with a
+    message that shows `usage`.
     """
     given = Arguments()
     words = [rest] if takes and takes[0] in ("file", "vector") and rest else rest.split()
@@ -52,7 +53,7 @@ def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -
 
 
 def read_branch(word: str) -> int:
-    """A branch of a guarded step, as typed; raises BadArgument."""
+    """Parse a branch of a guarded step. Raises BadArgument."""
     branch = BRANCHES.get(word.strip().rstrip(".").upper())
     if branch is None:
         raise BadArgument(f"{quoted(word.strip())} is not a branch; type n (normal) or g (guarded)")
@@ -60,7 +61,7 @@ def read_branch(word: str) -> int:
 
 
 def read_threshold(word: str) -> float:
-    """A threshold typed in ounces, converted to N; raises BadArgument."""
+    """Parse a threshold given in ounces, and convert it to N. Raises BadArgument."""
     ounces = number(word.strip())
     if ounces < 0:
         raise BadArgument(f"a threshold must be 0 oz or more, not {quoted(word.strip())}")
@@ -68,7 +69,7 @@ def read_threshold(word: str) -> float:
 
 
 def read_vector(text: str) -> Vector3:
-    """A force vector, typed as three weights in parentheses; raises BadArgument."""
+    """Parse a force vector, which is typed as three weights in parentheses. Raises BadArgument."""
     found = _VECTOR.fullmatch(text.strip())
     if found is None:
         raise BadArgument(f"{quoted(text.strip())} is not a force vector; write it like (0 0 1)")

@@ -21,7 +21,7 @@ def go(session: Session, given: Arguments) -> None:
 
 
 def feel(session: Session, given: Arguments) -> None:
-    """GOGPOS: go to a position until a force stops the arm, and report where it ended."""
+    """GOGPOS: go to a position until a force stops the arm, and report where the arm stopped."""
     goal = session.runner.goal(_move(session, given))
     threshold, vector = session.threshold(), session.vector()
     arrival = session.arm.feel(goal, vector, threshold, session.desk.halted)
@@ -46,7 +46,7 @@ def open(session: Session, given: Arguments) -> None:
 
 
 def _move(session: Session, given: Arguments) -> Node:
-    """A move that is not part of the program."""
+    """Return a move that is not part of the program."""
     session.position(given.position, negate=given.negate)
     node = session.program.graph.new("normal")
     node.position, node.negate = given.position, given.negate
@@ -88,7 +88,7 @@ def _define(session: Session, name: str, place: Place, *, relative: bool) -> Non
 
 
 def _check_redefinition(session: Session, name: str, relative: bool) -> None:
-    """Return if a position may be redefined and the user agrees; else raise an exception."""
+    """Raise an exception if a position may not be redefined, or if the user does not agree to that."""
     was = session.position(name).relative
     if relative and any(node.type == "savpos" for node in session.program.users(name)):
         raise Refused(f"a SAVPOS step sets {name}, so {name} stays absolute; D deletes the step")

@@ -1,5 +1,5 @@
-"""A TRIG arm on a machine of axes: moves are sequences of set-points, and guarded moves use the force-sensing
-finger.
+"""Drives a machine with axes as a TRIG arm. Moves are sequences of set-points; guarded moves use the finger
+that senses force.
 """
 
 from collections.abc import Iterable
@@ -38,7 +38,8 @@ _TARE: Final = 10  # readings averaged before a guarded move
 
 
 class ArmMemory(Record, frozen=True, kw_only=True):
-    """The arm's memory between two steps: commanded place, commanded opening (m), and whether the hand is closed."""
+    """What the arm remembers between two steps: the commanded place, the commanded opening (m), and whether the
+    hand is closed."""
 
     told: Place
     opening: float
@@ -46,7 +47,7 @@ class ArmMemory(Record, frozen=True, kw_only=True):
 
 
 class AxesArm(TrigArm):
-    """Six axes, X, Y, Z, roll, pitch and yaw, and a hand, as axes of a machine."""
+    """The six axes of a machine (X, Y, Z, roll, pitch and yaw) and its hand, as a TRIG arm."""
 
     def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits) -> None:
         self._axes, self._clock, self._limits = axes, clock, limits
@@ -154,8 +155,8 @@ class AxesArm(TrigArm):
         self._wait(self._limits.grasping)
 
     def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
-        """The obstacle in the way, if any: a force that exceeds `tare` by more than `limit` (N), or an axis that
-        lags behind; `speed` has shape (n,).
+        """Return the obstacle in the way, or None: either a force that exceeds `tare` by more than `limit` (N),
+        or an axis that lags behind. `speed` is that of the n axes (m/s or rad/s, shape (n,)).
         """
         found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:
@@ -163,13 +164,13 @@ class AxesArm(TrigArm):
         return found
 
     def _stand(self) -> None:
-        """Stop at the sensed position instead of the commanded one."""
+        """Stop, and make the sensed position the commanded one."""
         self._goal = self._where()
         self._wait(self._limits.settling)
 
     def _where(self) -> Array:
-        """Sensed axis positions, clipped to the travel of the axes, because readings may exceed the travel
-        slightly.
+        """Return the sensed axis positions, clipped to the travel of the axes, because readings may exceed the
+        travel slightly.
         """
         lower, upper = np.transpose(self.travel)
         return np.clip(self._axes.read().q[:-1], lower, upper)
@@ -208,10 +209,10 @@ class AxesArm(TrigArm):
             self._put(self._goal)
 
     def _force(self) -> Array:
-        """Force on the finger, N, along the finger's axes, which are parallel to the arm's axes while the hand is
-        level.
+        """Return the force on the finger (N) along the finger's axes, which are parallel to the arm's axes
+        while the hand is level.
 
-        The gauges measure the force that the finger exerts; the sign is reversed here.
+        The gauges measure the force that the finger exerts, so this function reverses the sign.
         """
         channels = self._axes.read().channels
         return -np.array([channels[f"force_{axis}"] for axis in "xyz"])

@@ -1,8 +1,9 @@
-"""Executes typed lines as commands, from a terminal or a script; an invalid line is refused with a sentence.
+"""Executes typed lines as commands, from a terminal or a script. An invalid line is refused with a one-sentence
+message.
 
-The lines of a script are those typed at a terminal: commands, with or without the prompt; after a command, the
-buttons of the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the command's questions, with or without the
-question. Remarks begin with `;`.
+A script has the lines that a user would type at a terminal. These are commands, with or without the prompt,
+and, after a command, the actions on the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the command's
+questions, with or without the question. Remarks begin with `;`.
 """
 
 from collections import deque
@@ -30,7 +31,7 @@ TABLE_HELP: Final = (
 
 
 def hear(session: Session, line: str) -> None:
-    """Execute a line; an invalid or cancelled line leaves the program unchanged."""
+    """Execute a line. An invalid or cancelled line leaves the program unchanged."""
     word, _, rest = stripped(line).partition(" ")
     if not word:
         return
@@ -49,12 +50,12 @@ def hear(session: Session, line: str) -> None:
 
 
 def stripped(line: str) -> str:
-    """The command part of a line, without the paper's prompt and remarks."""
+    """Return the command in a line, without the paper's prompt and without remarks."""
     return " ".join(line.partition(";")[0].split()).removeprefix(">").lstrip()
 
 
 def command_of(word: str) -> TrigCommand:
-    """The command for a word, in any case; raises NoSuchName."""
+    """Return the command for a word in upper or lower case. Raises NoSuchName."""
     upper = word.upper()
     command = COMMANDS.get(SYNONYMS.get(upper, upper))
     if command is not None:
@@ -68,7 +69,7 @@ def command_of(word: str) -> TrigCommand:
 
 
 def help(word: str) -> str:
-    """Help on all commands, or on one command."""
+    """Return help on all commands, or on one command."""
     if word:
         command = command_of(word)
         return f"{command.usage}: {command.help}"
@@ -81,7 +82,7 @@ def help(word: str) -> str:
 
 
 class Script(Desk):
-    """An interface that reads from a text."""
+    """A user interface that reads its input from a text."""
 
     def __init__(
         self,
@@ -90,14 +91,15 @@ class Script(Desk):
         halted: Halted = lambda: False,
         slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
-        """`slip` gives the error (m) of a jog of X, Y or Z, by the number of such jogs before."""
+        """Read these lines. `slip` gives the teaching error (m) of a jog of X, Y or Z, from the number of such
+        jogs before it."""
         self._lines, self._halted = enumerate(lines, 1), halted
         self._told, self._slip, self._jogs = tell, slip, 0
         self._pressed = deque[Button]()
         self.number = 0  # number of the line read last, from 1
 
     def next_line(self) -> str | None:
-        """The next line that is not empty, or None."""
+        """Return the next line that is not empty, or None."""
         for number, line in self._lines:
             self.number = number
             if text := stripped(line):
@@ -144,8 +146,8 @@ class LineRefused(BadFile):
 
 
 def type_script(session: Session, script: Script, name: str) -> int:
-    """Execute the lines of a script until the script leaves the session; returns the number of commands. `name` is
-    the script's name for messages.
+    """Execute the lines of a script until the script leaves the session. Returns the number of commands.
+    Messages call the script `name`.
     """
     count = 0
     while not session.over and (line := script.next_line()) is not None:

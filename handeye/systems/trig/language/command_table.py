@@ -1,4 +1,4 @@
-"""The commands of TRIG as a table of arguments, action and help."""
+"""The table of TRIG's commands, each with its arguments, action and help."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from handeye.systems.trig.language.session import Session
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrigCommand:
-    """A command with its help; `needs` is the number of required arguments."""
+    """A command of TRIG with its help. `needs` is the number of required arguments."""
 
     usage: str
     takes: tuple[Kind, ...] = ()

@@ -1,4 +1,4 @@
-"""The interface of a session to its user: keyboard, screen, teach box, and the table on which the user places
+"""Defines the user interface of a session: keyboard, screen, teach box, and the table on which the user places
 objects.
 """
 
@@ -24,7 +24,7 @@ class Cancelled(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Jog:
-    """A jog of one axis by an amount, or to a value, m or rad."""
+    """A jog of one axis, by an amount or to a value (m or rad)."""
 
     axis: int
     amount: float
@@ -36,30 +36,30 @@ ENDS: Final[dict[str, Button]] = {"RECORD": "record", "SAVE": "record", "KILL": 
 
 
 class Desk(ABC):
-    """The interface of a session to its user."""
+    """The user interface of a session."""
 
     @abstractmethod
     def answer(self, question: str) -> str:
-        """The answer to a question, as typed."""
+        """Ask a question, and return the answer as typed."""
 
     @abstractmethod
     def press(self) -> Button:
-        """The next action on the teach box."""
+        """Return the next action on the teach box."""
 
     @abstractmethod
     def tell(self, sentence: str) -> None:
-        """Report a sentence."""
+        """Show the user a sentence."""
 
     @abstractmethod
     def wrong(self, error: InvalidInput) -> None:
-        """Report an invalid answer or button before the next one is read; or raise the error."""
+        """Report an invalid answer or action before the next one is read, or raise the error."""
 
     def halted(self) -> bool:
-        """True if a key was pressed since the last call."""
+        """Return True if a key was pressed since the last call."""
         return False
 
     def refresh(self) -> None:  # noqa: B027 - a desk without a screen has nothing to do
-        """Redraw after a change of program, cursor or arm."""
+        """Redraw the displays after a change of program, cursor or arm."""
 
     def ask(self, question: str, read: Callable[[str], Read]) -> Read:
         """Ask until the answer is valid."""
@@ -71,14 +71,14 @@ class Desk(ABC):
 
 
 def number(word: str) -> float:
-    """A number as typed; raises BadArgument."""
+    """Parse a number. Raises BadArgument."""
     if not _NUMBER.fullmatch(word):
         raise BadArgument(f"{quoted(word)} is not a number")
     return float(word)
 
 
 def yes(word: str) -> bool:
-    """Yes or no, as typed; raises BadArgument."""
+    """Parse yes or no. Raises BadArgument."""
     answer = word.strip().rstrip(".!").casefold()
     if answer not in ("y", "yes", "n", "no"):
         raise BadArgument(f"{quoted(word.strip())} is not an answer; type Yes or No")
@@ -86,7 +86,8 @@ def yes(word: str) -> bool:
 
 
 def buttons(line: str) -> list[Button]:
-    """Actions on the teach box, as scripts write them: `X -30 Z BY 12 RECORD`, in mm and deg."""
+    """Parse actions on the teach box in the form that scripts use, such as `X -30 Z BY 12 RECORD`, in mm and
+    degrees."""
     found: list[Button] = []
     words = deque(line.upper().split())
     while words:
@@ -142,7 +143,8 @@ class Tabletop(ABC):
 
 
 def arrange(table: Tabletop, line: str) -> str:
-    """Execute a line that describes the table; returns the table's new content in words. Raises BadArgument."""
+    """Execute a line that describes the table, and return a sentence about what is on the table then. Raises
+    BadArgument."""
     words = line.removeprefix(MARK).upper().split()
     match words:
         case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MAX_STACK:

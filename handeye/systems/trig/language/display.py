@@ -1,10 +1,10 @@
-"""The two displays of a program, and their common layout.
+"""Draws the two displays of a program, which share a layout.
 
-A chain of steps is a column. The normal son of a guarded step stands below it, in the same column; the guarded son
-begins a column farther right, one row below. Columns never cross, because the chains of later guarded steps are
-placed first. The full display shows the program in miniature, one character per step, with the active step in
-brackets; it is drawn from left to right, because a screen is wider than high. The partial display shows the steps
-around the active one, one row each, in as much detail as fits.
+A chain of steps is a column. The normal son of a guarded step stands below it, in the same column; the guarded
+son begins a column farther right, one row below. The lines to these columns never cross, because the chains of
+later guarded steps are placed first. The full display shows the program in miniature, one character per step,
+with the active step in brackets; it is drawn from left to right, because a screen is wider than high. The
+partial display shows the steps around the active one, one row each, in as much detail as fits.
 """
 
 from dataclasses import dataclass, field
@@ -28,7 +28,8 @@ from handeye.systems.trig.language.styled import UNICODE, Line, Style, Symbols, 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """A placed step, or a link to a step placed elsewhere; `branch` is `n` or `g` for the first step of a branch."""
+    """A placed step, or a link to a step placed elsewhere. `branch` is `n` or `g` for the first step of a
+    branch."""
 
     row: int
     column: int
@@ -48,8 +49,8 @@ class Elbow:
 
 @dataclass(slots=True)
 class _Chain:
-    """A chain of steps, with the chains to its right by the row of their guarded step, and the column offsets of
-    those chains.
+    """A chain of steps, with the chains to its right. Those chains are listed by the row of their guarded step,
+    and `shift` has their column offsets.
     """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)
@@ -61,7 +62,7 @@ class _Chain:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """A placed program."""
+    """A program whose steps have been placed."""
 
     cells: tuple[Cell, ...]
     elbows: tuple[Elbow, ...]
@@ -76,7 +77,7 @@ class Layout:
 
 
 def layout(graph: Graph, *, top: bool = False) -> Layout:
-    """Place all steps of a program, and optionally its top; bloops are not drawn."""
+    """Place all steps of a program, and optionally its top. Bloops are not drawn."""
     chains = _chains(graph, top=top)
     for chain in reversed(chains):
         _measure(chain)
@@ -84,7 +85,7 @@ def layout(graph: Graph, *, top: bool = False) -> Layout:
 
 
 def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
-    """All chains; each precedes the chains attached to it."""
+    """Return all chains. Each chain comes before the chains that are attached to it."""
     first = _Chain(items=[(graph[TOP], False, "")] if top else [])
     found, waiting = [], [(first, TOP, NORMAL, "")]
     while waiting:
@@ -106,7 +107,7 @@ def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
 
 
 def _is_link_behind(graph: Graph, id: int) -> bool:
-    """True if a link leads from a node, through bloops, to a step."""
+    """Return True if a link leads from a node, possibly through bloops, to a step."""
     while graph[id].type == "bloop":
         if graph[id].links:
             return True
@@ -117,7 +118,7 @@ def _is_link_behind(graph: Graph, id: int) -> bool:
 
 
 def _measure(chain: _Chain) -> None:
-    """Compute the size of a chain with all attached chains; later chains are nearer."""
+    """Compute the size of a chain with all its attached chains. Chains attached farther down are placed nearer."""
     chain.height = len(chain.items)
     below: list[tuple[int, int]] = []
     for row in sorted(chain.hung, reverse=True):
@@ -152,7 +153,7 @@ _Grid = dict[tuple[int, int], tuple[Style, str]]  # by row and column
 
 
 def full_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
-    """Draw the program, or as much of it around the active step as fits."""
+    """Draw the whole program, or as much of it around the active step as fits."""
     if program.first == NONE:
         return [[("active", "[ ]")]]
     drawn = layout(program.graph, top=program.cursor == TOP)
@@ -189,7 +190,7 @@ def _put_elbow(grid: _Grid, elbow: Elbow, symbols: Symbols) -> None:
 
 
 def _line(grid: _Grid, row: int, left: int, width: int, symbols: Symbols) -> Line:
-    """One line of the display, with a mark where it continues beyond its ends."""
+    """Return one line of the display. A mark shows where the program continues beyond an end of the line."""
     last = max((x for y, x in grid if y == row), default=-2)
     line = [grid.get((row, x), ("", " ")) for x in range(left, min(last, left + width - 1) + 1)]
     if line and left > -1 and any((row, x) in grid for x in range(left)):
@@ -206,7 +207,8 @@ _STEP_STYLES: Final = {"guarded": "guarded", "normal": "position", "savpos": "po
 
 
 def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols) -> tuple[str, str, Style]:
-    """Name and action of a step, or one text for both, with the style."""
+    """Return the name and the action of a step, and the style. If the name already says everything, the action
+    is empty."""
     node = cell.node
     if cell.link:
         return f"[{_cut(node.name or UNNAMED, symbols)}]", "", "link"
@@ -219,7 +221,7 @@ def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols)
 
 
 def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
-    """A loop as it is typed: target step and count."""
+    """Return a loop in the form in which users type it: the target step and the count."""
     target = graph.target(node)
     name = UNNAMED if target is None else target.name or UNNAMED
     return f"LOOP {_cut(name, symbols)} {node.wanted}"
@@ -247,7 +249,7 @@ _MARKER: Final = 3  # characters before a name: cursor and branch
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Pane:
-    """The visible part of a program: widths in characters, cells by row and column, elbows by row."""
+    """The visible part of a program: widths in characters, cells by row and column, and elbows by row."""
 
     program: TrigProgram
     symbols: Symbols
@@ -272,7 +274,7 @@ def partial_display(program: TrigProgram, width: int, height: int, symbols: Symb
 
 
 def _scrolled(active: int, count: int, room: int, above: int) -> int:
-    """The first visible row, chosen so that the active row is visible with some rows above it."""
+    """Return the first visible row, chosen so that the active row is visible with some rows above it."""
     return max(0, min(active - above, count - room))
 
 
@@ -301,7 +303,7 @@ def _row(pane: _Pane, row: int, columns: range) -> Line:
 
 
 def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tuple[Style, str]:
-    """The text after a step: blanks, or the line to the right."""
+    """Return the text after a step: blanks, or the line to the right."""
     if elbow is None or not elbow.start <= column <= elbow.end:
         return "", " " * room
     if column == elbow.end:

@@ -1,9 +1,10 @@
-"""The graph of a program's steps, each with one or two sons and any number of fathers; loops and deletions.
+"""The graph of a program's steps, with its loops and deletions. Each step has one or two sons and any number of
+fathers.
 
-Of the edges to a step, one is the step's own edge, by which the step is drawn; all others are links. The own edges
-form a tree from the top that contains every step. A loop has a partner (bloop) above its target step, so that the
-loop can also be reversed. If several loops return to one step, the nearest loop below the step owns the nearest
-bloop above it, whichever loop was made first.
+One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other
+edges to the step are links. The own edges form a tree that starts at the top and contains every step. A loop
+has a partner (bloop) above its target step, so that the loop can also be reversed. If several loops return to
+one step, the nearest loop below the step owns the nearest bloop above it, whichever loop was made first.
 """
 
 from collections import deque
@@ -56,7 +57,7 @@ class Node:
 
     @property
     def recent_father(self) -> int:
-        """The father that was active last, else the newest father."""
+        """The father that was active last or, if that is unknown, the newest father."""
         if self.last_father in self.fathers:
             return self.last_father
         return self.fathers[-1] if self.fathers else NONE
@@ -78,7 +79,8 @@ class Graph:
     # -- looking ---------------------------------------------------------------------------------------
 
     def order(self) -> list[int]:
-        """All nodes in drawing order: each node precedes its own sons, the normal son before the guarded one."""
+        """Return all nodes in drawing order. Each node comes before its own sons, and the normal son before the
+        guarded one."""
         found, waiting = [], [TOP]
         while waiting:
             id = waiting.pop()
@@ -89,18 +91,18 @@ class Graph:
         return found
 
     def steps(self) -> Iterator[Node]:
-        """The visible steps in drawing order."""
+        """Yield the visible steps in drawing order."""
         return (self[id] for id in self.order() if self[id].shown)
 
     def named(self, name: str) -> Node | None:
         return next((node for node in self.nodes.values() if node.name == name), None)
 
     def edges_into(self, id: int) -> list[tuple[int, int]]:
-        """Fathers of a node, with the branches that lead to the node."""
+        """Return the fathers of a node, each with the branch that leads to the node."""
         return [(f, branch) for f in self[id].fathers for branch, son in enumerate(self[f].sons) if son == id]
 
     def distances(self, start: int) -> dict[int, int]:
-        """Nodes that can be reached downwards from a node, with their distances in edges."""
+        """Return the nodes that can be reached downwards from a node, with their distances (number of edges)."""
         found, waiting = {start: 0}, deque([start])
         while waiting:
             id = waiting.popleft()
@@ -111,19 +113,20 @@ class Graph:
         return found
 
     def step_at(self, id: int) -> int:
-        """The first step, at a node or below, that is no bloop; NONE if there is none."""
+        """Return the first node, at this node or below it, that is not a bloop. NONE if there is none."""
         while id != NONE and self[id].type == "bloop":
             id = self[id].sons[0]
         return id
 
     def entry(self, id: int) -> int:
-        """The node by which a step is entered: the uppermost bloop above it, or the step itself."""
+        """Return the node through which a run enters a step: the uppermost bloop above the step, or the step
+        itself."""
         while len(self[id].fathers) == 1 and self[self[id].fathers[0]].type == "bloop":
             id = self[id].fathers[0]
         return id
 
     def target(self, loop: Node) -> Node | None:
-        """The step to which a loop returns."""
+        """Return the step to which a loop returns, or None."""
         id = self.step_at(loop.partner)
         return None if id == NONE else self[id]
 
@@ -138,12 +141,12 @@ class Graph:
     # -- changing --------------------------------------------------------------------------------------
 
     def new(self, type: NodeType) -> Node:
-        """A new, unconnected node."""
+        """Make a new node that is not connected yet."""
         self._next += 1
         return Node(id=self._next - 1, type=type, sons=[NONE, NONE] if type == "guarded" else [NONE])
 
     def attach(self, father: int, branch: int, son: int, *, link: bool = False) -> None:
-        """Make a node the son of another on a branch, in place of the present son there."""
+        """Make a node the son of another node on a branch, replacing the present son there."""
         node = self[father]
         before, node.sons[branch] = node.sons[branch], son
         node.links.discard(branch)
@@ -158,8 +161,8 @@ class Graph:
         self[son].last_father = father
 
     def insert(self, after: int, branch: int, node: Node) -> None:
-        """Insert a node below another; the previous son becomes the son of the new node, on the normal branch if
-        the new node is guarded.
+        """Insert a node below another node. The son that was there becomes a son of the new node; if the new
+        node is guarded, on its normal branch.
         """
         self.nodes[node.id] = node
         son = self[after].sons[branch]
@@ -181,7 +184,7 @@ class Graph:
 
 
 def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int) -> Node:
-    """Insert a loop below a node, and its bloop above the target; raises Refused if the target is not above the
+    """Insert a loop below a node, and its bloop above the target. Raises Refused if the target is not above the
     node.
     """
     if after not in graph.distances(target):
@@ -196,7 +199,7 @@ def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int)
 
 
 def _innermost(graph: Graph, target: int, loop: Node) -> int:
-    """The node above which the bloop of a loop is inserted: a bloop of a nearer loop, or the target."""
+    """Return the node above which the bloop of a loop is inserted: the bloop of a nearer loop, or the target."""
     below = graph.distances(target)
     place, bloops = target, _bloops_above(graph, target)
     for bloop in bloops:
@@ -215,7 +218,8 @@ def _bloops_above(graph: Graph, target: int) -> list[int]:
 
 
 def delete_step(graph: Graph, id: int, keep: int = NORMAL) -> None:
-    """Delete one step: its fathers adopt the son on branch `keep`; the steps on the other branch are deleted too."""
+    """Delete one step. The son on branch `keep` becomes a son of the step's fathers; the steps on the other
+    branch are deleted too."""
     _take_out(graph, id, keep)
     prune(graph)
 
@@ -229,7 +233,7 @@ def delete_below(graph: Graph, id: int) -> None:
 
 
 def prune(graph: Graph) -> None:
-    """Remove unreachable nodes, and loops that are separated from their bloops; then restore the tree."""
+    """Remove unreachable nodes, and loops that are separated from their bloops. Then restore the tree."""
     while True:
         reached = graph.distances(TOP)
         for lost in [id for id in graph.nodes if id not in reached]:
@@ -251,7 +255,7 @@ def _take_out(graph: Graph, id: int, keep: int) -> None:
 
 
 def _is_cut(graph: Graph, node: Node) -> bool:
-    """True if a loop or bloop has lost its partner, or no path leads from the bloop to the loop."""
+    """Return True if a loop or bloop has lost its partner, or if no path leads from the bloop to the loop."""
     if node.type not in ("loop", "bloop"):
         return False
     if node.partner not in graph:
@@ -260,7 +264,8 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one edge that is not a link: its old one if that is still connected to the top."""
+    """Give every node exactly one edge that is not a link. A node keeps its old one if that is still connected
+    to the top."""
     placed = {TOP}
     _follow(graph, TOP, placed)
     while len(placed) < len(graph.nodes):
@@ -277,7 +282,7 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """Place the nodes below a node along own edges; an edge to a node that is already placed becomes a link."""
+    """Place the nodes below a node along own edges. An edge to a node that is already placed becomes a link."""
     waiting = [start]
     while waiting:
         node = graph[waiting.pop()]

@@ -1,7 +1,7 @@
 """An imaginary arm, which reaches every place at once and exactly.
 
-It may have blocks, to try out a program without an arm. The blocks are not subject to gravity and exert no force,
-except on top: a guarded move whose vector responds to upward force stops there. All other moves pass through
+With blocks, it can be used to try out a program without an arm. The blocks do not fall, and they exert a force
+only on top: a guarded move stops there if its vector responds to upward force. All other moves pass through
 blocks.
 """
 
@@ -33,11 +33,11 @@ class Block:
     z: float
 
     def under(self, place: Place) -> bool:
-        """True if the block is below a place, or around it."""
+        """Return True if a place lies within the outline of the block, seen from above."""
         return max(abs(place.x - self.x), abs(place.y - self.y)) <= BLOCK / 2
 
     def between(self, place: Place) -> bool:
-        """True if a hand that closes at a place grasps the block."""
+        """Return True if a hand that closes at a place grasps the block."""
         return self.under(place) and self.z - HEIGHT < place.z < self.z
 
 
@@ -115,7 +115,7 @@ class NoArm(TrigArm, Tabletop):
         self.blocks, self.held = [], None
 
     def _met(self, goal: Place) -> float | None:
-        """Height of the first block on the way down to a goal, m; None if there is none."""
+        """Return the height of the first block on the way down to a goal (m), or None if there is none."""
         tops = [block.z for block in self.blocks if block.under(goal) and block is not self.held]
         return max((z for z in tops if goal.z < z <= self._at.z + _SAME), default=None)
 

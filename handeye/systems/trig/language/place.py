@@ -1,5 +1,5 @@
-"""Places of the hand, as six components along and about the arm's axes, and positions, which are places named by
-programs.
+"""Places of the hand, which have six components along and about the arm's axes, and positions, which are places
+that programs name.
 """
 
 import math
@@ -21,7 +21,7 @@ Measures = tuple[float, float, float, float, float, float]  # mm and deg, as sho
 
 
 class Place(NamedTuple):
-    """A place of the hand, or a difference of two places, m and rad; angles are within half a turn of 0."""
+    """A place of the hand, or a difference of two places (m and rad). Angles are within half a turn of 0."""
 
     x: float = 0.0
     y: float = 0.0
@@ -31,30 +31,30 @@ class Place(NamedTuple):
     yaw: float = 0.0
 
     def moved(self, offset: "Place") -> Self:
-        """The place at an offset from this one, component by component."""
+        """Return the place at an offset from this one, computed component by component."""
         return self._made(a + b for a, b in zip(self, offset, strict=True))
 
     def seen_from(self, origin: "Place") -> Self:
-        """The offset from `origin` to this place."""
+        """Return the offset from `origin` to this place."""
         return self._made(a - b for a, b in zip(self, origin, strict=True))
 
     def turned_back(self) -> Self:
-        """The opposite offset."""
+        """Return the opposite offset."""
         return self._made(-a for a in self)
 
     def with_axis(self, axis: int, value: float) -> Self:
-        """A copy with one component, from 0, replaced."""
+        """Return a copy in which one component, numbered from 0, is replaced."""
         return self._made(value if number == axis else old for number, old in enumerate(self))
 
     def measures(self) -> Measures:
-        """Components in millimetres and degrees."""
+        """Return the components in millimetres and degrees."""
         x, y, z, *angles = (round(a / size, DECIMALS) + 0.0 for a, size in zip(self, SIZES, strict=True))
         roll, pitch, yaw = angles
         return x, y, z, roll, pitch, yaw
 
     @classmethod
     def measured(cls, measures: Measures) -> Self:
-        """The place from components in millimetres and degrees."""
+        """Make a place from components in millimetres and degrees."""
         return cls._made(a * size for a, size in zip(measures, SIZES, strict=True))
 
     @classmethod
@@ -64,7 +64,7 @@ class Place(NamedTuple):
 
 
 def told_place(place: Place) -> str:
-    """A place in words; angles only if they are not 0."""
+    """Return a place in words. Angles are included only if they are not 0."""
     told = [f"{axis} {value:.4g}" for axis, value in zip(AXES, place.measures(), strict=True)]
     return " ".join(told[:3] + [word for word, angle in zip(told[3:], place[3:], strict=True) if angle])
 
@@ -76,7 +76,7 @@ _UNNAMED: Final = "_"  # prefix of positions without a name
 
 @dataclass(slots=True, kw_only=True)
 class Position:
-    """An absolute place, or an offset from wherever the arm is."""
+    """An absolute place, or an offset from the arm's present place."""
 
     relative: bool
     init: Place  # as defined; a run from the top starts with it
@@ -88,7 +88,7 @@ Positions = dict[str, Position]  # by name; those of single steps by names that 
 
 
 def name_of(word: str) -> str:
-    """A name in capitals; raises BadArgument if it is not possible."""
+    """Return a name in capitals. Raises BadArgument if the word cannot be a name."""
     if len(word) > LONGEST:
         raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name can have at most {LONGEST}")
     if not NAME.fullmatch(word.upper()) or not word.isascii():
@@ -99,11 +99,11 @@ def name_of(word: str) -> str:
 
 
 def is_named(name: str) -> bool:
-    """True if the name was given by the user."""
+    """Return True if the user gave the name."""
     return not name.startswith(_UNNAMED)
 
 
 def free_name(positions: Positions) -> str:
-    """A new name for an unnamed position."""
+    """Return a new name for an unnamed position."""
     number = 1 + max((int(name[1:]) for name in positions if not is_named(name)), default=0)
     return f"{_UNNAMED}{number}"

@@ -14,7 +14,7 @@ NOWHERE: Final = Place()
 
 
 class RecordedStep(NamedTuple):
-    """The state before an executed step, for its reversal."""
+    """The state before an executed step, from which the step can be reversed."""
 
     node: int
     place: Place  # of the arm
@@ -28,7 +28,7 @@ class RecordedStep(NamedTuple):
 
 
 class HaltedMove(NamedTuple):
-    """A move that was halted on its way."""
+    """A move that was halted before it reached its goal."""
 
     done: RecordedStep
     goal: Place
@@ -57,7 +57,7 @@ class TrigProgram:
 
     @property
     def first(self) -> int:
-        """The first step, or NONE."""
+        """The first step, or NONE if the program is empty."""
         return self.graph.step_at(self.graph[TOP].sons[0])
 
     def put_cursor(self, id: int) -> None:
@@ -66,7 +66,8 @@ class TrigProgram:
         self.cursor = id
 
     def edited(self, above: int) -> None:
-        """Record a change; if the cursor's step was removed, the cursor moves to `above`, the step above it."""
+        """Record that the program was changed. If the step at the cursor was removed, move the cursor to
+        `above`, the step above it."""
         self.changed = True
         if self.cursor not in self.graph:
             self.put_cursor(above if above in self.graph else TOP)
@@ -76,18 +77,18 @@ class TrigProgram:
         self.trail.append(done)
 
     def pstack(self, id: int) -> list[Place]:
-        """Places of the arm before each execution of a step."""
+        """Return the places of the arm before each execution of a step."""
         return [done.place for done in self.trail if done.node == id]
 
     def above(self, id: int) -> int:
-        """The step above a node, along the most recent fathers; else the top."""
+        """Return the step above a node, along the most recent fathers, or the top."""
         id = self.graph[id].recent_father
         while id not in (TOP, NONE) and not self.graph[id].shown:
             id = self.graph[id].recent_father
         return TOP if id == NONE else id
 
     def begin(self) -> None:
-        """Reset positions, counts and trail, as before every run from the top."""
+        """Reset positions, counts and trail, as is done before every run from the top."""
         for position in self.positions.values():
             position.data = position.init
         for node in self.graph.nodes.values():
@@ -96,7 +97,8 @@ class TrigProgram:
         self.forgotten, self.taken, self.cut, self.paused = False, None, None, NONE
 
     def relative_by_default(self) -> bool:
-        """True if a new move is relative by default: as the nearest move above, including the active step."""
+        """Return True if a new move is relative by default, like the nearest move above. The active step counts
+        as above."""
         id, seen = self.cursor, {TOP}
         while id not in seen:
             seen.add(id)

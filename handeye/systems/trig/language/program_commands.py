@@ -17,7 +17,7 @@ _MAX_DISTANCE = 100_000  # steps of the cursor
 
 
 def next_step(session: Session, given: Arguments) -> None:
-    """N: go down by a number of steps, beyond loops."""
+    """N: move the cursor down by a number of steps. At a loop, it moves on instead of back."""
     program = session.program
     for _ in range(_distance(given)):
         branch = session.branch(None)
@@ -41,7 +41,7 @@ def _come_down(session: Session, son: int, branch: int) -> None:
 
 
 def previous_step(session: Session, given: Arguments) -> None:
-    """P: go up by a number of steps, along the most recent fathers."""
+    """P: move the cursor up by a number of steps, along the most recent fathers."""
     program = session.program
     for _ in range(_distance(given)):
         above = program.above(program.cursor)
@@ -72,7 +72,7 @@ def run(session: Session, given: Arguments) -> None:
 
 
 def told_run(ran: RunResult, *, back: bool = False) -> str:
-    """The end of a run, in words."""
+    """Say in words how a run ended."""
     steps = f"{counted(ran.steps, 'step')} {'undone' if back else 'done'}"
     if ran.obstacle is not None:
         return f"{steps}; the arm has stopped at the step before that: {told_obstacle(ran.obstacle)}"
@@ -94,7 +94,7 @@ def _distance(given: Arguments) -> int:
 
 
 def write(session: Session, given: Arguments) -> None:
-    """W: write the program to a file; by default to the last file."""
+    """W: write the program to a file, by default to the last file that was read or written."""
     _check_files(session)
     file = session.file if given.file is None else trig_file(Path(given.file))
     if file is None:
@@ -108,7 +108,7 @@ def write(session: Session, given: Arguments) -> None:
 
 
 def read(session: Session, given: Arguments) -> None:
-    """R: replace the program by one from a file."""
+    """R: replace the program by one read from a file."""
     _check_files(session)
     file = trig_file(Path(given.file or ""))
     program = read_program(file)
@@ -117,13 +117,13 @@ def read(session: Session, given: Arguments) -> None:
 
 
 def leave_written(session: Session, given: Arguments) -> None:
-    """EX: write the program, then leave."""
+    """EX: write the program to its file, then leave."""
     write(session, given)
     session.over = True
 
 
 def leave(session: Session, given: Arguments) -> None:
-    """Q: leave without saving."""
+    """Q: leave without saving the program."""
     session.over = True
 
 

@@ -1,4 +1,4 @@
-"""The record of a program's runs, for other programs."""
+"""The record of a program's runs that other programs can read."""
 
 from collections.abc import Sequence
 
@@ -19,7 +19,7 @@ class RunLeg(Record, frozen=True, kw_only=True):
 
 
 class BlockPlace(Record, frozen=True, kw_only=True):
-    """An imaginary block: the centre of its upper face, mm."""
+    """An imaginary block, given by the centre of its upper face (mm)."""
 
     name: str
     at: tuple[float, float, float]
@@ -38,7 +38,7 @@ class TrigReport(Record, frozen=True, kw_only=True):
 
 
 def report(session: Session, ways: Sequence[RunResult]) -> TrigReport:
-    """The record of runs, and of the final state of arm and blocks."""
+    """Return the record of runs, and of the final state of arm and blocks."""
     told = [RunLeg(steps=ran.steps, end=ran.end, obstacle=ran.obstacle) for ran in ways]
     known = session.program.positions
     blocks = session.arm.blocks if isinstance(session.arm, NoArm) else ()

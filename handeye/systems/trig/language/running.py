@@ -1,9 +1,10 @@
 """Runs the steps of a program, forwards and backwards.
 
-A run follows the sons of each step; a loop returns to its bloop. A reversal follows the trail, the last step first,
-regardless of later edits and of the cursor. A move returns to its start, the hand to its earlier state, positions
-and counts to their old values. Where a hold begins or ends, the fingers must have the gap that they had; an object
-that was taken up must find support again; and an object that a guarded step met must still be there.
+A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the
+last step first, regardless of later edits and of the cursor. It returns a move to its start, the hand to its
+earlier state, and positions and counts to their old values. Where a hold began or ended, the fingers must have
+the same gap again. An object that was taken up must find support again. An object that a guarded step met must
+still be there.
 """
 
 import math
@@ -24,7 +25,7 @@ _MIN_MOTION: Final = 1e-6  # m that give a step a direction
 
 
 def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Reverse the last step, which stays on the trail; returns the reason if the reversal was stopped, else None."""
+    """Reverse the last step, which stays on the trail. Returns the reason if the reversal was stopped, or None."""
     done = program.trail[-1]
     node = program.graph[done.node]
     match node.type:
@@ -42,14 +43,14 @@ def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None
 
 
 def _way_back(program: TrigProgram, done: RecordedStep, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Return to the start of a move, and set down there an object that was taken up there."""
+    """Return to the start of a move. If the arm took up an object there, set it down again."""
     if _took_up(program) and at_least(arm.gap, least_gap(0.0)):
         return arm.set_down(done.place, halted, done.met)
     return arm.back(done.place, halted, done.met)
 
 
 def _took_up(program: TrigProgram) -> bool:
-    """True if the hand was closed where the last move began."""
+    """Return True if the hand was closed at the place where the last move began."""
     for done in islice(reversed(program.trail), 1, None):
         node = program.graph.nodes.get(done.node)
         if node is None or node.type in ("normal", "guarded", "ungrasp"):
@@ -60,8 +61,8 @@ def _took_up(program: TrigProgram) -> bool:
 
 
 def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Check that the object met by a guarded step is still there before the arm leaves it, unless the step drove
-    the object away.
+    """Before the arm reverses a guarded step, check that the object that stopped the step is still there,
+    unless the step pushed the object away.
 
     If the arm meets nothing, it returns to the place of contact, so that the user can put the object back.
     """
@@ -80,7 +81,7 @@ def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -
 
 
 def _hand_back(done: RecordedStep, arm: TrigArm) -> HoldOff | None:
-    """Restore the hand; the gap must match that at the start or end of a hold."""
+    """Restore the hand. The gap must be the same as at the start or end of the hold."""
     before, after = done.gaps
     off = _off_hold(after, arm)
     if off is None:
@@ -96,7 +97,7 @@ def _off_hold(kept: float, arm: TrigArm) -> HoldOff | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunResult:
-    """The end of a run: number of steps, and reason."""
+    """How a run ended: the number of steps executed, and the reason."""
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]
@@ -118,7 +119,7 @@ class Interpreter:
     # -- forwards --------------------------------------------------------------------------------------
 
     def run(self) -> RunResult:
-        """Run the whole program from the top, as taught."""
+        """Run the whole program from the top, with the positions as taught."""
         return self._from_top(None)
 
     def forward(self, wanted: int) -> RunResult:
@@ -145,7 +146,8 @@ class Interpreter:
         return RunResult(steps=steps, end="none" if id == NONE else "count")
 
     def carry_out(self, id: int, came: int) -> int | None:
-        """Execute one node, and move the cursor if it is a step; arguments and result as for `execute`."""
+        """Execute one node, and move the cursor if the node is a visible step. Arguments and result are those
+        of `execute`."""
         node = self.program.graph[id]
         if came in node.fathers:
             node.last_father = came
@@ -159,13 +161,14 @@ class Interpreter:
         return next
 
     def _begin(self, id: int) -> bool:
-        """Move the cursor to the next step; False if the user wants to halt."""
+        """Move the cursor to the next step. Returns False if the user wants to halt."""
         self.program.put_cursor(id)
         self.refresh()
         return not self.halted()
 
     def execute(self, node: Node, came: int) -> int | None:
-        """Execute one node, after the node `came`; returns the next node, or None if the arm was halted."""
+        """Execute one node, which was reached from the node `came`. Returns the next node, or None if the arm
+        was halted."""
         match node.type:
             case "normal" | "guarded":
                 return self._move(node)
@@ -208,7 +211,7 @@ class Interpreter:
         return node.sons[branch]
 
     def _arrive(self, node: Node, goal: Place) -> int | None:
-        """The branch to take after a move; None if the move was halted."""
+        """Return the branch to take after a move, or None if the move was halted."""
         if node.threshold is None or node.vector is None:
             return NORMAL if self.arm.go(goal, self.halted) else None
         arrival = self.arm.feel(goal, node.vector, node.threshold, self.halted)
@@ -217,7 +220,7 @@ class Interpreter:
         return {"reached": NORMAL, "tripped": GUARDED, "halted": None}[arrival.kind]
 
     def goal(self, node: Node) -> Place:
-        """The goal of a move from the arm's present place."""
+        """Return the goal of a move that starts at the arm's present place."""
         assert node.position is not None
         position = self.program.positions[node.position]
         if not position.relative:
@@ -225,7 +228,7 @@ class Interpreter:
         return self.arm.here().moved(position.data.turned_back() if node.negate else position.data)
 
     def _is_cut(self, node: Node) -> bool:
-        """True if the step was halted on its way, and nothing was done since then."""
+        """Return True if the step was halted on its way, and nothing has been executed since."""
         cut, trail = self.program.cut, self.program.trail
         return cut is not None and cut.done.node == node.id and bool(trail) and trail[-1] is cut.done
 
@@ -240,7 +243,7 @@ class Interpreter:
     # -- backwards -------------------------------------------------------------------------------------
 
     def back(self, wanted: int) -> RunResult:
-        """Reverse a number of steps, the last first; the cursor ends on the step before them."""
+        """Reverse a number of steps, the last step first. The cursor ends on the step before them."""
         steps, program = 0, self.program
         while steps < wanted:
             if not program.trail:
@@ -261,7 +264,7 @@ class Interpreter:
         return RunResult(steps=steps, end="count")
 
     def _come_from(self) -> None:
-        """Move the cursor to the last executed step, if there is one."""
+        """Move the cursor to the last executed step that has not been reversed, if there is one."""
         program = self.program
         steps = (done.node for done in reversed(program.trail) if done.node in program.graph)
         last = next((id for id in steps if program.graph[id].shown), program.first)

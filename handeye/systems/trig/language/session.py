@@ -1,4 +1,4 @@
-"""A session: typed lines change program, cursor and arm at once."""
+"""A session, in which typed lines change program, cursor and arm at once."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,7 +16,7 @@ from handeye.systems.trig.language.trig_arm import TrigArm
 
 
 class KillSwitchHit(Refused):
-    """Raised when the user presses the kill switch of the teach box."""
+    """Raised if the user presses the kill switch of the teach box."""
 
     def __init__(self) -> None:
         super().__init__("the kill switch has stopped the arm; nothing was recorded")
@@ -24,7 +24,7 @@ class KillSwitchHit(Refused):
 
 @dataclass(slots=True, kw_only=True)
 class Session:
-    """An arm, a user, and their program."""
+    """An arm, a user, and the program that the user is teaching."""
 
     arm: TrigArm
     table: Tabletop
@@ -44,8 +44,8 @@ class Session:
     # -- finding ---------------------------------------------------------------------------------------
 
     def position(self, name: str | None, *, negate: bool = False) -> Position:
-        """A defined position; raises NoSuchName if it is not defined, and Refused for the opposite of an absolute
-        position.
+        """Return a defined position. Raises NoSuchName if it is not defined, and Refused if the opposite of an
+        absolute position is requested.
         """
         found = self.program.positions.get(name or "")
         if found is None:
@@ -56,7 +56,7 @@ class Session:
         return found
 
     def step(self, name: str) -> Node:
-        """The step with a name, or the top; raises NoSuchName."""
+        """Return the step called `name`, or the top. Raises NoSuchName."""
         graph = self.program.graph
         found = graph[TOP] if name == TOP_NAME else graph.named(name)
         if found is None:
@@ -67,12 +67,12 @@ class Session:
     # -- asking ----------------------------------------------------------------------------------------
 
     def confirmed(self, question: str) -> None:
-        """Ask a question; return if the user says yes, else raise Cancelled."""
+        """Ask a question. Raises Cancelled unless the user says yes."""
         if not self.desk.ask(question, yes):
             raise Cancelled
 
     def threshold(self) -> float:
-        """Ask for a threshold; returns it in N."""
+        """Ask for a threshold, and return it (N)."""
         return self.desk.ask("Threshold (oz)? ", read_threshold)
 
     def vector(self) -> Vector3:
@@ -80,7 +80,8 @@ class Session:
         return self.desk.ask("Force vector (x y z)? ", read_vector)
 
     def branch(self, given: int | None, node: Node | None = None) -> int:
-        """The branch, of the active step or another one, that a command concerns."""
+        """Return the branch that a command concerns: a branch of `node`, or of the active step if `node` is
+        None."""
         node = self.program.active if node is None else node
         if node.type != "guarded":
             if given is not None:
@@ -93,8 +94,8 @@ class Session:
         return self.desk.ask("Normal or guarded? ", read_branch)
 
     def open_branch(self, given: int | None) -> int:
-        """The branch of the active step below which a new step is inserted; raises Refused if a link leaves the
-        branch.
+        """Return the branch of the active step below which a new step is inserted. Raises Refused if that
+        branch is a link.
         """
         branch = self.branch(given)
         active = self.program.active
@@ -110,7 +111,8 @@ class Session:
         return branch
 
     def taught(self) -> Place:
-        """The arm's place after the user has moved it with the teach box and pressed record; raises KillSwitchHit."""
+        """Let the user move the arm with the teach box, and return the arm's place when the user presses
+        record. Raises KillSwitchHit."""
         while True:
             button = self.desk.press()
             if button == "record":

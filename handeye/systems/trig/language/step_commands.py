@@ -1,5 +1,5 @@
-"""Commands that add a step below the active one (moves and hand steps are executed at once), and commands that
-change or delete steps.
+"""Commands that add a step below the active one, and commands that change or delete steps. Moves and hand steps
+are executed at once when they are added.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ Acted = Callable[[Session, Arguments], None]
 
 
 def move(kind: Literal["absolute", "relative"] | None, *, guarded: bool = False) -> Acted:
-    """M, MA, MR, MG, MAG and MRG: move to a position; the user teaches the position if it is not defined."""
+    """M, MA, MR, MG, MAG and MRG: move to a position. If the position is not defined, the user teaches it."""
 
     def act(session: Session, given: Arguments) -> None:
         branch = session.open_branch(given.branch)
@@ -64,7 +64,7 @@ def _to_taught(session: Session, name: str | None, relative: bool, node: Node, b
 
 
 def hand(closed: bool) -> Acted:
-    """GRASP and UNGRASP: close the hand, or open it."""
+    """GRASP and UNGRASP: close or open the hand."""
 
     def act(session: Session, given: Arguments) -> None:
         branch = session.open_branch(None)
@@ -76,7 +76,7 @@ def hand(closed: bool) -> Acted:
 
 
 def save(session: Session, given: Arguments) -> None:
-    """SAVPOS: set a position to the arm's place, now and whenever the step is executed."""
+    """SAVPOS: set a position to the arm's place, both now and whenever the step is executed."""
     branch = session.open_branch(given.branch)
     name, here = given.position or "", session.arm.here()
     position = session.program.positions.get(name)
@@ -93,13 +93,13 @@ def save(session: Session, given: Arguments) -> None:
 
 
 def check_no_opposite(session: Session, name: str) -> None:
-    """Raise Refused if a step uses the opposite of a position that is to become absolute."""
+    """Raise Refused if a step uses the opposite of a position that would become absolute."""
     if any(node.negate for node in session.program.users(name)):
         raise Refused(f"a step goes to -{name}, so {name} must stay relative; D deletes the step")
 
 
 def loop(session: Session, given: Arguments) -> None:
-    """LOOP: return to a step a number of times before continuing."""
+    """LOOP: return to a step a number of times before continuing with the next step."""
     target, wanted = session.step(given.step or ""), given.count or 0
     if target.id == TOP:
         raise Refused(f"a loop goes back to a step; {target_hint(session)}")
@@ -113,7 +113,7 @@ def loop(session: Session, given: Arguments) -> None:
 
 
 def target_hint(session: Session) -> str:
-    """A hint on how to name the first step."""
+    """Return a hint on which step a loop can return to."""
     first = session.program.first
     if first == NONE:
         return "the program is empty"
@@ -140,7 +140,7 @@ def link(session: Session, given: Arguments) -> None:
 
 
 def _add(session: Session, node: Node, branch: int) -> None:
-    """Add an executed step below the active one, and make it active."""
+    """Add an executed step below the active one, and make it the active step."""
     program = session.program
     program.graph.insert(program.cursor, branch, node)
     program.put_cursor(node.id)
@@ -186,7 +186,7 @@ def change_vector(session: Session, given: Arguments) -> None:
 
 
 def delete(session: Session, given: Arguments) -> None:
-    """D: delete one step; of a guarded step, keep branch n or g."""
+    """D: delete one step. If it is guarded, keep only branch n or g."""
     program, node = session.program, _named_or_active(session, given)
     keep = _kept_branch(session, given, node)
     above = program.above(node.id)
@@ -232,7 +232,8 @@ def flush(session: Session, given: Arguments) -> None:
 
 
 def ask_if_unsaved(session: Session, deed: str) -> None:
-    """Return if nothing would be lost, or if the user agrees; else raise Cancelled."""
+    """If the program has unsaved changes, ask the user whether to lose them. Raises Cancelled unless the user
+    agrees."""
     if session.program.changed:
         session.confirmed(f"The program has not been written to a file. {deed}? ")
 
@@ -272,7 +273,7 @@ def _kept_branch(session: Session, given: Arguments, node: Node) -> int:
 
 
 def _reached_otherwise(program: TrigProgram, node: Node, branch: int, entry: int) -> bool:
-    """True if a node can be reached from the top without one edge."""
+    """Return True if a node could still be reached from the top if one edge were removed."""
     node.sons[branch] = NONE
     reached = entry in program.graph.distances(TOP)
     node.sons[branch] = entry

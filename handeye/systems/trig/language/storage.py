@@ -1,4 +1,5 @@
-"""Stores programs as JSON: the properties that define each step, and the invariants that are checked in every file."""
+"""Stores programs as JSON. It defines which properties belong to each kind of step, and checks the invariants
+of a program in every file."""
 
 import re
 from collections import Counter
@@ -19,7 +20,7 @@ from handeye.systems.trig.language.program import TrigProgram
 
 
 def faults(graph: Graph, positions: Positions) -> Iterator[str]:
-    """Violations of the invariants, in words; none if the program is valid."""
+    """Yield the violations of the invariants in words; none if the program is valid."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
         torn = ["its steps are not all connected to the top"]
@@ -143,19 +144,19 @@ class _File(msgspec.Struct, kw_only=True):
 
 
 def trig_file(path: Path) -> Path:
-    """The file for a name: `pallet` becomes `pallet.trig.json`."""
+    """Return the file for a name: `pallet` becomes `pallet.trig.json`."""
     return (
         path if path.name.endswith(ENDING) else path.with_name(f"{path.name}{ENDING}") if path.name else path
     )
 
 
 def write_program(path: Path, program: TrigProgram) -> None:
-    """Write a program; it replaces no file of another kind."""
+    """Write a program. A file of another kind is never replaced."""
     write_over(path, encoded(program), TRIG_FILE)
 
 
 def read_program(path: Path) -> TrigProgram:
-    """Read a program, with its positions as defined; raises BadFile."""
+    """Read a program, with its positions as they were defined. Raises BadFile."""
     return decoded(read_whole(path, LARGEST), str(path))
 
 
@@ -163,7 +164,7 @@ def read_program(path: Path) -> TrigProgram:
 
 
 def encoded(program: TrigProgram) -> bytes:
-    """A program as the content of a file, with steps numbered in drawing order."""
+    """Return a program as the content of a file, with its steps numbered in drawing order."""
     graph = program.graph
     numbers = {id: number for number, id in enumerate(graph.order())} | {NONE: NONE}
     used = {node.position for node in graph.nodes.values()}
@@ -213,7 +214,7 @@ def _node_fields(graph: Graph, node: Node, numbers: Mapping[int, int]) -> dict[s
 
 
 def decoded(content: bytes, name: str) -> TrigProgram:
-    """The program in the content of a file; raises BadFile. `name` is the file's name for messages."""
+    """Return the program in the content of a file. Messages call the file `name`. Raises BadFile."""
     try:
         return _program(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
@@ -223,7 +224,7 @@ def decoded(content: bytes, name: str) -> TrigProgram:
 
 
 class _Fault(Exception):
-    """A fault of a file, worded to follow the name of the file."""
+    """Raised if a file is faulty. The message continues a sentence that begins with the name of the file."""
 
 
 def _program(content: bytes) -> TrigProgram:

@@ -1,4 +1,4 @@
-"""Styled text for terminals with colours, and drawing characters, with substitutes for terminals without them."""
+"""Styled text for terminals with colours, and drawing characters with substitutes for terminals that lack them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,8 +7,8 @@ from typing import Final
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Symbols:
-    """Drawing characters: `corner` joins left and below, `turn` joins above and right, `tee` begins a line
-    downwards.
+    """Drawing characters. `corner` connects left and below, `turn` connects above and right, and `tee` begins a
+    line downwards.
     """
 
     cursor: str
@@ -25,7 +25,7 @@ ASCII: Final = Symbols(cursor=">", line="-", corner=".", stem="|", tee="-", turn
 
 
 def symbols_for(encoding: str | None) -> Symbols:
-    """Characters that an encoding can represent."""
+    """Return drawing characters that an encoding can represent."""
     try:
         "".join(getattr(UNICODE, name) for name in Symbols.__slots__).encode(encoding or "ascii")
     except (UnicodeEncodeError, LookupError):
@@ -42,7 +42,7 @@ def plain(lines: Sequence[Line]) -> str:
 
 
 def fitted(line: Line, width: int) -> Line:
-    """A line cut to a width, without trailing blanks."""
+    """Return a line cut to a width, without trailing blanks."""
     room, kept = min(width, len(plain([line]).rstrip())), Line()
     for style, text in line:
         if room > 0:

@@ -1,7 +1,7 @@
 """The interface of an arm for TRIG, and the obstacles that stop the arm while it reverses a step.
 
-A reversal assumes that the table is as the step left it. A block may have fallen since, or been taken away, so
-every step is reversed with guards, and the first guard that trips ends the reversal.
+A reversal assumes that the table is as the step left it. Since then, a block may have fallen or been taken
+away, so every step is reversed with guards, and the first guard that trips ends the reversal.
 """
 
 from abc import ABC, abstractmethod
@@ -17,21 +17,22 @@ from handeye.systems.trig.language.place import AXES, SIZES, UNITS, Place
 
 
 class Resistance(Record, frozen=True, kw_only=True, tag="resisted"):
-    """The finger met an unexpected force, N."""
+    """The finger met an unexpected force (N)."""
 
     force: float
     limit: float
 
 
 class HoldOff(Record, frozen=True, kw_only=True, tag="hold_off"):
-    """The gap (m) differs from the one during the step: the hand holds another object, or none."""
+    """The gap between the fingers (m) differs from the gap during the step, because the hand holds another
+    object, or none."""
 
     gap: float
     kept: float
 
 
 class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
-    """An axis (from 0, as in AXES) lags behind; m or rad."""
+    """An axis, numbered from 0 as in AXES, lags behind its goal (m or rad)."""
 
     axis: int
     off: float
@@ -39,11 +40,11 @@ class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
 
 
 class MissingContact(Record, frozen=True, kw_only=True, tag="missed"):
-    """A guarded move made contact here, but the arm now meets nothing."""
+    """A guarded move made contact here, but the arm now meets no object."""
 
 
 class MissingSupport(Record, frozen=True, kw_only=True, tag="unsupported"):
-    """The support from which the held object was taken is gone."""
+    """The support from which the held object was taken up is gone."""
 
 
 Obstacle = Resistance | HoldOff | LeftBehind | MissingContact | MissingSupport
@@ -70,7 +71,7 @@ Halted = Callable[[], bool]  # polled during motion: True to stop the arm
 
 
 class OutOfTravel(Refused):
-    """A place is beyond the arm's travel."""
+    """Raised if a place is beyond the arm's travel."""
 
     def __init__(self, axis: int, value: float, lower: float, upper: float) -> None:
         told = [f"{number / SIZES[axis]:.4g}" for number in (value, lower, upper)]
@@ -81,32 +82,32 @@ class OutOfTravel(Refused):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrival:
-    """The end of a guarded move; `force` is the weighted force, N."""
+    """How a guarded move ended. `force` is the weighted force (N)."""
 
     kind: Literal["reached", "tripped", "halted"]
     force: float = 0.0
 
 
 class TrigArm(ABC):
-    """An arm with a hand."""
+    """An arm with a hand, as TRIG uses it."""
 
     @abstractmethod
     def here(self) -> Place:
-        """The commanded place, without the sag of the servos."""
+        """Return the commanded place, which does not include the sag of the servos."""
 
     @property
     @abstractmethod
     def closed(self) -> bool:
-        """True if the hand is closed, on an object or not."""
+        """True if the hand is closed, with or without an object in it."""
 
     @property
     @abstractmethod
     def travel(self) -> tuple[tuple[float, float], ...]:
-        """Travel of each axis, m and rad."""
+        """Travel of each axis (m or rad)."""
 
     @abstractmethod
     def go(self, goal: Place, halted: Halted) -> bool:
-        """Go to a place; False if the move was halted, in which case the arm stays where it is."""
+        """Go to a place. Returns False if the move was halted; the arm then stays where it stopped."""
 
     @abstractmethod
     def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
@@ -115,17 +116,18 @@ class TrigArm(ABC):
     @property
     @abstractmethod
     def met(self) -> float:
-        """Greatest change of the force on the finger in the last move, N."""
+        """Greatest change of the force on the finger in the last move (N)."""
 
     @abstractmethod
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to an earlier place with a force limit of 1.5 times `met` (N); returns None if the place is
-        reached, else the reason for which the arm stopped.
+        """Return to an earlier place with a force limit of 1.5 times `met` (N). Returns None if the arm reached
+        the place, or else the reason why it stopped.
         """
 
     @abstractmethod
     def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to where the held object was taken up, and set it down; as `back`."""
+        """Return to where the held object was taken up, and set it down. Arguments and result are those of
+        `back`."""
 
     @abstractmethod
     def hand(self, closed: bool) -> None:
@@ -134,7 +136,7 @@ class TrigArm(ABC):
     @property
     @abstractmethod
     def gap(self) -> float:
-        """Sensed gap between the fingers, m."""
+        """Sensed gap between the fingers (m)."""
 
     def check_travel(self, goal: Place) -> None:
         """Raise OutOfTravel if the arm cannot reach a place."""
@@ -143,7 +145,7 @@ class TrigArm(ABC):
                 raise OutOfTravel(axis, value, lower, upper)
 
     def within_travel(self, goal: Place) -> Place:
-        """The nearest place within the arm's travel, axis by axis."""
+        """Return the nearest place within the arm's travel, axis by axis."""
         return Place(
             *(min(max(a, lower), upper) for a, (lower, upper) in zip(goal, self.travel, strict=True))
         )

@@ -1,1 +1,2 @@
-"""TRIG programs as runs: taught in the world of the run, executed step by step, and reversed by the arm."""
+"""TRIG programs as runs: a program is taught in the world of the run, executed step by step, and reversed by
+the arm."""

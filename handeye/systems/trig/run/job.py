@@ -1,4 +1,4 @@
-"""Executes a taught job, reverses it, and has both judged."""
+"""Executes a taught job, reverses it, and lets the referee judge both."""
 
 from collections.abc import Callable, Mapping
 from typing import Final, Literal
@@ -29,7 +29,7 @@ When = Literal["taught", "run", "undone"]
 
 
 class JobReport(Record, frozen=True, kw_only=True):
-    """The result of a job."""
+    """The result of a job, including its reversal."""
 
     job: JobName
     seed: Seed  # of its world
@@ -53,7 +53,7 @@ class JobReport(Record, frozen=True, kw_only=True):
 
 
 def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpoint:
-    """A new run of a job; `blocks` is the size of the palletiser's stack."""
+    """Return a new run of a job. `blocks` is the number of blocks in the palletiser's stack."""
     plan = TaughtPlan(job=name, script=job_script(name, blocks or 0))
     setup = Setup(system=ENTRY.name, plan=plan, world=world, camera="auto", judged=True)
     return Checkpoint(setup=setup)
@@ -71,11 +71,11 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Execute a job from its present state to the end of its program, or for `after` steps, and reverse it if that
-    is possible.
+    """Execute a job from its present state to the end of its program, or for `after` steps. Then reverse it, if
+    that is possible.
 
-    `go` executes a number of steps, or all, by default without an operator; `tell` gets the end of each leg in
-    words.
+    `go` executes a number of steps, or all steps if the number is None; by default it does so without an
+    operator. `tell` is called with a sentence on how each leg ended.
     """
     go = go or (lambda steps: advance(runner, steps=steps))
     if job_of(runner).state.turn is None:
@@ -90,20 +90,20 @@ def carry_out(
 
 
 def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
-    """Execute a job without a folder; `after` is as for `carry_out`."""
+    """Execute a job without a folder. `after` has the same meaning as for `carry_out`."""
     pause = carry_out(runner, after=after)
     return account(runner, pause, outcome(runner, pause, Meter(), judged=True), after=after)
 
 
 def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
-    """True if the run is where its reversal begins."""
+    """Return True if the run has arrived where its reversal begins."""
     there = pause.kind == "end" or (after is not None and pause.kind == "break")
     system = job_of(runner)
     return there and system.job.undoable and not runner.undone and len(system.executed) > 0
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
-    """True if a run is a finished and judged job, and its reversal was not ordered by a user."""
+    """Return True if a run is a finished and judged job whose reversal was not ordered by a user."""
     system = runner.system
     if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):
         return False
@@ -111,7 +111,8 @@ def ends_job(runner: Runner, result: Result) -> bool:
 
 
 def account(runner: Runner, pause: Pause, result: Result, *, after: int | None = None) -> JobReport:
-    """The result of a job that has ended; `after` is the number of steps before the reversal, if set."""
+    """Return the result of a job that has ended. `after` is the number of steps before the reversal, if one was
+    set."""
     system, world = job_of(runner), runner.setup.world
     job, plan, turn = system.job, plan_of(runner.setup), system.state.turn
     way, told = _way(runner, pause)
@@ -146,7 +147,7 @@ _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"
 
 
 def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
-    """The present leg, and its end in words; None if the arm refused a step."""
+    """Return the present leg, and a sentence on how it ended. The leg is None if the arm refused a step."""
     system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:
         return None, pause.message

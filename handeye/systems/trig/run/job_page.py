@@ -1,5 +1,5 @@
-"""The report page of a taught job (findings, block poses and program), and the job's files in the folder of its
-run.
+"""Builds the report page of a taught job (findings, block poses and program), and writes the job's files to the
+folder of its run.
 """
 
 import math
@@ -89,7 +89,7 @@ def _blocks(done: JobReport) -> Iterator[Markup]:
 
 
 def _placed(done: JobReport) -> list[Point]:
-    """Placement errors of the blocks, mm, if all were placed."""
+    """Return the placement errors of the blocks (mm). Empty unless the referee judged the placed blocks."""
     return _off(done.lying.get("run", ()), done.goals) if "placed" in done.checks else []
 
 
@@ -108,12 +108,12 @@ def _drawn(done: JobReport) -> Markup:
 
 
 def _off(lying: Sequence[BlockPose], wanted: Sequence[Point]) -> list[Point]:
-    """Position errors of blocks relative to their goals, mm."""
+    """Return the position errors of blocks relative to their goals (mm)."""
     return [(one.at[0] - x, one.at[1] - y) for one, (x, y) in zip(lying, wanted, strict=False)]
 
 
 def _platter(done: JobReport) -> Iterator[Markup]:
-    """The platter seen from above, X to the right and Y up."""
+    """Draw the platter seen from above, with X to the right and Y up."""
     shown = done.lying.get("run", ())
     points = [*done.goals, *(each.at[:2] for each in (*shown, *done.lying.get("taught", ()))), (0.0, 0.0)]
     (west, east), (south, north) = ((min(along), max(along)) for along in zip(*points, strict=True))
@@ -143,7 +143,7 @@ def _square(xs: Scale, ys: Scale, at: Point, turned: float, class_: str) -> Mark
 
 
 def _scatter(title: str, off: Sequence[Point], limit: float | None, panel: Point) -> Iterator[Markup]:
-    """Position errors of the blocks seen from above, mm."""
+    """Draw the position errors of the blocks seen from above (mm)."""
     if not off:
         return
     most = max(math.hypot(*each) for each in off)
@@ -179,7 +179,7 @@ def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
 
 
 def kept_job_page(path: Path) -> bytes | None:
-    """The report of the job in a folder, made again; None if the folder has no finished job."""
+    """Build the report of the job in a folder again. Returns None if the folder has no finished job."""
     if not (path / JOB).is_file():
         return None
     return job_page(_read_account(path / JOB), read_program(path / TAUGHT))

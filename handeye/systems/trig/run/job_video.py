@@ -1,4 +1,4 @@
-"""A video of a taught job: records the cell while the arm works, and draws the frames at the end."""
+"""Makes a video of a taught job: records the cell while the arm works, and draws the frames at the end."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -47,7 +47,7 @@ class JobVideo:
         self._moments: list[_Moment] = []
 
     def watch(self, job: TaughtJob) -> None:
-        """Start recording, after teaching."""
+        """Start to record. This is called after teaching."""
         bench, program = job.bench, job.session.program
 
         def look() -> None:
@@ -59,8 +59,8 @@ class JobVideo:
         bench.after_period.append(look)
 
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
-        """Write the video completely or not at all; the reversal began at `ended` (s), and `told` is called for
-        each frame.
+        """Write the video. Either the whole file is written, or nothing. The reversal began at `ended` (s).
+        `told` is called for each frame.
         """
         if not self._moments:
             raise Refused(f"the arm has not moved, so {self._path} was not made")

@@ -1,5 +1,5 @@
-"""Palletising trials: taught, executed, reversed and judged in many worlds, either completely or with an
-interruption.
+"""Palletising trials: a job is taught, executed, reversed and judged in many worlds, either completely or with
+an interruption.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ PLACES: Final = 15
 
 
 class PalletRow(TrialRow, frozen=True, kw_only=True):
-    """One palletising trial."""
+    """The row of one palletising trial."""
 
     report: JobReport | None = None  # None: interrupted
 
@@ -71,13 +71,13 @@ def tried(blocks: int, interrupt: bool, seed: int, world: WorldSpec) -> JobRepor
 
 
 def broken_off_after(seed: int, blocks: int) -> int:
-    """Number of steps, drawn at random, before a run's reversal in the world of a seed."""
+    """Draw the number of steps before the reversal, for the world of a seed."""
     most = 3 + STEPS * min(blocks, PLACES)
     return int(random_numbers(seed, "pallet.interrupt").integers(1, most, endpoint=True))
 
 
 def _more(rows: Sequence[PalletRow]) -> dict[str, object]:
-    """The largest value of each finding, and the arm's time."""
+    """Return the largest value of each finding, and the arm's time."""
     most: dict[str, float] = {}
     for row in rows:
         for name, value in row.measures.items():

@@ -1,4 +1,4 @@
-"""The plan of a taught job is its script. The steps are the same in each world, but the places differ."""
+"""The plan of a taught job is its script. The steps are the same in every world, but the places differ."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ PATIENCE: Final = 100_000  # halt checks until a program run in teaching counts 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaughtStep:
-    """A step of a listing."""
+    """A step in the listing of a program."""
 
     node: int
     line: int
@@ -38,7 +38,7 @@ class TaughtStep:
 
     @property
     def needs(self) -> Device | None:
-        """The device that the step needs: `hand` for a step that only opens or closes the hand."""
+        """The device that the step needs: `hand` if the step only opens or closes the hand, or else None."""
         return "hand" if self.word in ("grasp", "ungrasp") else None
 
     @property
@@ -48,7 +48,7 @@ class TaughtStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaughtListing:
-    """The steps of a program in drawing order, one per line."""
+    """The steps of a program in drawing order, one step per line."""
 
     name: str
     steps: Sequence[TaughtStep]
@@ -75,7 +75,7 @@ def encode(plan: TaughtPlan) -> bytes:
 
 
 def decode(data: bytes, name: str) -> TaughtPlan:
-    """A plan from bytes; raises BadFile."""
+    """Decode and check a plan. Raises BadFile."""
     plan = read_taught_plan(data, name)
     try:
         listing(plan)
@@ -85,13 +85,13 @@ def decode(data: bytes, name: str) -> TaughtPlan:
 
 
 def imagined(plan: TaughtPlan) -> TrigProgram:
-    """The program that results from teaching a plan's script to an imaginary arm; raises InvalidInput."""
+    """Return the program that results if a plan's script is taught to an imaginary arm. Raises InvalidInput."""
     return typed(plan.script, f"{plan.job}.trig")
 
 
 def typed(text: str, name: str) -> TrigProgram:
-    """The program that results from teaching a script to an imaginary arm; its steps hold in every world, but its
-    places do not.
+    """Return the program that results if a script is taught to an imaginary arm. The steps are valid in every
+    world, but the places are not.
     """
     session, asked = new_session("none"), 0
 
@@ -130,7 +130,7 @@ def _step(program: TrigProgram, node: Node, numbers: Mapping[int, int]) -> Taugh
 
 
 def _text(program: TrigProgram, node: Node, number: int) -> str:
-    """The text of a step, without counts of loops."""
+    """Return the text of a step, without the counts of loops."""
     if node.type == "loop":
         return loop_words(program.graph, node, ASCII)
     shown, deed, _ = step_words(
@@ -140,7 +140,7 @@ def _text(program: TrigProgram, node: Node, number: int) -> str:
 
 
 def text_now(step: TaughtStep, node: Node) -> str:
-    """The present text of a step; for a loop with its round."""
+    """Return the present text of a step. For a loop, it includes the number of the present round."""
     if node.type != "loop":
         return step.text
     back = f"goes back ({node.count + 1} of {node.wanted})" if node.count < node.wanted else "goes on"
@@ -148,7 +148,7 @@ def text_now(step: TaughtStep, node: Node) -> str:
 
 
 def _ways(graph: Graph, node: Node, numbers: Mapping[int, int]) -> list[int | None]:
-    """Numbers of the steps that may follow, None for the end."""
+    """Return the numbers of the steps that may follow; None stands for the end."""
     sons = [graph.step_at(son) for son in node.sons]
     target = graph.target(node) if node.type == "loop" else None
     return [

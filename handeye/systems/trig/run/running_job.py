@@ -1,4 +1,5 @@
-"""A TRIG job during a run: taught in the world of the run, executed and undone step by step on a bench."""
+"""A TRIG job during a run. It is taught in the world of the run, and executed and undone step by step on a
+bench."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -55,7 +56,7 @@ class RunningJob(RunningSystem):
     """Teaches a program in the world of a run, and executes it."""
 
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
-        """Build the bench, without blocks and with nothing taught."""
+        """Build the bench without blocks. Nothing is taught yet."""
         self._setup, self._around, self._plan = setup, around, plan_of(setup)
         self._steps = listing(self._plan).steps
         self._numbers = listing(self._plan).numbers
@@ -161,7 +162,7 @@ class RunningJob(RunningSystem):
             state.stage = None
 
     def _carried_out(self, step: TaughtStep) -> str | None:
-        """Execute a step and the hidden nodes after it; returns the reason if the arm refuses."""
+        """Execute a step and the hidden nodes after it. Returns the reason if the arm refuses, or None."""
         try:
             next = self.job.session.runner.carry_out(step.node, self._state.came)
         except Refused as error:  # it cannot go where the step wants it
@@ -173,7 +174,7 @@ class RunningJob(RunningSystem):
         return None
 
     def _to(self, node: int) -> None:
-        """Advance to the next visible step, or the end."""
+        """Advance to the next visible step, or to the end."""
         program, state = self.job.session.program, self._state
         while node != NONE and not program.graph[node].shown:
             next = self.job.session.runner.carry_out(node, state.came)
@@ -200,7 +201,7 @@ class RunningJob(RunningSystem):
             self._call(refused, number)
 
     def _undone(self, job: TaughtJob) -> str | None:
-        """Reverse the last step; returns the reason if the arm stopped."""
+        """Reverse the last step. Returns the reason if the arm stopped, or None."""
         try:
             ran = job.session.runner.back(1)
         except Refused as error:  # it cannot go back to where it was
@@ -211,7 +212,7 @@ class RunningJob(RunningSystem):
         return None if ran.obstacle is None else told_obstacle(ran.obstacle)
 
     def _stand_before(self, number: int) -> None:
-        """Update the state after a step was reversed: that step is next, or the reversal is complete."""
+        """Update the state after a step was reversed: either that step comes next, or the reversal is complete."""
         state, program = self._state, self.job.session.program
         assert state.undoing is not None
         self._note()
@@ -230,14 +231,14 @@ class RunningJob(RunningSystem):
         state.undoing, state.at, state.onward = None, None if halts else number, number if halts else None
 
     def _call(self, sentence: str, number: int) -> None:
-        """Call the operator, who can repeat the step or end the run."""
+        """Call the operator, who can repeat the step or end the program."""
         state = self._state
         state.stopped = OperatorCalled(time=self.time, message=sentence)
         state.at, state.onward = None, number
         self._around.emit(state.stopped)
 
     def answer(self, choice: Choice) -> None:
-        """Continue after a call: `retry` and `proceed` repeat the step, `skip` ends the program."""
+        """Continue after a call. `retry` and `proceed` repeat the step; `skip` ends the program."""
         state = self._state
         if choice == "skip" and state.undoing is not None:
             raise Refused(
@@ -277,7 +278,7 @@ class RunningJob(RunningSystem):
         return completed
 
     def built(self) -> Findings:
-        """Findings on the finished work before its reversal."""
+        """Return findings on the finished work before its reversal."""
         turn = self._state.turn
         return self.job.built() if turn is not None and turn.ended else {}
 
@@ -325,12 +326,13 @@ class RunningJob(RunningSystem):
         self._state.note(self.job.session.program, self.job.arm.memory)
 
     def _hand(self) -> tuple[Vector3, float]:
-        """Position of the hand relative to the platter by the potentiometers, m, and the gap of the fingers, m."""
+        """Return the position of the hand relative to the platter, measured by the potentiometers (m), and the
+        gap between the fingers (m)."""
         x, y, z = (round(float(value), 6) for value in self.job.axes.read().q[:3])
         return (x, y, z), round(self.job.arm.gap, 6)
 
     def _force(self) -> Array:
-        """The force on the finger, shape (3,), N."""
+        """Return the force on the finger (N, shape (3,))."""
         channels = self.job.axes.read().channels
         return np.array([channels[part] for part in PURBRICK.force.parts])
 
@@ -349,7 +351,7 @@ class RunningJob(RunningSystem):
 
 
 def plan_of(setup: Setup) -> TaughtPlan:
-    """The plan of a taught job; raises Refused for other systems."""
+    """Return the plan of a taught job. Raises Refused for a run of another system."""
     if not isinstance(setup.plan, TaughtPlan):
         raise Refused(f"this is a run of the system {setup.system}, not of a taught job")
     return setup.plan

@@ -1,4 +1,4 @@
-"""The state of a taught program between steps, as one record; the steps are in the plan."""
+"""The state of a taught program between steps, as one record. The steps themselves are in the plan."""
 
 from typing import Final
 
@@ -20,14 +20,14 @@ _MAX_MEASURE: Final = 1000.0  # m and rad
 
 
 class CompletedStep(Record, frozen=True, kw_only=True):
-    """An executed step that is not reversed."""
+    """An executed step that has not been reversed."""
 
     step: int
     enters: bool  # the first of the program
 
 
 class Turn(Record, frozen=True, kw_only=True):
-    """The step at which a job began its reversal."""
+    """Where a job began its reversal."""
 
     steps: int  # executed by then
     ended: bool  # the program was complete
@@ -35,7 +35,7 @@ class Turn(Record, frozen=True, kw_only=True):
 
 
 class TaughtState(SystemState, kw_only=True):
-    """The whole state, except the steps."""
+    """The whole state of a taught program, except its steps."""
 
     came: int = TOP  # node executed before the next step
     undoing: ReversalOrder | None = None  # the reversal in progress
@@ -53,7 +53,7 @@ class TaughtState(SystemState, kw_only=True):
     arm: ArmMemory | None = None  # None: not begun
 
     def order(self, plan: TaughtPlan, undoing: ReversalOrder) -> None:
-        """Order a reversal; raises Refused if there is nothing to reverse."""
+        """Order a reversal. Raises Refused if there is nothing to reverse."""
         executed = self.executed(plan)
         if undoing.left >= len(executed):
             raise Refused("there is nothing to undo")
@@ -61,7 +61,7 @@ class TaughtState(SystemState, kw_only=True):
         self.at = executed[-1].step
 
     def executed(self, plan: TaughtPlan) -> list[CompletedStep]:
-        """Executed steps that are not reversed, with their stage."""
+        """Return the executed steps that have not been reversed, with their stage."""
         numbers = listing(plan).numbers
         found = [numbers[done.node] for done in self.trail if done.node in numbers]
         return [CompletedStep(step=number, enters=not before) for before, number in enumerate(found)]

@@ -1,4 +1,4 @@
-"""TRIG as a system: capabilities of its runs, words for them, and the files that they leave."""
+"""TRIG as a system: the capabilities of its runs, the words for them, and the files that they leave."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -28,7 +28,7 @@ OWN_BLOCKS: Final = 5  # default blocks in the stack: enough for a program of 75
 
 
 class TaughtSystem(System):
-    """TRIG programs that are taught in the world of a run."""
+    """The system that runs TRIG programs. Each program is taught in the world of its run."""
 
     name = ENTRY.name
     plan = TaughtPlan
