@@ -97,7 +97,7 @@ class FilledLine:
 
 
 def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
-    """Fill in a line of a macro, or a call, with arguments in place of parameters."""
+    """Put the arguments of a call in place of the parameters, in a line of a macro or in the call of another macro."""
     assert statement.word is not None
     words = statement.word.text in FREE_TEXT
     uses = {t.span: given[t.text] for t in parameters_in(statement) if t.text in given}
@@ -136,7 +136,7 @@ def uses(operand: Operand) -> tuple[Label, ...]:
 
 
 def across(one: Operand, other: Operand) -> Span:
-    """Return the span from one operand to another, or only that of the first if either is an argument."""
+    """Return the span from one operand to another, or the span of the first operand if either is an argument."""
     return one.span if one.use or other.use else Span(start=one.start, end=other.end)
 
 

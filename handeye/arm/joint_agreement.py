@@ -18,8 +18,8 @@ its largest stated amplitude (.09 degrees, .011 in), with the errors of worlds o
 READING_STEPS: Final = 1.5
 """Tolerance for two readings of one position, in converter steps: half a step for each, and their noise."""
 PATH_SHARE: Final = 0.013
-"""Tolerance as a fraction of the path: three standard deviations of the scale error of a potentiometer (.22 %),
-doubled.
+"""Tolerance for the difference between the two sensors, as a fraction of the path of the joint: three standard
+deviations of the scale error of a potentiometer (.22 %), doubled.
 """
 JUMP_STEPS: Final = 4.0
 """Tolerance, in converter steps, for a change of the potentiometer reading within one servo period that the

@@ -7,9 +7,9 @@ difference between its torques in the two directions, even if the model of its w
 
 A force on the hand acts on several joints at once, as J^T F. A torque in one joint alone would, as a wrench at the
 hand, be a couple or a force at the wrist centre: its lever arm about the tool centre point is longer than any
-finger. This has two limits. A force on the arm at its wrist centre looks like a fault of a joint. And if the hand
-points down under a level boom, an upward push looks the same as a shoulder that does not lift; this counts as a
-push.
+finger. This has two limits. A force on the arm at its wrist centre looks like a fault of a joint. If the hand
+points down under a level boom, an upward push looks the same as a shoulder that does not lift; this case counts as
+a push.
 """
 
 from collections.abc import Sequence

@@ -136,7 +136,7 @@ class ArmModel(Brief):
     """Position (rad or m), by joint name, of each joint that inverse kinematics leaves fixed."""
 
     def __post_init__(self) -> None:
-        """Raise ValueError if the figures contradict each other."""
+        """Raise ValueError if the values contradict each other."""
         names = [joint.name for joint in self.joints]
         if len({*names}) < len(names) or not {*self.held} <= {*names}:
             raise ValueError(f"{self.name}: joints have names of their own, and only joints are held")

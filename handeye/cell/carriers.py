@@ -131,12 +131,14 @@ class Carriers:
         data.qvel[model.jnt_dofadr[slide]] = rate * self._lead
 
     def _show(self, hole: int, *, there: bool) -> None:
-        """Show the head and shank of a hole and let them touch other parts, or hide them and do not."""
+        """Show the head and shank of the screw in a hole and let them touch other parts, or if `there` is False,
+        hide them and let them touch nothing.
+        """
         self.meet(hole, self._model, there=there)
         self._model.geom_group[self._looks[hole]] = SEEN if there else LATENT
 
     def meet(self, hole: int, model: mujoco.MjModel, *, there: bool) -> None:
-        """Set whether the head and shank of a hole touch other parts, in a model of this scene."""
+        """Set whether the head and shank of the screw in a hole touch other parts, in a model of this scene."""
         solid = self._solid[hole]
         contype, conaffinity = self._bits[hole] if there else (0, 0)
         model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity

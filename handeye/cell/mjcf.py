@@ -42,7 +42,9 @@ def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[
 
 
 def mesh_of(mesh: mujoco.MjsMesh) -> trimesh.Trimesh:
-    """Return a mesh of a specification, in m. If the mesh has only points, return their convex hull."""
+    """Convert a mesh of a specification to a triangle mesh (m). If the mesh has only points, return their convex
+    hull.
+    """
     points = np.array(mesh.uservert).reshape(-1, 3)
     if not len(mesh.userface):
         hull: trimesh.Trimesh = trimesh.Trimesh(points).convex_hull

@@ -157,8 +157,8 @@ def _profile(way: Pass, period: float) -> Array:
 
 
 def _stroke(q: Array, rate: Array, share: Array, period: float) -> Samples:
-    """Return the set-points of a motion from rest at `q` to rest. The rate of each joint is a fraction `share` of
-    `rate`, shape (n,).
+    """Return the set-points of a motion from rest at `q` to rest. In each servo period, the rate of each joint is
+    the fraction `share` of `rate`, shape (n,).
     """
     before = np.concatenate(([0.0], share[:-1]))
     gone = np.cumsum((before + share) / 2) * period

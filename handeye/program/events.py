@@ -119,7 +119,7 @@ class StepFinished(Event, frozen=True, kw_only=True):
 
 
 class Adjusted(Event, frozen=True, kw_only=True):
-    """A goal was shifted from its planned position (m) before the motion began."""
+    """A goal was shifted by `shift` (m) from its planned position before the motion began."""
 
     goal: str
     shift: tuple[float, float, float]

@@ -25,8 +25,8 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
 
 
 def stage_called(text: str, stages: Sequence[str]) -> int | None:
-    """Return the index of the only stage that has this name, or else of the only one that begins with it, or else
-    of the only one that contains it. Returns None if there is none.
+    """Find the only stage called `text`; or else, the only stage whose name begins with it; or else, the only stage
+    whose name contains it. Returns the index of the stage, or None if there is none.
     """
     wanted = text.strip().casefold()
     names = [name.casefold() for name in stages]

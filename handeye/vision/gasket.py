@@ -42,8 +42,8 @@ vision study, section 4.
 BESIDE: Final = 0.3 * INCH  # from a hole's border to where the difference is measured, m
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""Two fractions for the picture before: of the contrast, above which a step is a border, and of the intensity of
-the face, above which a point belongs to the face.
+"""BEFORE_STEP and BRIGHT are fractions for the picture taken before: of the contrast, above which a step is a
+border, and of the intensity of the face, above which a point belongs to the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32

@@ -116,7 +116,7 @@ ANGLES: Final = np.linspace(-TURN, TURN, 7)
 close together that the second hole cannot lie between two of them.
 """
 BEFORE: Final = 0.35 * INCH
-"""These beams start at this distance (m) before the border of the second hole, beyond the screw holes about the
+"""The beams towards the second hole start at this distance (m) before its border, beyond the screw holes about the
 first hole.
 """
 

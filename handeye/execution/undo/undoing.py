@@ -80,7 +80,7 @@ def undo_last(run: ExecutionContext) -> UndoFailure | None:
     """Reverse the last executed step, or all the steps that one lift reverses, and remove them from the list of
     executed steps.
 
-    Returns None, or the reason for stopping. In that case the last step is only partly reversed.
+    Returns None, or the reason why the reversal stopped. If it stopped, the last step is only partly reversed.
     """
     state = run.state
     first = _first_of_lift(run)

@@ -12,7 +12,7 @@ from handeye.program.guards import HandLoad
 
 
 class NoConfiguration(Record, frozen=True, kw_only=True):
-    """There are no joint positions for a goal, or for a point `along` (m) along the way to the goal."""
+    """There are no joint positions for a goal, or for the point at the distance `along` (m) on the way to the goal."""
 
     step: int
     position: str | None  # the goal or via point; None: the finding is about the motion
