@@ -1,4 +1,5 @@
-"""SUPERSIGMA (Milan, 1981): a central computer, microcomputers on a bus, and a language with tasks and flags."""
+"""SUPERSIGMA (Milan, 1981): a central computer, microcomputers on a bus, and a programming language with tasks
+and flags."""
 
 from handeye.core.entries import Entry
 

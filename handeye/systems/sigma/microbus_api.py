@@ -1,4 +1,5 @@
-"""The MICROBUS from Python, after the paper's "few functions that provide MICROBUS driving" in a general language."""
+"""The MICROBUS from Python. The paper asks for "few functions that provide MICROBUS driving" in a general
+language."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -51,7 +52,7 @@ class Microbus:
 
     @property
     def interrupt(self) -> bool:
-        """True if line A of a motor is high: the motor's last command was aborted."""
+        """True if line A of a motor is high, which means that the motor's last command was aborted."""
         return self._bus.interrupt
 
     def command(
@@ -67,9 +68,9 @@ class Microbus:
         """Send a command of five bytes.
 
         Args:
-            name: a microcomputer, by name (`X1`, `FORCE1`, `HAND2`) or number.
-            op: the operation; for operations with an answer use `ask`.
-            steps: distance of a MOVE, steps, with its sign.
+            name: the name (`X1`, `FORCE1`, `HAND2`) or the number of a microcomputer.
+            op: the operation. For an operation that is a question, use `ask`.
+            steps: signed distance of a MOVE (steps).
             curve: acceleration curve of a MOVE, 0 to 4.
             detail: byte 3 of other operations.
             value: bytes 4 and 5 of other operations.
@@ -84,11 +85,11 @@ class Microbus:
         self._bus.send(move(name, steps, curve) if kind is Op.MOVE else _command(name, kind, detail, value))
 
     def ask(self, name: str | int, op: str = "POSITION", *, detail: int = 0, count: int | None = None) -> int:
-        """Ask a microcomputer, and wait for its answer; returns a number, with a sign for POSITION, ABORT_POSITION
-        and FORCE.
+        """Ask a microcomputer, and wait for its answer. Returns the answer as a number, which is signed for
+        POSITION, ABORT_POSITION and FORCE.
 
         Raises:
-            NoAnswer: the answer did not come within 5 ms.
+            NoAnswer: the answer did not arrive within 5 ms.
         """
         kind = _op(op)
         if count is None and kind not in ANSWERS:
@@ -100,43 +101,44 @@ class Microbus:
         return signed(answer) if kind in _SIGNED else int.from_bytes(answer, "big")
 
     def status(self, name: str | int) -> str:
-        """The state of a microcomputer: `free`, `busy`, or the reason why its last command was aborted, `rail` or
-        `force`.
+        """Return the state of a microcomputer: `free`, `busy`, or, if its last command was aborted, the reason:
+        `rail` or `force`.
         """
         return self._bus.status(number_of(name)).name.lower()
 
     def wait(self, name: str | int, seconds: float = 60.0) -> str:
-        """Wait until a microcomputer is not busy, at most `seconds`; returns its state, as `status`."""
+        """Wait until a microcomputer is not busy, for at most `seconds`. Returns its state in the form that
+        `status` returns."""
         return self._bus.wait_free(number_of(name), _microseconds(seconds)).name.lower()
 
     def pause(self, seconds: float) -> None:
-        """Let time pass."""
+        """Let this time pass."""
         end = self._bus.now + _microseconds(seconds)
         while self._bus.now < end:
             self._bus.wait(end)
 
     def self_test(self) -> list[str]:
-        """The results of the self-tests of power-on, in sentences."""
+        """Run the self-tests of power-on, and return their results in sentences."""
         return told(power_on(self._bus, SUPERSIGMA))
 
     @property
     def frames(self) -> list[str]:
-        """Bytes of all commands so far, in hexadecimal."""
+        """The bytes of all commands so far, in hexadecimal."""
         return [event.frame.hex(" ") for event in self._log if isinstance(event, CommandSent)]
 
     @property
     def log(self) -> list[str]:
-        """The log of the bus, one line per event, each beginning with the time in microseconds."""
+        """The log of the bus, one line per event. Each line begins with the time in microseconds."""
         return [event_text(event) for event in sorted(self._log, key=lambda event: event.at)]
 
     def diagram(self, begin: float = 0.0, end: float | None = None, *, width: int = 100) -> str:
-        """The timing diagram between two times, s, as text."""
+        """Return the timing diagram between two times (s) as text."""
         return "\n".join(
             as_text(diagram("", self._log, *self._span(begin, end), self._bus.timing), width)[1:]
         )
 
     def svg(self, begin: float = 0.0, end: float | None = None, *, title: str = "MICROBUS") -> str:
-        """The timing diagram between two times, s, as SVG."""
+        """Return the timing diagram between two times (s) as SVG."""
         return as_svg(diagram(title, self._log, *self._span(begin, end), self._bus.timing))
 
     def _span(self, begin: float, end: float | None) -> tuple[int, int]:

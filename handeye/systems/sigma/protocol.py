@@ -1,4 +1,5 @@
-"""The protocol of the bus: the five bytes of a command, the answers, and the numbers of the microcomputers."""
+"""Defines the protocol of the bus: the five bytes of a command, the answers, and the numbers of the
+microcomputers."""
 
 from collections.abc import Sequence
 from enum import IntEnum
@@ -31,7 +32,7 @@ DEVICES: Final = {
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Times at which lines change, are polled and are sampled: whole microseconds of each device's clock."""
+    """Times at which lines change, are polled and are sampled, in whole microseconds of each device's clock."""
 
     slot: int = 20  # from byte to byte of a command
     strobe_falls: int = 2  # /DATA READY, after the first byte begins
@@ -54,12 +55,12 @@ class Timing(Record, frozen=True, kw_only=True):
 
     @property
     def command(self) -> int:
-        """Duration of a command, microseconds."""
+        """Duration of a command (microseconds)."""
         return COMMAND_BYTES * self.slot
 
 
 class Op(IntEnum):
-    """Operations, byte 2 of a command."""
+    """The operations, byte 2 of a command."""
 
     MOVE = 0x01  # steps, profile by length
     MOVE_SLOW = 0x02  # steps at constant speed
@@ -91,7 +92,7 @@ ANSWERS: Final[dict[Op, int]] = {
 
 
 def number_of(name: str | int) -> int:
-    """The number of a microcomputer; raises NoSuchName."""
+    """Return the number of a microcomputer. Raises NoSuchName."""
     if isinstance(name, int):
         if not 0 <= name <= 0xFF:
             raise BadArgument(f"microcomputers have numbers from 0 to 255, not {name}")
@@ -102,12 +103,12 @@ def number_of(name: str | int) -> int:
 
 
 def name_of(number: int) -> str:
-    """The name of a microcomputer, or its number if it has no name."""
+    """Return the name of a microcomputer, or its number as text if it has no name."""
     return {number: name for name, number in NUMBERS.items()}.get(number, str(number))
 
 
 def move(axis: str | int, steps: int, curve: int = 0) -> Command:
-    """Move by a signed number of steps, along the profile for that number."""
+    """Make the command to move by a signed number of steps, along the profile that belongs to this number."""
     return Command(
         number=number_of(axis),
         op=Op.MOVE,
@@ -117,43 +118,44 @@ def move(axis: str | int, steps: int, curve: int = 0) -> Command:
 
 
 def move_slow(axis: str | int, steps: int, speed: float) -> Command:
-    """Move by a signed number of steps at a constant speed, mm/s, rounded to an even number from 2 to 254."""
+    """Make the command to move by a signed number of steps at a constant speed (mm/s). The speed is rounded to
+    an even number from 2 to 254."""
     code = within(max(1, round(speed / SLOW_STEP_MM)), 1, 127, "the code of a speed")
     value = within(abs(steps), 1, LONGEST_MOVE, "a move in steps")
     return Command(number=number_of(axis), op=Op.MOVE_SLOW, detail=(steps < 0) | code << 1, value=value)
 
 
 def limit_speed(axis: str | int, speed: int) -> Command:
-    """Limit the speed, steps/s; 0: as fast as the curve allows."""
+    """Make the command to limit the speed (steps/s). A limit of 0 allows the greatest speed of the curve."""
     limit = within(speed, SLOWEST, 0xFFFF, "a limit in steps/s") if speed else 0
     return Command(number=number_of(axis), op=Op.LIMIT_SPEED, value=limit)
 
 
 def origin(axis: str | int) -> Command:
-    """Move to the end of the rail, and count from there."""
+    """Make the command to move to the end of the rail, and to count from there."""
     return Command(number=number_of(axis), op=Op.ORIGIN)
 
 
 def position(axis: str | int, *, at_abort: bool = False) -> Command:
-    """Ask for the count, now or at the last abort."""
+    """Make the question for the count, either now or at the last abort."""
     return Command(number=number_of(axis), op=Op.ABORT_POSITION if at_abort else Op.POSITION)
 
 
 def set_position(axis: str | int, count: int) -> Command:
-    """Set the count."""
+    """Make the command to set the count."""
     return Command(number=number_of(axis), op=Op.SET_POSITION, value=count & 0xFFFF)
 
 
 def force(arm: int, component: str, *, peak: bool = False) -> Command:
-    """Ask for a component of the force on a wrist: the present value, or the greatest one since the last such
-    question.
+    """Make the question for a component of the force on a wrist: its present value or, with `peak`, the
+    greatest value since the last such question.
     """
     op = Op.PEAK_FORCE if peak else Op.FORCE
     return Command(number=number_of(f"FORCE{arm}"), op=op, detail=COMPONENTS.index(component))
 
 
 def threshold(arm: int, component: str, newtons: float | None) -> Command:
-    """Set the force above which a motor is stopped; None: the standard value."""
+    """Make the command to set the force (N) above which a motor is stopped. None stands for the standard value."""
     value = STANDARD if newtons is None else within(round(newtons / FORCE_STEP_N), 0, STANDARD - 1, "a limit")
     return Command(
         number=number_of(f"FORCE{arm}"), op=Op.THRESHOLD, detail=COMPONENTS.index(component), value=value
@@ -161,37 +163,37 @@ def threshold(arm: int, component: str, newtons: float | None) -> Command:
 
 
 def actuate(arm: int, device: str, value: int) -> Command:
-    """Set a device of a hand microcomputer."""
+    """Make the command to set a device of a hand microcomputer."""
     return Command(number=number_of(f"HAND{arm}"), op=Op.ACTUATE, detail=DEVICES[device], value=value)
 
 
 def beam(arm: int) -> Command:
-    """Ask whether the light beam between the fingers is interrupted."""
+    """Make the question whether the light beam between the fingers is interrupted."""
     return Command(number=number_of(f"HAND{arm}"), op=Op.BEAM)
 
 
 def self_test(name: str | int) -> Command:
-    """Ask a microcomputer to test itself; the answer 0 means no fault."""
+    """Make the question that lets a microcomputer test itself. The answer 0 means that it has found no fault."""
     return Command(number=number_of(name), op=Op.SELF_TEST)
 
 
 def echo(name: str | int, pattern: bytes) -> Command:
-    """Ask a microcomputer to send three bytes back."""
+    """Make the question that lets a microcomputer send three bytes back."""
     return Command.of(bytes((number_of(name), Op.ECHO, *pattern)))
 
 
 def sense(name: str | int) -> Command:
-    """Ask a newer kind of sensor."""
+    """Make the question for the reading of a newer kind of sensor."""
     return Command(number=number_of(name), op=Op.SENSE)
 
 
 def signed(answer: Sequence[int]) -> int:
-    """The signed number in two bytes of an answer, high byte first."""
+    """Return the signed number in two bytes of an answer, with the high byte first."""
     return int.from_bytes(bytes(answer), "big", signed=True)
 
 
 def within(value: int, least: int, most: int, what: str) -> int:
-    """Return a number that fits its field; raises BadArgument."""
+    """Return the number if it fits its field. Raises BadArgument if it does not."""
     if not least <= value <= most:
         raise BadArgument(f"{what} must be between {least} and {most}, not {value}")
     return value

@@ -1,7 +1,9 @@
-"""Table 1 of the paper: how often four programs send commands, and the load of bus and computer.
+"""Reproduces table 1 of the paper: how often four programs send commands, and how much they load the bus and
+the computer.
 
-Layer 1 repeats one move, of the length for which a command takes as long as in the paper; it checks the arithmetic
-of bus and motors. Layer 2 runs programs like those named in the paper; nothing in them is fitted to the table.
+Layer 1 repeats one move. The length of the move is chosen so that a command takes as long as in the paper,
+which checks the arithmetic of bus and motors. Layer 2 runs programs like those named in the paper. They are not
+fitted to the table.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,7 +27,7 @@ CALCULATIONS: Final = (0, 10, 100, 1000)  # between two moves
 
 
 class PaperRow(Record, frozen=True, kw_only=True):
-    """A row of the printed table, and the move that layer 1 repeats."""
+    """A row of the printed table, and the number of steps of the move that layer 1 repeats."""
 
     name: str
     job: str
@@ -58,7 +60,7 @@ ROWS: Final = (
 
 
 class Load(Record, frozen=True, kw_only=True):
-    """The load of bus and computer caused by a program."""
+    """How much a program loads the bus and the computer."""
 
     name: str
     commands: int  # questions among them
@@ -69,7 +71,7 @@ class Load(Record, frozen=True, kw_only=True):
 
 
 class Claim(Record, frozen=True, kw_only=True):
-    """A statement of the paper, and whether it holds here."""
+    """A statement of the paper, and whether it is true for this simulation."""
 
     claim: str
     holds: bool
@@ -77,7 +79,7 @@ class Claim(Record, frozen=True, kw_only=True):
 
 
 class Table1(Record, frozen=True, kw_only=True):
-    """Both layers, the load by arithmetic, and the claims."""
+    """The results of both layers, the load of programs that calculate, and the claims."""
 
     paper: tuple[PaperRow, ...]
     layer1: tuple[Load, ...]
@@ -92,7 +94,7 @@ class Table1(Record, frozen=True, kw_only=True):
 
 
 def uniform(arms: int, moves: int, steps: int) -> str:
-    """A program in which each arm repeats one move, back and forth."""
+    """Return a program in which each arm repeats one move, back and forth."""
     each = moves // arms
     tasks = [_back_and_forth(10 * arm, arm, each, steps) for arm in range(1, arms + 1)]
     return tasks[0] if arms == 1 else f"5 START OTHER\n{tasks[0]}19 TASK OTHER\n{tasks[1]}"
@@ -111,7 +113,7 @@ def _back_and_forth(first: int, arm: int, moves: int, steps: int) -> str:
 
 
 def calculating(calculations: int, moves: int = 20) -> str:
-    """A program that calculates before each move, at most 100 times in a line."""
+    """Return a program that calculates before each move, with at most 100 calculations in a line."""
     whole, rest = divmod(calculations, 100)
     sums = [f"A = 1{' + 1' * count}" for count in [100] * whole + [rest] * bool(rest)]
     lines = ["WAY = 24", f"FOR N = 1 TO {moves}", *sums, "MOVE X1 BY WAY", "WAY = - WAY", "NEXT N"]
@@ -119,7 +121,7 @@ def calculating(calculations: int, moves: int = 20) -> str:
 
 
 def load(name: str, text: str, statement_us: int = STATEMENT_US) -> Load:
-    """Run a program on perfect motors, and measure its load."""
+    """Run a program on perfect motors, and measure how much it loads bus and computer."""
     motors = PerfectMotors()
     vm = VirtualMachine(program_of(f"{name}.mal", text), motors, statement_us=statement_us)
     vm.begin()
@@ -139,7 +141,7 @@ def load(name: str, text: str, statement_us: int = STATEMENT_US) -> Load:
 
 
 def real(name: str) -> str:
-    """The text of a program of layer 2."""
+    """Return the text of a program of layer 2."""
     return read_source(plans() / f"table1_{name.lower()}.mal").text
 
 
@@ -206,7 +208,7 @@ def _claims(layer1: Sequence[Load], layer2: Sequence[Load], arithmetic: Sequence
 
 
 def lines(found: Table1) -> Iterator[str]:
-    """Both layers as text."""
+    """Yield the results of both layers as text."""
     form = "{:6} {:>9} {:>9} {:>8} {:>12} {:>8}"
     for title, layer in (
         ("layer 1: one move, repeated", found.layer1),
@@ -232,7 +234,7 @@ def _texts(form: str, name: str, each: Load) -> str:
 
 
 def page_tables(found: Table1) -> str:
-    """The tables of the documentation page, in Markdown."""
+    """Return the tables of the documentation page, in Markdown."""
     out = []
     for title, layer in (
         ("Layer 1: one move, repeated", found.layer1),

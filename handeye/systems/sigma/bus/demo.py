@@ -1,4 +1,5 @@
-"""A demonstration of the protocol: a command that all free microcomputers receive, and a question with its answer."""
+"""Demonstrates the protocol with a command that all free microcomputers receive, and with a question and its
+answer."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -34,7 +35,7 @@ _ENOUGH: Final = 60_000_000  # microseconds
 
 @dataclass(kw_only=True)
 class Demonstration:
-    """The log and the results of a demonstration."""
+    """A demonstration: its log and its results."""
 
     bus: WiredBus
     log: list[AnyBusEvent] = field(default_factory=list)
@@ -56,7 +57,8 @@ class Demonstration:
 def demonstrate(
     defects: Sequence[BusDefect] = (), *, late_riser: bool = False, seed: int = 0, all_lines: bool = False
 ) -> Demonstration:
-    """Send a command and ask a question; with `late_riser`, Y1 becomes free in the middle of the command."""
+    """Send a command and ask a question. With `late_riser`, the microcomputer of Y1 becomes free in the middle
+    of the command."""
     shown = Demonstration(bus=WiredBus(defects=defects, seed=seed))
     bus, number = shown.bus, NUMBERS[ASKED]
     bus.tell.append(shown.log.append)
@@ -104,7 +106,7 @@ def _pass(bus: WiredBus, until: int) -> None:
 
 
 def verdict(shown: Demonstration) -> list[str]:
-    """The results of a demonstration, in sentences."""
+    """Describe the results of a demonstration in sentences."""
     out = []
     for event in shown.misread:
         acts = f", and acts: {command_text(Command.of(event.frame))}" if event.own else ", and drops it"
@@ -123,7 +125,7 @@ def verdict(shown: Demonstration) -> list[str]:
 
 
 def told(shown: Demonstration) -> list[str]:
-    """The log of both diagrams, one line per event."""
+    """Return the log of both diagrams, one line per event."""
     first = shown.diagrams[0].begin
     events = sorted((e for e in shown.log if e.at >= first), key=lambda event: event.at)
     return [event_text(event) for event in events]

@@ -1,4 +1,5 @@
-"""Timing diagrams of the bus, made from its log: the levels of the lines, and the bytes that each receiver took."""
+"""Makes timing diagrams of the bus from its log: the levels of the lines, and the bytes that each receiver
+took."""
 
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -27,7 +28,7 @@ _ALWAYS_BUSY: Final = "FORCE"  # microcomputers of these names show BUSY from po
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """One line of the bus: its level at first, and the times of its changes, ps."""
+    """One line of the bus: its first level, and the times at which the level changes (ps)."""
 
     name: str
     first: int
@@ -36,7 +37,7 @@ class Wave:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A byte that a receiver took, with its time, ps."""
+    """A byte that a receiver took, with the time (ps)."""
 
     at: int
     byte: int
@@ -47,7 +48,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Receiver:
-    """The bytes that one microcomputer, or the central computer, took."""
+    """The bytes that one microcomputer, or the central computer, took from the lines."""
 
     name: str
     marks: tuple[Mark, ...]
@@ -56,7 +57,7 @@ class Receiver:
 
 @dataclass(frozen=True, slots=True)
 class Diagram:
-    """Lines and receivers between two times, ps."""
+    """The lines and receivers of the bus between two times (ps)."""
 
     title: str
     begin: int
@@ -71,8 +72,8 @@ class Diagram:
 def diagram(
     title: str, log: Sequence[AnyBusEvent], begin: int, end: int, timing: Timing, *, all_lines: bool = False
 ) -> Diagram:
-    """The diagram of a log between two times, microseconds; with `all_lines`, including status lines that do not
-    change.
+    """Make the diagram of a log between two times (microseconds). With `all_lines`, it includes status lines
+    that do not change.
     """
     first, last = begin * PS, end * PS
     sent = [e for e in log if isinstance(e, CommandSent)]
@@ -173,7 +174,7 @@ _ASCII: Final = ("-", "_", "|")
 
 
 def as_text(drawn: Diagram, width: int = 100, *, ascii: bool = False) -> list[str]:
-    """A diagram as lines of text, at most `width` characters wide (60 at least)."""
+    """Return a diagram as lines of text, at most `width` characters wide, but at least 60."""
     behind = max((len(receiver.says) + 1 for receiver in drawn.receivers), default=0)
     columns = max(20, width - _NAME - behind)
     scale = (drawn.end - drawn.begin) / columns
@@ -222,14 +223,14 @@ def _axis(drawn: Diagram, columns: int) -> str:
 
 
 def _unit(drawn: Diagram) -> tuple[str, int]:
-    """The unit of the time axis, and its length in microseconds."""
+    """Return the unit of the time axis, and its length (microseconds)."""
     units = (("microseconds", 1), ("milliseconds", 1_000), ("seconds", 1_000_000))
     span = (drawn.end - drawn.begin) // PS
     return max((unit for unit in units if span >= 20 * unit[1]), key=lambda unit: unit[1], default=units[0])
 
 
 def _ticks(drawn: Diagram, most: int) -> list[int]:
-    """Round times, ps, for the ticks of the time axis."""
+    """Return round times (ps) for the ticks of the time axis."""
     span = (drawn.end - drawn.begin) // PS
     step = next(
         (digit * 10**power for power in range(12) for digit in (1, 2, 5) if digit * 10**power * most >= span),
@@ -260,7 +261,7 @@ _STYLE: Final = (
 
 
 def as_svg(*drawings: Diagram) -> str:
-    """Diagrams one below another as SVG, with searchable text."""
+    """Return diagrams, one below the other, as SVG with searchable text."""
     pieces, top = [], 0
     for drawn in drawings:
         piece, height = _drawing(drawn, top)
@@ -296,7 +297,7 @@ def _drawing(drawn: Diagram, top: int) -> tuple[Markup, int]:
 
 
 def _bit(drawn: Diagram, bit: int) -> Wave:
-    """The wave of one data line; the line is high while nothing drives it."""
+    """Return the wave of one data line. The line is high while no device drives it."""
     changes: list[tuple[int, int]] = []
     for start, end, byte in drawn.data:
         changes += [(start, byte >> bit & 1), (end, OPEN >> bit & 1)]

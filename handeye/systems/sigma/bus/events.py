@@ -1,4 +1,4 @@
-"""Events of a bus, for its log and its timing diagram. Times are picoseconds since power-on."""
+"""Defines the events of a bus, for its log and its timing diagrams. Times are in picoseconds since power-on."""
 
 from handeye.core.record import Record
 
@@ -18,7 +18,7 @@ class CommandSent(BusEvent, frozen=True, kw_only=True, tag="sent"):
 
 
 class FrameTaken(BusEvent, frozen=True, kw_only=True, tag="taken"):
-    """A microcomputer took five bytes and compared the first with its number."""
+    """A microcomputer took five bytes, and compared the first byte with its own number."""
 
     number: int
     frame: bytes
@@ -28,7 +28,7 @@ class FrameTaken(BusEvent, frozen=True, kw_only=True, tag="taken"):
 
 
 class ByteSpoken(BusEvent, frozen=True, kw_only=True, tag="spoken"):
-    """A microcomputer put a byte of an answer on the lines, with the strobe, until `until`."""
+    """A microcomputer put a byte of an answer on the lines, with the strobe, until the time `until`."""
 
     number: int
     byte: int
@@ -44,7 +44,7 @@ class ByteHeard(BusEvent, frozen=True, kw_only=True, tag="heard"):
 
 
 class AnswerEnded(BusEvent, frozen=True, kw_only=True, tag="answered"):
-    """A question has ended, with an answer or with a failure."""
+    """The wait for an answer ended, either with the answer or with a failure."""
 
     number: int
     answer: bytes

@@ -1,4 +1,4 @@
-"""Faults of a bus, each injected by name."""
+"""Defines the faults that can be injected into a bus, by name."""
 
 from collections.abc import Container
 from typing import Final
@@ -10,7 +10,7 @@ from handeye.systems.sigma.protocol import number_of
 
 
 class BusDefect(Record, frozen=True, kw_only=True):
-    """An injected fault: its kind, the segment or microcomputer concerned, and its size."""
+    """An injected fault: its kind, the segment or microcomputer that has it, and its size."""
 
     kind: str
     where: int = 0
@@ -18,7 +18,7 @@ class BusDefect(Record, frozen=True, kw_only=True):
 
 
 class Defects(Record, frozen=True, kw_only=True):
-    """A kind of fault: its meaning, where it can be, and its possible sizes."""
+    """A kind of fault: its meaning, where it can occur, and its possible sizes."""
 
     help: str
     where: str = ""  # `segment` or `microcomputer`; empty: the whole bus
@@ -74,7 +74,7 @@ KINDS: Final[dict[str, Defects]] = {
 
 
 def defect(text: str) -> BusDefect:
-    """Parse a fault: `KIND`, `KIND:WHERE` or `KIND:WHERE:VALUE`; raises BadArgument.
+    """Parse a fault: `KIND`, `KIND:WHERE` or `KIND:WHERE:VALUE`. Raises BadArgument.
 
     A kind that concerns the whole bus has no WHERE.
     """
@@ -109,7 +109,7 @@ def _number(text: str, what: str, least: int, most: int) -> int:
 
 
 def check_place(defect: BusDefect, segments: int, numbers: Container[int]) -> None:
-    """Raise BadArgument if the bus has no such segment or microcomputer."""
+    """Raise BadArgument if the bus does not have the segment or microcomputer that a fault names."""
     where = KINDS[defect.kind].where
     if where == "segment" and not (defect.kind == "no-turn") <= defect.where < segments:
         what = "regenerator before segment" if defect.kind == "no-turn" else "segment"

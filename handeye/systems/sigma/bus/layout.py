@@ -1,5 +1,5 @@
-"""The layout of the bus: segments of ten microcomputers, the regenerators between segments, and pages of status
-lines.
+"""Defines the layout of the bus: segments of ten microcomputers, the regenerators that connect segments, and
+pages of status lines.
 """
 
 from typing import Final, Literal
@@ -37,8 +37,8 @@ class Layout(Record, frozen=True, kw_only=True):
 
     @property
     def reflexes(self) -> dict[tuple[int, int], int]:
-        """The motor that each component of each force microcomputer interrupts: the three numbers before the force
-        microcomputer's own.
+        """For each component of each force microcomputer, the motor that it can interrupt. These are the motors
+        with the three numbers before the number of the force microcomputer.
         """
         motors = {place.number for place in self.places if place.kind == "motor"}
         wired = {
@@ -51,7 +51,7 @@ class Layout(Record, frozen=True, kw_only=True):
 
     @property
     def segments(self) -> list[list[int]]:
-        """Numbers of the microcomputers on each segment."""
+        """The numbers of the microcomputers on each segment."""
         return [[p.number for p in self.places if p.segment == s] for s in range(len(self.behind))]
 
     @property
@@ -60,7 +60,7 @@ class Layout(Record, frozen=True, kw_only=True):
         return 1 << PAGE_BITS + (MORE_PAGE_BITS if self.more_pages else 0)
 
     def way(self, segment: int) -> tuple[int, ...]:
-        """Segments from the central computer to a segment, including that segment."""
+        """Return the segments on the way from the central computer to a segment, including that segment."""
         passed = [segment]
         while (segment := self.behind[segment]) >= 0:
             passed.append(segment)

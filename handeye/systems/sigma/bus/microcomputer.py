@@ -1,5 +1,5 @@
-"""A microcomputer on the bus: it polls a strobe by its own clock, takes five bytes, and acts if they are addressed
-to it.
+"""A microcomputer on the bus. It polls the strobe by its own clock, takes five bytes, and executes the command
+if the bytes are addressed to it.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ class NodeMemory(MutableRecord, kw_only=True):
 
 
 class Taken(NamedTuple):
-    """Five bytes that a receiver took, with times in ps."""
+    """Five bytes that a receiver took. Times are in ps."""
 
     frame: bytes
     sampled: tuple[int, ...]  # ps
@@ -36,7 +36,7 @@ class Taken(NamedTuple):
 
 
 class Microcomputer:
-    """One microcomputer: receiver, firmware and status lines."""
+    """One microcomputer with its receiver, its firmware and its status lines."""
 
     def __init__(
         self, place: Place, timing: Timing, *, answers_to: int, ppm: int, phase: int, dead: bool
@@ -79,7 +79,7 @@ class Microcomputer:
 
     @property
     def due(self) -> int | None:
-        """Time of the next action of receiver or firmware, ps; None if there is none."""
+        """Time of the next action of the receiver or the firmware (ps), or None if there is none."""
         if self.dead:
             return None
         memory = self.memory
@@ -91,7 +91,7 @@ class Microcomputer:
 
     @property
     def _silent(self) -> int | None:
-        """Time at which the present answer ends, ps; None without an answer."""
+        """Time at which the present answer ends (ps), or None if no answer is being sent."""
         speech = self.memory.speech
         return None if speech is None else speech.lows(self.timing)[-1][1]
 
@@ -102,10 +102,10 @@ class Microcomputer:
     # -- receiving ---------------------------------------------------------------------------------------
 
     def listen(self, at: int, sent: Sequence[Sending], wires: Wires, *, quiet: bool) -> list["Taken"]:
-        """Look for a strobe if the microcomputer is free to take a command; returns commands to others that it
-        takes and drops.
+        """Look for a strobe if the microcomputer is free to take a command. Returns the commands to other
+        microcomputers that it takes and drops.
 
-        Those are known at once if no line is faulty and no answer is on the lines (`quiet`).
+        These commands can be determined at once if no line is faulty and no answer is on the lines (`quiet`).
         """
         memory, passed = self.memory, list[Taken]()
         if not self._takes():
@@ -129,7 +129,7 @@ class Microcomputer:
         return passed
 
     def _takes(self) -> bool:
-        """True if the microcomputer is free to look for a strobe."""
+        """Return True if the microcomputer is free to look for a strobe."""
         memory = self.memory
         if self.dead or memory.noticed is not None or memory.working is not None or memory.speech is not None:
             return False
@@ -151,7 +151,8 @@ class Microcomputer:
     def receive(
         self, at: int, sent: Sequence[Sending], speeches: Sequence[Speech], wires: Wires
     ) -> Taken | None:
-        """The five bytes taken by now, if their number has just been compared; else None."""
+        """Return the five bytes taken by now if the microcomputer has just compared their number with its own,
+        or else None."""
         noticed = self.memory.noticed
         if noticed is None or self._checked(noticed) != at:
             return None
@@ -176,7 +177,7 @@ class Microcomputer:
         )
 
     def elapse(self, at: int) -> None:
-        """Do everything that is due, except receiving."""
+        """Perform all actions that are due, except receiving."""
         memory = self.memory
         if self.device.due == at:
             self.device.elapse(at)

@@ -1,5 +1,5 @@
-"""The machine connected to the pins of the microcomputers: its interface, and an ideal machine whose rotors follow
-each pulse.
+"""Defines the interface of the machine that is connected to the pins of the microcomputers, and an ideal
+machine whose rotors follow each pulse.
 """
 
 from abc import ABC, abstractmethod
@@ -17,7 +17,7 @@ Kept = TypeVar("Kept", bound=MutableRecord)
 
 
 class Level(NamedTuple):
-    """A level that the machine has changed."""
+    """A level of a pin that the machine has changed."""
 
     number: int  # of a motor, or of the force microcomputer that has to scan its wrist
     pin: Pin = "force"
@@ -25,10 +25,11 @@ class Level(NamedTuple):
 
 
 class Plant(ABC, Generic[Kept]):
-    """The machine as seen at the pins. Numbers are those of microcomputers, times are in picoseconds.
+    """The machine as the microcomputers see it at their pins. Numbers are those of microcomputers; times are in
+    picoseconds.
 
-    A machine that can predict its levels returns them from `next_pin`, and its forces are constant. A machine that
-    is simulated step by step cannot; it returns changed levels from `advance`.
+    A machine that can predict its levels returns them from `next_pin`, and its forces are constant. A machine
+    that is simulated step by step cannot; it returns changed levels from `advance`.
     """
 
     memory: Kept
@@ -38,39 +39,41 @@ class Plant(ABC, Generic[Kept]):
     )
 
     def resumed(self) -> None:
-        """The state has been restored; all motors and thresholds are queried next."""
+        """Called after the state was restored. The motors and thresholds of all microcomputers are passed to
+        the machine next."""
 
     def advance(self, at: int) -> tuple[int, list[Level]] | None:
-        """Advance to a time, or to an earlier one at which levels have changed; returns the time reached and the
+        """Advance to a time, or to an earlier time at which levels change. Returns the time reached and the
         changed levels.
         """
         return None
 
     def driven(self, number: int, motor: Motor) -> None:
-        """A motor may have begun another pulse train, or ended one."""
+        """Called when a motor may have begun or ended a pulse train."""
 
     def limited(self, number: int, thresholds: Sequence[float]) -> None:
-        """A force microcomputer has executed a command that may have changed its thresholds, N."""
+        """Called when a force microcomputer has executed a command that may have changed its thresholds (N)."""
 
     @abstractmethod
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:
-        """Time and new level of the next switch of the rail that changes if the motor continues; None if none does."""
+        """Return the time at which a switch of the rail changes next if the motor continues, the pin of that
+        switch, and its new level. None if no switch changes."""
 
     @abstractmethod
     def forces(self, number: int) -> Sequence[float]:
-        """Present force on a wrist along x, y and z, N."""
+        """Return the present force on a wrist along x, y and z (N)."""
 
     def peaks(self, number: int) -> Sequence[float]:
-        """The greatest forces on a wrist since the last query, N."""
+        """Return the greatest forces on a wrist since the last query (N)."""
         return tuple(map(abs, self.forces(number)))
 
     @abstractmethod
     def beam(self, number: int) -> bool:
-        """True if an object is in the light beam of a hand."""
+        """Return True if an object is in the light beam of a hand."""
 
     @abstractmethod
     def actuate(self, number: int, devices: Sequence[int]) -> None:
-        """The outputs of a hand microcomputer have changed."""
+        """Called when the outputs of a hand microcomputer have changed."""
 
 
 class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
@@ -86,8 +89,8 @@ class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
 
 
 class IdealMachine(Plant[IdealMemory]):
-    """An ideal machine: its rotors are where the pulses put them, and there are no forces or obstacles unless they
-    are set.
+    """An ideal machine. Its rotors are where the pulses put them, and there are no forces or obstacles unless
+    they are set.
     """
 
     def __init__(self) -> None:
@@ -97,7 +100,7 @@ class IdealMachine(Plant[IdealMemory]):
         )
 
     def place(self, number: int, motor: Motor, at: int) -> int:
-        """True position of a motor, steps from its low switch."""
+        """Return the true position of a motor (steps from its low switch)."""
         return self.memory.starts.get(number, 0) + motor.sent(at)
 
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:

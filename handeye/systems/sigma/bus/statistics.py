@@ -1,4 +1,4 @@
-"""Statistics of misread commands, depending on the clock errors of the receivers."""
+"""Counts how often commands are misread, depending on the clock errors of the receivers."""
 
 from typing import Final
 
@@ -15,7 +15,7 @@ _AT_ONCE: Final = 10_000  # commands whose numbers are drawn together
 
 
 class Rate(Record, frozen=True, kw_only=True):
-    """Counts of random commands to one free microcomputer."""
+    """Counts of random commands, each sent to one free microcomputer."""
 
     clock: float  # the most that a clock is off, as a share
     commands: int
@@ -27,10 +27,10 @@ class Rate(Record, frozen=True, kw_only=True):
 
 
 def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None = None) -> Rate:
-    """Send random commands to receivers that become free at random times, with clocks that are off by at most a
+    """Send random commands to receivers that become free at random times. The clock errors are at most the
     fraction `clock`.
 
-    A receiver becomes free during the time of one command before the command begins, or in the middle of the
+    A receiver becomes free either in the middle of the command, or before it, by at most the duration of a
     command.
     """
     timing = timing or Timing()
@@ -67,7 +67,8 @@ def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None
 
 
 def _taken(wires: Wires, timing: Timing, sending: Sending, ppm: int, free: int) -> bytes | None:
-    """The bytes that a receiver takes if it becomes free at time `free`, ps; None if it takes none."""
+    """Return the bytes that a receiver takes if it becomes free at the time `free` (ps), or None if it takes
+    none."""
     node = Microcomputer(
         _ANOTHER.places[0], timing, answers_to=256, ppm=ppm, phase=free, dead=False
     )  # one of no number, so that it acts on nothing

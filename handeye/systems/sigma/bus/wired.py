@@ -1,7 +1,8 @@
-"""The bus behind its interface: the lines at the central computer, all microcomputers, and the machine.
+"""Simulates the bus behind its interface: the lines at the central computer, all microcomputers, and the
+machine.
 
-There are no time steps: waves, polls, samples and pulses are known in closed form, and time advances from event to
-event.
+There are no time steps. Waves, polls, samples and pulses are computed in closed form, and time advances from
+event to event.
 """
 
 from collections.abc import Callable, Sequence
@@ -42,7 +43,7 @@ _PER_MILLE: Final = 1_000  # ppm
 
 
 class Question(MutableRecord, kw_only=True):
-    """A question whose answer is awaited, at the side of the central computer. Times are in ps."""
+    """A question whose answer the central computer awaits. Times are in ps."""
 
     number: int
     wanted: int
@@ -53,7 +54,7 @@ class Question(MutableRecord, kw_only=True):
 
 
 class BusMemory(MutableRecord, kw_only=True):
-    """The whole state of a bus and its machine."""
+    """The complete state of a bus and its machine."""
 
     now: int = 0  # microseconds
     taken_until: int = 0  # microseconds, by a command
@@ -214,14 +215,14 @@ class WiredBus(MicrobusPort):
     # -- the machine's side ------------------------------------------------------------------------------
 
     def motor(self, number: int) -> Motor:
-        """The firmware of a motor; raises Refused if the microcomputer is no motor."""
+        """Return the firmware of a motor. Raises Refused if the microcomputer is not a motor."""
         device = self._nodes[number].device
         if not isinstance(device, Motor):
             raise Refused(f"{name_of(number)} is not a motor")
         return device
 
     def touched(self, *numbers: int) -> None:
-        """Update microcomputers whose forces, beams or pins the machine has changed."""
+        """Update the microcomputers whose forces, beams or pins the machine has changed."""
         for number in numbers:
             self._due[number] = self._due_of(number, self.now * PS)
 
@@ -243,7 +244,7 @@ class WiredBus(MicrobusPort):
         return min(times) if times else None
 
     def _pass(self, moment: int) -> bool:
-        """Advance to a time, or to an earlier one at which something changes at the interface; True if it did."""
+        """Advance to a time, or to an earlier time at which the interface changes. Returns True if it changed."""
         free, self._changed = self.free, False
         while True:
             due = self._next_below(moment)
@@ -262,7 +263,7 @@ class WiredBus(MicrobusPort):
         return self._changed or self.free != free
 
     def _events(self, due: int) -> None:
-        """Handle all events due at a time."""
+        """Handle all events that are due at a time."""
         for number, at in self._due.items():
             if at is not None and at <= due:
                 self._serve(number, at)
@@ -288,7 +289,7 @@ class WiredBus(MicrobusPort):
         return due if due is not None and due <= moment * PS else None
 
     def _due_of(self, number: int, at: int) -> int | None:
-        """Time of the next action of a microcomputer after a time; None if there is none."""
+        """Return the time of a microcomputer's next action after a time, or None if there is none."""
         node = self._nodes[number]
         times = [
             time for time in (node.due, self._pin_due(node), self._scan_due(node, at)) if time is not None
@@ -302,7 +303,7 @@ class WiredBus(MicrobusPort):
         return change[0] if change else None
 
     def _scan_due(self, node: Microcomputer, at: int) -> int | None:
-        """Time of a force microcomputer's next scan, if that changes anything; else None."""
+        """Return the time of a force microcomputer's next scan if the scan changes a reading, or else None."""
         if node.dead or not self.plant.predicts or not isinstance(node.device, Force):
             return None
         number, device = node.place.number, node.device
@@ -313,7 +314,7 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """The motors that a force microcomputer can interrupt, each with True if it is interrupted now."""
+        """Return the motors that a force microcomputer can interrupt, each with True if it is interrupted now."""
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
@@ -361,7 +362,7 @@ class WiredBus(MicrobusPort):
                 self._say(ByteSpoken(at=start, number=speech.number, byte=byte, until=end, turned=turned))
 
     def _settle(self, number: int, at: int) -> None:
-        """Update outputs and next action of a microcomputer after an action."""
+        """Update the outputs and the next action of a microcomputer after it has acted."""
         node = self._nodes[number]
         self._listen(node, at)
         self._show(number, node)
@@ -376,7 +377,7 @@ class WiredBus(MicrobusPort):
                 self._say(InterruptLine(at=at, level=level))
 
     def _show(self, number: int, node: Microcomputer) -> None:
-        """Tell the machine about the pulses of a motor, or the thresholds of a wrist."""
+        """Tell the machine the pulses of a motor, or the thresholds of a wrist."""
         if isinstance(node.device, Motor):
             self.plant.driven(number, node.device)
         elif isinstance(node.device, Force):
@@ -388,7 +389,7 @@ class WiredBus(MicrobusPort):
             self._say_taken(node.place.number, taken, own=False)
 
     def _status(self, number: int) -> Status:
-        """The status lines of a microcomputer, as they arrive at the central computer."""
+        """Return the status lines of a microcomputer as the central computer receives them."""
         status = int(self._nodes[number].status)
         for defect in self._defects:
             if defect.where == number and defect.kind in ("status-a", "status-b"):
@@ -450,7 +451,8 @@ class WiredBus(MicrobusPort):
         return self.wires.answers(self._speeches())
 
     def _low(self, question: Question) -> int | None:
-        """Time at which the central computer next sees /ANSWER READY low, ps; None if it does not."""
+        """Return the time at which the central computer next sees /ANSWER READY low (ps), or None if it does
+        not."""
         for start, end in self._answers():
             seen = _COMPUTER.after(question.since, self.timing.poll, max(start, question.since))
             if seen < end:

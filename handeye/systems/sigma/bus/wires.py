@@ -1,6 +1,6 @@
-"""Levels of the lines by segment and time, for receivers that sample them at any time.
+"""Computes the levels of the lines, by segment and time, for receivers that sample the lines at any time.
 
-A command or an answer is a wave that is completely known when it begins. Times are in picoseconds.
+The whole wave of a command or an answer is determined when it begins. Times are in picoseconds.
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,7 +16,7 @@ OPEN: Final = 0xFF  # what data lines read that no one drives
 
 
 class Sending(Record, frozen=True, kw_only=True):
-    """A command on the lines, sent by the central computer."""
+    """A command that the central computer puts on the lines."""
 
     start: int  # microseconds
     frame: bytes
@@ -25,7 +25,7 @@ class Sending(Record, frozen=True, kw_only=True):
 
 
 class Speech(Record, frozen=True, kw_only=True):
-    """An answer on the lines, sent by a microcomputer."""
+    """An answer that a microcomputer puts on the lines."""
 
     number: int  # its place
     segment: int
@@ -34,7 +34,8 @@ class Speech(Record, frozen=True, kw_only=True):
     ppm: int  # of its clock
 
     def lows(self, timing: Timing) -> list[tuple[int, int]]:
-        """The times at which /ANSWER READY is low with a byte on the lines, ps: begin and end of each."""
+        """Return the times between which /ANSWER READY is low and a byte is on the lines (ps): the beginning
+        and the end for each byte."""
         clock = Crystal(self.ppm)
         starts = [self.begin + clock.micros(timing.answer * byte) for byte in range(len(self.frame))]
         return [(start, start + clock.micros(timing.answer_low)) for start in starts]
@@ -61,17 +62,18 @@ class Wires:
         self._rigid = {d.where for d in defects if d.kind == "no-turn"}
 
     def strobe(self, sending: Sending) -> tuple[int, int]:
-        """Time for which /DATA READY is low for a command, ps: begin and end."""
+        """Return the times between which /DATA READY is low for a command (ps)."""
         return (sending.start + sending.falls) * PS, (sending.start + sending.rises) * PS
 
     def whole(self, sending: Sending, segment: int, first: int, last: int) -> bool:
-        """True if evenly spaced samples, ps, read each byte of a command as it was sent."""
+        """Return True if evenly spaced samples, the first at `first` and the last at `last` (ps), read each
+        byte of a command as it was sent."""
         begin, slot = (sending.start + self.settle) * PS, self.timing.slot * PS
         end = begin + len(sending.frame) * slot
         return self._clean[segment] and begin <= first < begin + slot and end - slot <= last < end
 
     def data(self, segment: int, at: int, sent: Iterable[Sending], speeches: Iterable[Speech] = ()) -> int:
-        """The byte that a microcomputer on a segment reads at a time."""
+        """Return the byte that a microcomputer on a segment reads at a time."""
         value, then = OPEN, at - self.settle * PS
         for sending in sent:
             slot = (then - sending.start * PS) // (self.timing.slot * PS)
@@ -85,7 +87,7 @@ class Wires:
         return value
 
     def heard(self, at: int, speeches: Iterable[Speech]) -> int:
-        """The byte that the central computer reads at a time."""
+        """Return the byte that the central computer reads at a time."""
         value = OPEN
         for speech in speeches:
             byte = self._spoken(speech, at - self.settle * PS)
@@ -99,11 +101,11 @@ class Wires:
         return self._through(0, value)
 
     def turned(self, speech: Speech) -> tuple[int, ...]:
-        """Segments whose regenerators change direction for an answer."""
+        """Return the segments whose regenerators change direction for an answer."""
         return tuple(s for s in self.layout.way(speech.segment) if s and s not in self._rigid)
 
     def answers(self, speeches: Iterable[Speech]) -> list[tuple[int, int]]:
-        """Times at which /ANSWER READY is low at the central computer, ps: begin and end of each, in order."""
+        """Return the times between which /ANSWER READY is low at the central computer (ps), in order."""
         lows = sorted(low for speech in speeches for low in speech.lows(self.timing))
         joined: list[tuple[int, int]] = []
         for start, end in lows:
@@ -114,7 +116,7 @@ class Wires:
         return joined
 
     def _spoken(self, speech: Speech, at: int) -> int | None:
-        """The byte that a microcomputer drives at a time; None if its port is open."""
+        """Return the byte that a microcomputer drives onto the lines at a time, or None if it drives none."""
         for byte, (start, end) in zip(speech.frame, speech.lows(self.timing), strict=True):
             if start <= at < end:
                 return byte

@@ -1,4 +1,4 @@
-"""Commands and events of the bus in words."""
+"""Describes commands and events of the bus in words."""
 
 from handeye.core.plain_text import counted
 from handeye.ports.microbus import Command, Status
@@ -17,12 +17,12 @@ from handeye.systems.sigma.protocol import SLOW_STEP_MM, Op, name_of
 
 
 def spaced(frame: bytes) -> str:
-    """Bytes in hexadecimal, such as `00 01 03 20`."""
+    """Return bytes in hexadecimal, such as `00 01 03 20`."""
     return frame.hex(" ").upper()
 
 
 def command_text(command: Command) -> str:
-    """A command in words, such as `MOVE X1 by -800 steps, curve 3`."""
+    """Describe a command in words, such as `MOVE X1 by -800 steps, curve 3`."""
     name, code = name_of(command.number), command.detail >> 1
     if command.op not in (*Op,):
         return f"operation {command.op:02X} to {name}, an operation that no microcomputer has"
@@ -45,7 +45,7 @@ def command_text(command: Command) -> str:
 
 
 def event_text(event: AnyBusEvent) -> str:
-    """An event as a line, beginning with its time in microseconds."""
+    """Return an event as a line of text, which begins with the time in microseconds."""
     return f"{event.at / PS:12.2f}  {_what(event)}"
 
 

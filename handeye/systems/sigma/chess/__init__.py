@@ -1,1 +1,2 @@
-"""The chess experiment of the paper: pieces are found, measured, and put on the line for their height."""
+"""The chess experiment of the paper: the arms find pieces, measure them, and put each on the line for its
+height."""

@@ -1,4 +1,5 @@
-"""Chess pieces on a board: placed at random along three lines, with shapes turned of boxwood."""
+"""Draws chess pieces at random positions along three lines of a board. Their shapes are those of pieces turned
+of boxwood."""
 
 from typing import Final, NamedTuple
 
@@ -22,7 +23,7 @@ _HEAD: Final = 8.5  # mm, the largest radius of a head
 
 
 class Kind(NamedTuple):
-    """A kind of piece, with dimensions in mm."""
+    """A kind of piece, with its dimensions (mm)."""
 
     name: str
     height: float
@@ -40,7 +41,7 @@ KINDS: Final = (
 
 
 class Piece(Record, frozen=True, kw_only=True):
-    """A piece at its initial position, mm."""
+    """A piece at its initial position (mm)."""
 
     name: str  # of its body
     kind: str
@@ -52,12 +53,12 @@ class Piece(Record, frozen=True, kw_only=True):
 
     @property
     def goal(self) -> float:
-        """Y of the line for the piece's height, mm."""
+        """Y coordinate of the line for the piece's height (mm)."""
         return BY_HEIGHT[sum(self.height > limit for limit in LIMITS)]
 
 
 def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
-    """The pieces of a board; raises BadArgument if there are too many."""
+    """Draw the pieces of a board. Raises BadArgument if there are too many."""
     if not 1 <= count <= MOST_PIECES:
         raise BadArgument(f"a board has 1 to {MOST_PIECES} pieces, not {count}")
     numbers, pieces = world.numbers("pieces"), list[Piece]()
@@ -86,7 +87,7 @@ def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
 
 
 def stand(spec: mujoco.MjSpec, pieces: tuple[Piece, ...]) -> None:
-    """Add pieces to the board: a foot, a tapered stem of three rings, and a round head."""
+    """Add pieces to the board. Each consists of a foot, a tapered stem of three rings, and a round head."""
     for piece in pieces:
         body = spec.worldbody.add_body(name=piece.name, pos=[piece.x / 1000, piece.y / 1000, 0])
         body.add_freejoint(name=piece.name)

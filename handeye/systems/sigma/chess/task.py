@@ -1,5 +1,5 @@
-"""The chess experiment as a task: the referee checks that each piece stands on the line for its height, and that
-the reported heights are right.
+"""Defines the chess experiment as a task. The referee checks that each piece stands on the line for its height,
+and that the reported heights are right.
 """
 
 from __future__ import annotations
@@ -66,13 +66,14 @@ class Chess(GantryTask):
 
 
 def _error(piece: Piece, told: Sequence[ToldHeight]) -> float:
-    """Error of the reported height of a piece, mm, the greatest of several; infinite if no height was reported."""
+    """Return the error of the heights reported for a piece (mm), the greatest one if there are several.
+    Infinite if no height was reported."""
     here = [each for each in told if each.line == piece.line and abs(each.x - piece.x) < _NEAR]
     return max((abs(each.height - piece.height) for each in here), default=inf)
 
 
 def board(world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, tuple[Piece, ...]]:
-    """The scene of a world with its pieces; raises BadArgument for an impossible number of pieces."""
+    """Return the scene of a world with its pieces. Raises BadArgument if the number of pieces is impossible."""
     spec, pieces = scene(world), drawn(world, count)
     stand(spec, pieces)
     return spec, pieces

@@ -1,4 +1,5 @@
-"""The witness of a board: the initial pieces, and the program's messages about them, for the referee only."""
+"""The witness of a board. For the referee only, it records the initial pieces and what the program prints about
+them."""
 
 import re
 from math import isfinite
@@ -19,7 +20,7 @@ _TOLD: Final = re.compile(r"HEIGHT\s*(\S+)\s+AT\s*(\S+)\s+LINE\s*(\d)")
 
 
 class ToldHeight(Record, frozen=True, kw_only=True):
-    """A piece as measured and reported by the program, mm."""
+    """A piece, as the program measured and reported it (mm)."""
 
     height: float
     x: float
@@ -27,7 +28,7 @@ class ToldHeight(Record, frozen=True, kw_only=True):
 
 
 class Heard(Record, frozen=True, kw_only=True):
-    """The pieces in their initial positions, and the lines that the program has printed."""
+    """The pieces at their initial positions, and the lines that the program has printed."""
 
     pieces: tuple[Piece, ...]
     lines: tuple[str, ...] = field(default=())

@@ -1,4 +1,4 @@
-"""Commands that show the MICROBUS, and how often commands are misread."""
+"""The commands that show the MICROBUS, and how often commands on it are misread."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -39,7 +39,7 @@ bus = App(
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrawingOptions:
-    """Options for the timing diagram."""
+    """Options for a drawing."""
 
     out: Annotated[Path | None, Parameter(name=["--out", "-o"], help="The drawing to write, .svg.")] = None
     overwrite: Overwrite = False
@@ -275,7 +275,7 @@ def self_test(
 
 
 def _no_bars(encoding: str) -> bool:
-    """True if a terminal cannot show the bars of a diagram."""
+    """Return True if a terminal cannot show the bars of a diagram."""
     try:
         "▔▁│µ".encode(encoding or "ascii")
     except (UnicodeEncodeError, LookupError):

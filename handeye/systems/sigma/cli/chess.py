@@ -1,4 +1,4 @@
-"""The commands of the chess experiment: one board, and many."""
+"""The commands of the chess experiment, for one board and for many boards."""
 
 import shlex
 from pathlib import Path
@@ -102,7 +102,7 @@ def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
 
 
 def _filmed(folder: Path, video: Path, *, overwrite: bool) -> bool:
-    """Make the video from the trace of the run; False if that fails, which is reported."""
+    """Make the video from the trace of the run. If that fails, report the error and return False."""
     from handeye.runs.folder import TRACE
     from handeye.trace.reading import read_trace
     from handeye.video.making import make_video

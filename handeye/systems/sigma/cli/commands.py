@@ -1,4 +1,4 @@
-"""Commands of SUPERSIGMA: run a MAL program, try its interleavings, explain words, and open the console."""
+"""The commands of SUPERSIGMA: run a MAL program, try its interleavings, explain words, and open the console."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -126,7 +126,7 @@ class Printer(Observer):
 
 
 def reported(source: Source) -> bool:
-    """Print the mistakes of a program; True if it has no errors."""
+    """Print the mistakes of a program. Returns True if there are no errors."""
     found = checked(source)[1]
     show(found, source, json=False)
     return not has_errors(found)
@@ -177,7 +177,7 @@ def check(
 
 
 def told_orders(name: str, result: "Interleavings") -> Iterator[str]:
-    """The result of trying all orders: each finding, with a schedule for the first of its kind."""
+    """Yield the result of trying all orders: each finding, with a schedule for the first finding of each kind."""
     from handeye.systems.sigma.mal.interleavings import KINDS, schedule_lines
 
     shown: set[str] = set()

@@ -1,4 +1,4 @@
-"""The console of 1981: numbered lines form a program, all others are executed at once."""
+"""The console of 1981. Lines with a number form a program; all other lines are executed at once."""
 
 import re
 from collections.abc import Callable, Iterable
@@ -50,7 +50,7 @@ COMMANDS: Final = {
 
 
 class Console:
-    """A session at the console: the program, and the machine in the state of the last run."""
+    """A session at the console, with the program and the machine as the last run left it."""
 
     def __init__(
         self,
@@ -58,7 +58,8 @@ class Console:
         ask: Callable[[str], str | None] = lambda _: None,
         halted: Callable[[], bool] = lambda: False,
     ) -> None:
-        """`ask` returns a line that is typed as an answer, or None at the end of the input."""
+        """Begin a session. `ask` returns the line that the user types as an answer, or None at the end of the
+        input."""
         self._tell, self._ask, self._halted = tell, ask, halted
         self._lines: dict[int, str] = {}
         self._machine, self._vm = PerfectMotors(), None
@@ -70,14 +71,14 @@ class Console:
 
     @property
     def text(self) -> str:
-        """The program."""
+        """The text of the program."""
         return "".join(f"{number} {self._lines[number]}\n" for number in sorted(self._lines))
 
     def words(self) -> Iterable[str]:
         return COMMANDS
 
     def hear(self, line: str) -> None:
-        """Execute a line; raises InvalidInput, with nothing changed, if that is impossible."""
+        """Execute a line. If that is impossible, change nothing and raise InvalidInput."""
         line = line.strip()
         if not line:
             return
@@ -96,7 +97,7 @@ class Console:
     # -- the program ----------------------------------------------------------------------------------
 
     def _enter(self, line: str) -> None:
-        """Store a numbered line; a number alone removes the line."""
+        """Store a line with a number. A number alone removes its line."""
         if bare := re.fullmatch(r"([0-9]{1,5})", line):
             if int(bare[1]) not in self._lines:
                 raise NoSuchName(f"there is no line {bare[1]}")
@@ -196,7 +197,7 @@ class Console:
             self._stop = int(line)
 
     def _carry_on(self, *first: Callable[[], None]) -> None:
-        """Execute statements until the program ends, stands, reaches a breakpoint, or is interrupted."""
+        """Execute statements until the program ends, stops, reaches a breakpoint, or is interrupted."""
         assert self._vm is not None
         vm, self._paused = self._vm, False
         try:
@@ -226,7 +227,7 @@ class Console:
         self._tell(f"{sent} in {vm.time:.3f} s; the computer was idle for {vm.idle:.0%} of it")
 
     def _answered(self, vm: VirtualMachine) -> bool:
-        """Ask for the number for which a task waits; False at the end of the input."""
+        """Ask the user for the number for which a task waits. Returns False at the end of the input."""
         assert vm.memory.fault is not None
         line = self._ask("? ")
         if line is None:

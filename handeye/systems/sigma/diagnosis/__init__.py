@@ -1,1 +1,1 @@
-"""Diagnosis of SUPERSIGMA: self-tests, twenty faults, the paper's order of tests, and a game."""
+"""Diagnosis of SUPERSIGMA: self-tests, twenty faults, the order of tests in the paper, and a game."""

@@ -1,7 +1,9 @@
-"""The machine on the test bench, which is ideal except for a planted fault, and what a technician does to it by hand.
+"""The machine on the test bench, which is ideal except for a planted fault, and what a technician can do to it
+by hand.
 
-Rotors follow each pulse, unless the fault weakens their motors: then the balance of forces decides. A wrist feels
-loads, the hand that swings on it as a motor starts, and the fingers that close on a block.
+Rotors follow each pulse, unless the fault weakens their motors. A balance of forces then decides whether they
+follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers when they
+close on a block.
 """
 
 import math
@@ -45,7 +47,7 @@ _SIDEWAYS: Final = COMPONENTS.index("Y")
 
 
 class Machine(IdealMachine):
-    """The machine behind the pins."""
+    """The machine that is connected to the pins of the microcomputers."""
 
     predicts = False
 
@@ -66,19 +68,20 @@ class Machine(IdealMachine):
         self.now = 0  # ps
 
     def switch_off(self) -> None:
-        """Forget what goes with the power; slides stay where they are."""
+        """Reset everything that is lost when the power is switched off. The slides stay where they are."""
         for kept in (self._swings, self._pushed, self._trains, self._most, self._due, self.memory.devices):
             kept.clear()
         self.now = 0
 
     def fault(self, kind: MachineKind, number: int = 0) -> MachineFault | None:
-        """The fault of a kind that hangs on a microcomputer."""
+        """Return the fault of a kind at a microcomputer, or None."""
         return self.faults.get((kind, number))
 
     # -- rotors --------------------------------------------------------------------------------------------
 
     def _every(self, number: int) -> int:
-        """Each pulse of this number is left out; 0: none is."""
+        """Return the interval at which pulses are lost: if it is n, every n-th pulse is lost. 0 if no pulses
+        are lost."""
         fault = self.fault("pulses", number)
         return 0 if fault is None else fault.which
 
@@ -123,7 +126,7 @@ class Machine(IdealMachine):
             self._swing(number, jump * math.sqrt(_WRIST * _HAND_KG) * memory.sense)
 
     def _ended(self, number: int, motor: Motor, train: Any, began: int, pulses: int, sense: int) -> None:
-        """A train has ended: take off what the rotor has lost."""
+        """Handle the end of a pulse train: subtract the steps that the rotor has lost."""
         del self._trains[number]
         made, most, every = abs(motor.memory.pulses - pulses), self._most.pop(number), self._every(number)
         lost = made // every if every else 0
@@ -134,7 +137,7 @@ class Machine(IdealMachine):
         self._swing(number, 0.0)
 
     def _slipped(self, number: int, train: Any, most: int, *, complete: bool) -> int:
-        """Steps by which a rotor is behind after a train."""
+        """Return the number of steps by which a rotor lags behind after a pulse train."""
         share = _HALF if self.fault("phase", number) else 1.0
         share *= _SAG if self.fault("supply") and most >= _MANY else 1.0
         load, least = self.pulls.get(number, 0.0), _START_N * share
@@ -202,7 +205,8 @@ class Machine(IdealMachine):
 
 
 class Bench:
-    """A machine with a planted fault, as a technician has it: the bus, two hands, weights, and spare microcomputers."""
+    """A machine with a planted fault, as the technician works with it. The technician has the bus, two hands,
+    weights, and spare microcomputers."""
 
     layout = BENCH
 
@@ -227,7 +231,7 @@ class Bench:
                 self.bus.pin(number, pin, level)
 
     def swap(self, number: int) -> None:
-        """Put a sound microcomputer in the place of one, and switch the machine off and on."""
+        """Replace a microcomputer by a sound one, and switch the machine off and on."""
         at = self.bus.now * PS
         for axis in _AXIS:
             self.machine.memory.starts[axis] = self.machine.place(axis, self.bus.motor(axis), at)
@@ -239,17 +243,20 @@ class Bench:
         self._switch_on()
 
     def press(self, arm: int, component: str, newtons: float) -> None:
-        """Press on a hand along a component of its wrist, with a known force; 0: let go."""
+        """Press on a hand with a known force (N) along a component of its wrist. A force of 0 releases the
+        hand."""
         self.machine.loads[NUMBERS[f"FORCE{arm}"], COMPONENTS.index(component)] = newtons
 
     def pull(self, axis: str, newtons: float) -> None:
-        """Hook a spring balance to the slide of an axis, against forward motion; 0: unhook it."""
+        """Let a spring balance pull at the slide of an axis, against forward motion, with a force (N). A force
+        of 0 removes the balance."""
         self.machine.pulls[NUMBERS[axis]] = newtons
 
     def shade(self, arm: int, passes: float) -> None:
-        """Hold something into the beam of a hand: 0 a rod, .7 a grey glass, 1 nothing."""
+        """Hold an object into the light beam of a hand. `passes` is the fraction of light that passes: 0 for a
+        rod, .7 for a grey glass, 1 for no object."""
         self.machine.light[NUMBERS[f"HAND{arm}"]] = passes
 
     def block(self, arm: int, *, there: bool) -> None:
-        """Fix a block between the fingers of a hand, off their middle, or take it away."""
+        """Fix a block between the fingers of a hand, away from their middle, or take the block away."""
         (self.machine.blocks.add if there else self.machine.blocks.discard)(NUMBERS[f"HAND{arm}"])

@@ -1,4 +1,5 @@
-"""Twenty faults to plant, each with the part that has it; a seed draws the place and the kind."""
+"""Twenty faults that can be planted, each with the part that has it. A seed determines the place and the kind
+of a fault."""
 
 from collections.abc import Callable, Sequence
 from typing import Final, Literal, NamedTuple, TypeVar
@@ -30,7 +31,7 @@ _NAMES: Final = (*NUMBERS,)
 
 
 class MachineFault(Record, frozen=True, kw_only=True):
-    """A fault that is not on the bus."""
+    """A fault of the machine, not of the bus."""
 
     kind: MachineKind
     number: int = 0  # of the microcomputer that it hangs on
@@ -39,7 +40,7 @@ class MachineFault(Record, frozen=True, kw_only=True):
 
 
 class Planted(Record, frozen=True, kw_only=True):
-    """A fault, and the part that has it."""
+    """A planted fault, and the part that has it."""
 
     fault: str
     part: str
@@ -49,18 +50,18 @@ class Planted(Record, frozen=True, kw_only=True):
 
 
 class Draw:
-    """Chooses among places and kinds: by a seed, or the first of each."""
+    """Chooses among places and kinds of a fault: at random from a seed, or always the first."""
 
     def __init__(self, rng: np.random.Generator | None) -> None:
         self._rng = rng
 
     def one(self, options: Sequence[Option]) -> Option:
-        """One of some options."""
+        """Choose one of these options."""
         return options[0] if self._rng is None else options[int(self._rng.integers(len(options)))]
 
 
 class Fault(NamedTuple):
-    """A fault by name."""
+    """A kind of fault that can be planted."""
 
     help: str
     plant: Callable[[str, Draw], Planted]
@@ -221,7 +222,7 @@ FAULTS: Final[dict[str, Fault]] = {
 
 
 def planted(name: str, seed: int | None = None) -> Planted:
-    """A fault: at its usual place, or where a seed draws it; raises NoSuchName."""
+    """Return the fault called `name`, at its usual place or, with a seed, at a random place. Raises NoSuchName."""
     if name not in FAULTS:
         raise NoSuchName(f"no fault is called {quoted(name)}; there are {', '.join(FAULTS)}")
     rng = None if seed is None else random_numbers(seed, f"diagnosis {name}")
@@ -229,6 +230,6 @@ def planted(name: str, seed: int | None = None) -> Planted:
 
 
 def drawn(seed: int) -> Planted:
-    """The fault of a game."""
+    """Return the fault of the game with this seed."""
     names = [*FAULTS]
     return planted(names[int(random_numbers(seed, "diagnosis").integers(len(names)))], seed)

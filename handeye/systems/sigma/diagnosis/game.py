@@ -1,4 +1,5 @@
-"""The game: one fault is planted, and the player finds its part with the tests of the paper; fewer tests are better."""
+"""A game: one fault is planted, and the player finds the faulty part with the tests of the paper. Fewer tests
+are better."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -28,7 +29,7 @@ _LONGEST_RUN: Final = 300_000_000  # microseconds
 
 
 class Means(NamedTuple):
-    """What a player can do."""
+    """An action that a player can take. `counts` is True if it counts as a test."""
 
     usage: str
     help: str
@@ -59,12 +60,12 @@ MEANS: Final = {
 
 
 class Game:
-    """A game with the fault of a seed."""
+    """A game with the fault that a seed determines."""
 
     def __init__(
         self, tell: Callable[[str], None], seed: int, poll: Callable[[], None] = lambda: None
     ) -> None:
-        """`poll` is called while a program of the player runs, and may raise Halted."""
+        """Begin a game. `poll` is called while a program of the player runs, and may raise Halted."""
         self._tell, self.seed, self._poll = tell, seed, poll
         self.planted = drawn(seed)
         self._bench = Bench(self.planted, seed)
@@ -74,22 +75,23 @@ class Game:
 
     @property
     def won(self) -> bool:
-        """The accused part has the fault."""
+        """True if the accused part has the fault."""
         return self.accused == self.planted.part
 
     def begin(self) -> None:
-        """Tell the player the task."""
+        """Explain the game to the player."""
         self._tell(
             f"One of {len(FAULTS)} faults is planted in SUPERSIGMA. Find the part that has it, in as few tests as you "
             "can. `help` lists your means, `parts` what you can accuse."
         )
 
     def words(self) -> Sequence[str]:
-        """Completions of a line."""
+        """Return words that complete a line."""
         return [*MEANS]
 
     def hear(self, line: str) -> None:
-        """Do what a player types; raises InvalidInput, and no test is counted then."""
+        """Do what the player has typed. Raises InvalidInput if that is impossible; it then does not count as a
+        test."""
         word, _, rest = line.strip().partition(" ")
         word, rest = word.lower(), rest.strip()
         if not word:
@@ -217,7 +219,7 @@ class Game:
 
 
 def demonstrate(game: Game, tell: Callable[[str], None]) -> Verdict:
-    """Play a game by the order of the paper, as a player would type it."""
+    """Play a game in the order of tests in the paper, as a player would type it."""
 
     def show(typed: str, _: Sequence[str]) -> None:
         tell(f"> {typed}")
@@ -250,7 +252,7 @@ def _name(text: str) -> str:
 
 
 def _all_parts() -> dict[str, str]:
-    """The names of all parts, by themselves in small letters."""
+    """Return the names of all parts, by the same names in lower case."""
     parts = ["computer", "interrupt wire", "supply", "regenerator 1", "segment 0", "segment 1"]
     for name in NUMBERS:
         parts += [f"microcomputer {name}", f"status line A of {name}", f"status line B of {name}"]
@@ -264,7 +266,7 @@ def _all_parts() -> dict[str, str]:
 
 
 def known_part(text: str) -> str:
-    """A part as it is written; raises NoSuchName."""
+    """Return the name of a part in its usual spelling. Raises NoSuchName."""
     parts, typed = _all_parts(), " ".join(text.lower().split())
     if typed not in parts:
         near = suggestion(typed, parts) or "`parts` lists them"

@@ -1,6 +1,7 @@
-"""The tests of a diagnosis: each sends commands and questions over the bus, and returns what it has measured.
+"""The tests of a diagnosis. Each sends commands and questions over the bus, and returns what it has measured.
 
-A test uses the port of the bus, and what a technician does by hand. No test knows the fault.
+A test uses the interface of the bus, and what a technician can do by hand. It does not use any knowledge of the
+fault.
 """
 
 from collections.abc import Sequence
@@ -35,13 +36,13 @@ _LATE: Final = range(16, 33, 2)  # microseconds after the beginning of a command
 
 
 class Technician(Protocol):
-    """The machine, and what can be done to it by hand."""
+    """The machine as the technician has it: the bus, and what can be done by hand."""
 
     layout: Layout
 
     @property
     def bus(self) -> MicrobusPort:
-        """The bus, by its port."""
+        """The interface of the bus."""
 
     def swap(self, number: int) -> None: ...
     def press(self, arm: int, component: str, newtons: float) -> None: ...
@@ -52,7 +53,7 @@ class Technician(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class SelfTests:
-    """What the self-tests of power-on have found."""
+    """The faults that the self-tests at power-on have found."""
 
     faults: tuple[SelfTest, ...]
 
@@ -62,19 +63,20 @@ class SelfTests:
 
 
 def self_tests(at: Technician) -> SelfTests:
-    """The self-tests of power-on: computer, segments, microcomputers, status lines at rest."""
+    """Run the self-tests of power-on: computer, segments, microcomputers, and status lines at rest."""
     return SelfTests(tuple(test for test in power_on(at.bus, at.layout) if test.fault))
 
 
 @dataclass(frozen=True, slots=True)
 class Clocks:
-    """By how much the clock of each microcomputer is slower than most, percent, by its answers; None: no answer."""
+    """How much slower the clock of each microcomputer is than usual (percent), measured by its answers. None
+    for a microcomputer that does not answer."""
 
     slow: dict[int, float | None]
 
     @property
     def wrong(self) -> list[int]:
-        """Microcomputers whose clocks are off by too much."""
+        """Numbers of the microcomputers whose clock errors are too great."""
         return [number for number, off in self.slow.items() if off is not None and abs(off) > OFF_PERCENT]
 
     @property
@@ -84,7 +86,7 @@ class Clocks:
 
 
 def clocks(at: Technician) -> Clocks:
-    """Time the answers of all microcomputers."""
+    """Measure the time that each microcomputer takes to answer."""
     taken = {place.number: _answer_time(at.bus, place.number) for place in at.layout.places}
     known = [each for each in taken.values() if each is not None]
     usual = median(known) if known else 0.0
@@ -92,7 +94,8 @@ def clocks(at: Technician) -> Clocks:
 
 
 def _answer_time(bus: MicrobusPort, number: int) -> float | None:
-    """Microseconds from a question for three bytes until the bus is free."""
+    """Return the time from a question for three bytes until the bus is free (microseconds), or None if there
+    was no proper answer."""
     taken = 0
     for _ in range(_REPEATS):
         begun = bus.now
@@ -111,7 +114,7 @@ def _answer_time(bus: MicrobusPort, number: int) -> float | None:
 
 @dataclass(frozen=True, slots=True)
 class Strobe:
-    """How many late risers took a command that was never sent."""
+    """How often a microcomputer that became free in the middle of a command took a command that was never sent."""
 
     tries: int
     misread: int
@@ -125,7 +128,8 @@ class Strobe:
 
 
 def strobe(at: Technician) -> Strobe:
-    """Let Z2 become free amid a command to X1 whose other bytes are a command to Z2, at several moments."""
+    """Let the microcomputer of Z2 become free in the middle of a command to X1, at several moments. The later
+    bytes of that command read like a command to Z2."""
     bus, late = at.bus, NUMBERS["Z2"]
     frame = bytes((NUMBERS["X1"], Op.SET_POSITION, Op.SET_POSITION, 1, 2))
     assert frame[1] == late
@@ -149,7 +153,7 @@ def strobe(at: Technician) -> Strobe:
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A motion, as status lines and count show it."""
+    """A motion, as the status lines and the count show it."""
 
     axis: str
     steps: int  # asked for; 0: ORIGIN
@@ -162,7 +166,7 @@ class Motion:
 
     @property
     def astray(self) -> bool:
-        """The far switch has stopped it at another count than the drawing says."""
+        """True if the far switch stopped the motion at another count than the drawing says."""
         return self.at_abort is not None and abs(self.at_abort - TRAVEL[self.axis[0]]) > _OFF_STEPS
 
     @property
@@ -177,12 +181,12 @@ class Motion:
 
 
 def origin(at: Technician, axis: str) -> Motion:
-    """Search the end of the rail."""
+    """Move an axis to the end of its rail."""
     return _motion(at.bus, axis, protocol.origin(axis), 0)
 
 
 def rail(at: Technician, axis: str) -> Motion:
-    """Move to the far end of the rail, and beyond if nothing stops the motor."""
+    """Move an axis to the far end of its rail, and beyond if nothing stops the motor."""
     steps = round(_TOO_FAR * TRAVEL[axis[0]])
     found = _motion(at.bus, axis, protocol.move(axis, steps), steps)
     if found.status is Status.RAIL and found.count:
@@ -207,7 +211,8 @@ def _motion(bus: MicrobusPort, axis: str, command: Command, steps: int) -> Motio
 
 @dataclass(frozen=True, slots=True)
 class Lost:
-    """Steps that motors have lost, by the count at which the low switch acts, and axes that a force has stopped."""
+    """Steps that motors have lost, computed from the count at which the low switch acts, and the axes that a
+    force has stopped."""
 
     what: str
     steps: dict[str, int | None]  # None: the switch was not found
@@ -226,7 +231,8 @@ class Lost:
 
 
 def moves(at: Technician, *axes: str) -> Lost:
-    """Move axes out at full speed, at the same time, and back slowly; their switches show what was lost on the way."""
+    """Move axes out at full speed, all at the same time, and back slowly. The switches then show which steps
+    were lost on the way."""
     bus = at.bus
     for axis in axes:
         origin(at, axis)
@@ -249,7 +255,8 @@ def load(at: Technician, axis: str) -> Lost:
 
 
 def _lost(bus: MicrobusPort, axis: str) -> int | None:
-    """Steps by which an axis is behind its count: the low switch acts at -1 of an axis that has lost none."""
+    """Return the number of steps by which an axis lags behind its count, or None if it cannot be measured. If
+    no steps were lost, the low switch acts at a count of -1."""
     here = _count(bus, axis)
     if here is None:
         return None
@@ -262,7 +269,8 @@ def _lost(bus: MicrobusPort, axis: str) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """What a wrist reads under known loads: component, load, and all three readings, N; None: no answer."""
+    """What a wrist reads under known loads: for each load, the loaded component, the load, and all three
+    readings (N). A reading is None if there was no answer."""
 
     arm: int
     readings: tuple[tuple[int, float, tuple[float | None, ...]], ...]
@@ -281,7 +289,7 @@ class Forces:
 
 
 def forces(at: Technician, arm: int) -> Forces:
-    """Load each component of a wrist with known forces."""
+    """Load each component of a wrist with known forces, and read the wrist."""
     readings = []
     for component, name in enumerate(COMPONENTS):
         for newtons in LOADS:
@@ -294,7 +302,8 @@ def forces(at: Technician, arm: int) -> Forces:
 
 @dataclass(frozen=True, slots=True)
 class Beam:
-    """Whether a beam reads cut: free, with a rod, with a grey glass; None: no answer."""
+    """Whether a light beam reads as interrupted: when free, with a rod, and with a grey glass. None if there
+    was no answer."""
 
     arm: int
     free: bool | None
@@ -310,7 +319,7 @@ class Beam:
 
 
 def beam(at: Technician, arm: int) -> Beam:
-    """Hold nothing, a rod and a grey glass into a beam."""
+    """Hold nothing, a rod, and a grey glass into a light beam, and read it."""
     found: list[bool | None] = []
     for passes in (1.0, 0.0, GREY):
         at.shade(arm, passes)
@@ -322,7 +331,8 @@ def beam(at: Technician, arm: int) -> Beam:
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """A hand that closes on a block off its middle: the push on its wrist as it says that it is done, and later, N."""
+    """A hand that has closed on a block away from the middle of its fingers: the push on its wrist (N) when the
+    hand reports that it is done, and later."""
 
     arm: int
     busy: bool
@@ -337,7 +347,7 @@ class Grip:
 
 
 def grip(at: Technician, arm: int) -> Grip:
-    """Close a hand on a block that is off the middle of the fingers."""
+    """Close a hand on a block that is away from the middle of the fingers."""
     bus, number = at.bus, NUMBERS[f"HAND{arm}"]
     at.block(arm, there=True)
     bus.send(protocol.actuate(arm, "HAND", 1))
@@ -354,7 +364,7 @@ def grip(at: Technician, arm: int) -> Grip:
 
 
 def pause(bus: MicrobusPort, microseconds: int) -> None:
-    """Let time pass, whatever changes."""
+    """Let time pass, whatever changes meanwhile."""
     end = bus.now + microseconds
     while bus.now < end:
         bus.wait(end)
@@ -371,7 +381,7 @@ def _force(bus: MicrobusPort, arm: int, component: str) -> float | None:
 
 
 def asked(bus: MicrobusPort, command: Command) -> bytes | None:
-    """The answer to a question; None: it did not come whole."""
+    """Ask a question, and return the answer, or None if the answer was not complete."""
     try:
         return bus.ask(command, ANSWERS[Op(command.op)])
     except BusFault:

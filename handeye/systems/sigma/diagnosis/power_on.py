@@ -1,7 +1,7 @@
-"""Self-tests at power-on, in the paper's order, through the bus interface only.
+"""The self-tests at power-on, in the order of the paper. They use only the bus interface.
 
-The central computer is tested first, then the segments of the bus, then each microcomputer. A faulty interface of a
-segment makes the tests of all microcomputers behind it fail; a faulty microcomputer fails alone.
+The central computer is tested first, then the segments of the bus, then each microcomputer. A faulty interface
+of a segment makes the tests of all microcomputers behind it fail; a faulty microcomputer fails alone.
 """
 
 from collections.abc import Container, Iterator, Mapping, Sequence
@@ -34,7 +34,7 @@ class SelfTest(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class _Heard:
-    """Answers of one microcomputer; None for an answer that did not come."""
+    """The answers of one microcomputer. None stands for an answer that did not arrive."""
 
     well: bytes | None
     echoes: tuple[bytes | None, ...]
@@ -50,13 +50,13 @@ class _Heard:
 
     @property
     def open(self) -> bool:
-        """True if strobes came, but no microcomputer drove the data lines."""
+        """True if strobes arrived, but no microcomputer drove the data lines."""
         answers = [answer for answer in (self.well, *self.echoes) if answer is not None]
         return bool(answers) and all(byte == _ALL for answer in answers for byte in answer)
 
 
 def power_on(bus: MicrobusPort, layout: Layout) -> list[SelfTest]:
-    """Test everything that is connected to a bus; nothing behind a faulty segment is judged."""
+    """Test everything that is connected to a bus. Microcomputers behind a faulty segment are not judged."""
     numbers = [place.number for place in layout.places]
     at_rest = {number: bus.status(number) for number in numbers}
     heard = {number: _heard(bus, number, numbers) for number in numbers}
@@ -114,7 +114,7 @@ def _segment(segment: int, heard: Mapping[int, _Heard]) -> SelfTest:
 
 
 def _stuck(heard: Sequence[_Heard]) -> str:
-    """The faulty data line of a segment, in words."""
+    """Describe the faulty data line of a segment in words."""
     echoed = [byte for one in heard for answer in one.echoes if answer for byte in answer]
     wells = [byte for one in heard if one.well for byte in one.well]
     high = _ALL
@@ -172,7 +172,7 @@ def _status_lines(at_rest: Mapping[int, Status], scanning: Container[int]) -> It
 
 
 def told(tests: Sequence[SelfTest]) -> list[str]:
-    """Results as lines of text: the faults, or that all is well."""
+    """Return the results as lines of text: the faults, or a statement that there are none."""
     out = [f"{_name(test)}: {test.fault}" for test in tests if test.fault]
     return out or ["computer, segments, microcomputers and status lines are well"]
 

@@ -1,4 +1,4 @@
-"""The results of diagnoses, fault by fault."""
+"""Shows the results of diagnoses, one fault after the other."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -22,12 +22,12 @@ class Diagnosed(Record, frozen=True, kw_only=True):
 
     @property
     def right(self) -> bool:
-        """It has led to the part."""
+        """True if the diagnosis named the faulty part."""
         return self.verdict.part == self.part
 
     @property
     def undecided(self) -> bool:
-        """It has named no part."""
+        """True if the diagnosis named no part."""
         return not self.verdict.part
 
 
@@ -39,24 +39,24 @@ def diagnosed(name: str, seed: int | None) -> Diagnosed:
 
 
 def all_diagnosed(seed: int | None) -> list[Diagnosed]:
-    """All faults, one after the other."""
+    """Plant and diagnose all faults, one after the other."""
     return [diagnosed(name, seed) for name in FAULTS]
 
 
 def good(found: Sequence[Diagnosed]) -> bool:
-    """No part is wrongly accused, and enough are found."""
+    """Return True if no part was wrongly accused, and enough faulty parts were found."""
     wrong = any(not each.right and not each.undecided for each in found)
     return not wrong and sum(each.right for each in found) >= LEAST_FOUND
 
 
 def told(found: Sequence[Diagnosed]) -> str:
-    """How many parts were named."""
+    """Say in a sentence how many faulty parts the diagnosis named."""
     right = sum(each.right for each in found)
     return f"the diagnosis named the right part for {right} of {counted(len(found), 'fault')}"
 
 
 def lines(found: Sequence[Diagnosed]) -> Iterator[str]:
-    """A table as text."""
+    """Yield the results as a table in text."""
     yield f"{'fault':13} tests  {'named part':26}  what is wrong"
     for each in found:
         verdict = each.verdict

@@ -1,6 +1,8 @@
-"""The paper's order of tests: the computer, the bus, interfaces and microcomputers, then transducers and drives.
+"""Runs the tests in the order of the paper: first the computer, the bus, interfaces and microcomputers, then
+transducers and drives.
 
-It uses the results of the tests, and never the fault. A verdict names a part, or says that no test decides.
+The strategy uses only the results of tests, not the planted fault. Its verdict names a part, or says that no
+test can decide.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -34,7 +36,7 @@ Result = TypeVar("Result", bound=Outcome)
 
 
 class Verdict(Record, frozen=True, kw_only=True):
-    """The part that a diagnosis leads to."""
+    """The part to which a diagnosis leads, with the reason."""
 
     part: str  # empty: none
     why: str
@@ -42,7 +44,7 @@ class Verdict(Record, frozen=True, kw_only=True):
 
 
 class Found(Exception):
-    """The part is found."""
+    """Raised when the faulty part has been found."""
 
     def __init__(self, part: str, why: str) -> None:
         super().__init__(part)
@@ -50,7 +52,8 @@ class Found(Exception):
 
 
 class Strategy:
-    """One diagnosis. `tell` gets each test, as a player types it, and its result."""
+    """One diagnosis. `tell` is called with each test, in the form in which a player types it, and with its
+    result."""
 
     def __init__(
         self, at: Technician, tell: Callable[[str, Sequence[str]], None] = lambda _, __: None
@@ -58,7 +61,7 @@ class Strategy:
         self._at, self._tell, self._tests = at, tell, 0
 
     def diagnose(self) -> Verdict:
-        """Test in the paper's order until a part is found."""
+        """Run tests in the order of the paper until a faulty part is found."""
         try:
             self._bus()
             self._wrists()
@@ -173,7 +176,7 @@ class Strategy:
             raise Found("supply", f"{' and '.join(together.losers)} lose steps when all motors move at once")
 
     def _swap(self, axis: str) -> None:
-        """Tell a microcomputer from the driver behind it."""
+        """Find out whether a microcomputer or the driver that it controls is faulty."""
         self._test(f"swap {axis}", lambda: swapped(self._at, axis))
         self._test(f"origin {axis}", lambda: means.origin(self._at, axis))
         again = self._test(f"rail {axis}", lambda: means.rail(self._at, axis))
@@ -184,7 +187,7 @@ class Strategy:
 
 
 class Swapped(Record, frozen=True, kw_only=True):
-    """A microcomputer was replaced."""
+    """The result of replacing a microcomputer."""
 
     name: str
 
@@ -194,13 +197,13 @@ class Swapped(Record, frozen=True, kw_only=True):
 
 
 def swapped(at: Technician, name: str) -> Swapped:
-    """Put a spare microcomputer in the place of one."""
+    """Replace a microcomputer by a spare one."""
     at.swap(NUMBERS[name])
     return Swapped(name=name)
 
 
 def part_of(test: SelfTest) -> str:
-    """The part that a self-test accuses."""
+    """Return the part that a failed self-test accuses."""
     if test.part == "microcomputer":
         return f"microcomputer {name_of(test.number)}"
     if test.part == "status line":
@@ -210,7 +213,8 @@ def part_of(test: SelfTest) -> str:
 
 
 def wrong_force(found: means.Forces) -> tuple[str, str]:
-    """The part of a wrist that reads known loads wrong, and why; empty: none."""
+    """Return the part of a wrist that reads known loads wrongly, and the reason. Both are empty if there is
+    none."""
     arm, errors = found.arm, [*_errors(found)]
     if any(value is None for _, _, read in found.readings for value in read):
         return f"microcomputer FORCE{arm}", "it answers some questions only"
@@ -230,7 +234,7 @@ def wrong_force(found: means.Forces) -> tuple[str, str]:
 
 
 def _errors(found: means.Forces) -> Iterator[tuple[int, float, float]]:
-    """Component, load on it, and how much it reads wrong, N."""
+    """Yield each component, the load on it, and the error of its reading (N)."""
     for loaded, newtons, read in found.readings:
         for component, value in enumerate(read):
             there = newtons if component == loaded else 0.0

@@ -1,1 +1,1 @@
-"""Firmware of the microcomputers: takes commands and pin levels, and gives pulses and answers."""
+"""Firmware of the microcomputers. It takes commands and pin levels, and produces pulses and answers."""

@@ -1,7 +1,7 @@
-"""Executes commands addressed to a microcomputer, independent of the bus.
+"""Executes commands addressed to a microcomputer, independently of the bus.
 
-Times are in picoseconds on the clock of the machine, so that intervals of clocks with errors of some parts per
-million are whole numbers.
+Times are in picoseconds on the clock of the machine. In this unit, the intervals of a clock are whole numbers
+even if the clock has an error of some parts per million.
 """
 
 from abc import ABC, abstractmethod
@@ -22,19 +22,20 @@ class Crystal:
         self.ppm = ppm  # by how much its intervals are too long; a fast clock has a negative one
 
     def micros(self, micros: int) -> int:
-        """Duration of `micros` microseconds of the microcomputer's clock, picoseconds."""
+        """Return the duration of `micros` microseconds on the microcomputer's clock (ps)."""
         return micros * (PS + self.ppm)
 
     def ticks(self, ticks: int) -> int:
-        """Duration of a number of ticks of the microcomputer's 2 MHz clock, picoseconds."""
+        """Return the duration of a number of ticks of the microcomputer's 2 MHz clock (ps)."""
         return ticks * (PS + self.ppm) // _TICKS
 
     def ticks_in(self, picoseconds: int) -> int:
-        """Number of ticks of the microcomputer's 2 MHz clock that have passed after a time, picoseconds."""
+        """Return the number of ticks of the microcomputer's 2 MHz clock in a duration (ps)."""
         return picoseconds * _TICKS // (PS + self.ppm)
 
     def after(self, since: int, micros: int, at: int) -> int:
-        """The first time from `at` on that is `since` plus a multiple of an interval."""
+        """Return the first time, not before `at`, that is `since` plus a multiple of an interval of `micros`
+        microseconds."""
         step = self.micros(micros)
         return since + max(0, -(-(at - since) // step)) * step
 
@@ -56,7 +57,7 @@ class Device(ABC):
 
     @property
     def due(self) -> int | None:
-        """Time of the next action without a command; None if there is none."""
+        """Time of the next action that needs no command (ps), or None if there is none."""
         return None
 
     def elapse(self, at: int) -> None:
@@ -64,7 +65,7 @@ class Device(ABC):
         return
 
     def take(self, command: Command, at: int) -> bytes:
-        """Execute a command; returns the bytes of the answer, none if the command asks for nothing."""
+        """Execute a command. Returns the bytes of the answer, which is empty if the command is not a question."""
         if command.op == Op.SELF_TEST:
             return b"\0"
         if command.op == Op.ECHO:
@@ -73,4 +74,4 @@ class Device(ABC):
 
     @abstractmethod
     def execute(self, command: Command, at: int) -> bytes:
-        """Execute a command for this kind of device; an unknown command has no effect."""
+        """Execute a command that only this kind of device has. An unknown command has no effect."""

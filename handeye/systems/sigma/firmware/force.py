@@ -1,5 +1,5 @@
-"""Firmware of a wrist: scans three force components, and raises a pin of a motor while a component is above its
-threshold.
+"""Firmware of a wrist. It scans the three components of force, and raises a pin of a motor while a component
+exceeds its threshold.
 """
 
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ _LARGEST: Final = 0x7FFF  # of an answer
 
 
 class ForceMemory(MutableRecord, kw_only=True, tag="force"):
-    """The state of a force microcomputer: x, y and z, N."""
+    """The state of a force microcomputer, with values for x, y and z (N)."""
 
     thresholds: list[float] = field(default_factory=lambda: [STANDARD_N] * len(COMPONENTS))
     readings: list[float] = field(default_factory=lambda: [0.0] * len(COMPONENTS))
@@ -32,7 +32,7 @@ class ForceMemory(MutableRecord, kw_only=True, tag="force"):
 
 
 class Force(Device):
-    """The firmware of a force microcomputer. It is always busy, but takes commands nevertheless."""
+    """The firmware of a force microcomputer. It always shows that it is busy, but takes commands nevertheless."""
 
     memory: ForceMemory
     by_interrupt = True
@@ -46,15 +46,15 @@ class Force(Device):
         return Status.BUSY
 
     def scan(self, forces: Sequence[float], peaks: Sequence[float]) -> None:
-        """Read all components, N, and their greatest values since the last scan."""
+        """Read all components of force (N), and their greatest values since the last scan."""
         self.memory.readings = [_converted(force) for force in forces]
         self.memory.over = [*self.pins]
         self.memory.peaks = [*map(max, self.memory.peaks, map(_converted, peaks))]
 
     @property
     def pins(self) -> tuple[bool, ...]:
-        """For each component, True if its motor is interrupted: from the threshold on, until the force is well
-        below it.
+        """For each component, True if its motor is interrupted. This begins when the force exceeds the
+        threshold, and ends when the force is well below it.
         """
         memory = self.memory
         each = zip(memory.readings, memory.thresholds, memory.over, strict=True)

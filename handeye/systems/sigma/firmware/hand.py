@@ -1,4 +1,4 @@
-"""Firmware of a hand and its light beam, and of sensors with longer answers."""
+"""Firmware of a hand with its light beam, and of sensors that give longer answers."""
 
 from typing import Final
 
@@ -58,7 +58,7 @@ class SensorMemory(MutableRecord, kw_only=True, tag="sensor"):
 
 
 class Sensor(Device):
-    """The firmware of a newer kind of sensor, whose answer has a special length."""
+    """The firmware of a newer kind of sensor, whose answer has a length of its own."""
 
     memory: SensorMemory
 

@@ -1,5 +1,5 @@
-"""Firmware of a motor: converts commands to pulse trains; a pin that rises during a motion causes the steepest
-stop.
+"""Firmware of a motor. It converts commands to pulse trains. If a pin rises during a motion, the motor stops by
+the steepest ramp.
 """
 
 from typing import Final, Literal
@@ -66,7 +66,7 @@ class Motor(Device):
     # -- where it is -------------------------------------------------------------------------------------
 
     def sent(self, at: int) -> int:
-        """Number of pulses sent to the driver up to a time, forward minus backward."""
+        """Return the number of pulses sent to the driver up to a time, forward pulses minus backward ones."""
         memory = self.memory
         if memory.train is None:
             return memory.pulses
@@ -74,19 +74,20 @@ class Motor(Device):
         return memory.pulses + memory.sense * made
 
     def count(self, at: int) -> int:
-        """The count at a time, steps, as 16 bits with a sign."""
+        """Return the count at a time (steps), as a signed number of 16 bits."""
         half = 1 << _BITS - 1
         return (self.sent(at) - self.memory.zero + half) % (1 << _BITS) - half
 
     def speed(self, at: int) -> float:
-        """Speed at a time, steps/s, with its sign."""
+        """Return the signed speed at a time (steps/s)."""
         memory = self.memory
         if memory.train is None:
             return 0.0
         return memory.sense * memory.train.pulses.speed(self.crystal.ticks_in(at - memory.began))
 
     def when(self, pulse: int) -> int | None:
-        """Time of a pulse of the train, given by its number from 1; None: the pulse is never sent."""
+        """Return the time of a pulse of the train, which is numbered from 1. Returns None if that pulse is
+        never sent."""
         memory = self.memory
         if memory.train is None or not 1 <= pulse <= len(memory.train.pulses):
             return None
@@ -121,7 +122,7 @@ class Motor(Device):
 
     @property
     def shape(self) -> Curve:
-        """The selected acceleration curve."""
+        """The acceleration curve that is selected."""
         return CURVES[self.memory.curve if self.memory.curve < len(CURVES) else 0]
 
     def _answer(self, count: int, at: int) -> bytes:
@@ -147,7 +148,7 @@ class Motor(Device):
         memory.status = Status.BUSY
 
     def _halt(self, at: int) -> float:
-        """End the pulse train; returns the speed until then, steps/s."""
+        """End the pulse train. Returns the speed until then (steps/s)."""
         memory, speed = self.memory, abs(self.speed(at))
         memory.pulses, memory.train, memory.state = self.sent(at), None, "still"
         return speed
@@ -186,7 +187,7 @@ class Motor(Device):
                 self._refuse(Status.RAIL, at)
 
     def pin(self, pin: Pin, level: bool, at: int) -> None:
-        """Handle the change of a pin of the interrupt gate."""
+        """Handle a change of a pin of the interrupt gate."""
         memory = self.memory
         rose = level and not getattr(memory, pin)
         setattr(memory, pin, level)

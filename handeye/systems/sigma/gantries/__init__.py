@@ -1,1 +1,1 @@
-"""Two simulated gantries over one board: scene, rotors, wrists, beams, and the studies made with them."""
+"""Two simulated gantries over one board: their scene, rotors, wrists and beams, and studies made with them."""

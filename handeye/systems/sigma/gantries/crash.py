@@ -1,4 +1,4 @@
-"""The safety study: arm 1 runs into the stationary hand of arm 2, with and without the reflex."""
+"""The safety study: arm 1 runs into the stationary hand of arm 2, with the reflex and without it."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -56,7 +56,7 @@ class Crash(Record, frozen=True, kw_only=True):
 
 
 def program_text(speed: float | None) -> str:
-    """The program of the study."""
+    """Return the program of the study."""
     slow = "" if speed is None else f" SLOW {speed:g}"
     return _PROGRAM.format(stands=STANDS, goal=GOAL, slow=slow)
 
@@ -65,7 +65,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> C
     """Simulate the collision.
 
     Args:
-        speed: speed of arm 1, mm/s; None: the greatest speed that a motor reaches over the distance.
+        speed: speed of arm 1 (mm/s), or None for the greatest speed that a motor reaches over the distance.
         reflex: True if the wires from the wrists to the motors are connected.
         endless_loop: True if the central computer hangs after it has sent the move, and reads no status.
     """
@@ -108,7 +108,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> C
 
 
 def _sent(vm: VirtualMachine) -> bool:
-    """True if the move of the study has been sent."""
+    """Return True if the move of the study has been sent."""
     return vm.memory.counts.get("X1") == round(GOAL / STEP_MM)
 
 
@@ -145,7 +145,7 @@ def _after(
 
 
 def lines(found: Crash) -> list[str]:
-    """The result of a collision, as sentences and a table."""
+    """Describe the result of a collision in sentences and a table."""
     speed = "full speed" if found.speed is None else f"{found.speed:g} mm/s"
     loop = ", with the central computer in an endless loop" if found.endless_loop else ""
     rows = [
@@ -170,7 +170,7 @@ STUDY: Final = (
 
 
 def page_table() -> str:
-    """The table of docs/safety_study.md."""
+    """Return the table of docs/safety_study.md."""
     heads = ["speed", "reflex", "central computer", "axis", "greatest force", "status"]
     heads += ["believed", "true", "steps lost", "doubted"]
     head = f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}\n"

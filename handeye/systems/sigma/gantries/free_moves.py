@@ -1,4 +1,4 @@
-"""Fast moves in empty space: the forces on the wrists, and the reflexes that they trip."""
+"""Makes fast moves in empty space, and measures the forces on the wrists and the reflexes that they trip."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -57,7 +57,7 @@ def free_moves(seed: int, *, compensated: bool) -> FreeMoves:
 
 
 def lines(found: Sequence[FreeMoves]) -> list[str]:
-    """The moves in all worlds, in sentences."""
+    """Describe the moves in all worlds in sentences."""
     out = []
     for compensated in (True, False):
         these = [each for each in found if each.compensated is compensated]

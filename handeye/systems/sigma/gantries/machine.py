@@ -1,8 +1,10 @@
-"""The two gantries behind the pins: rotors drawn by magnetic fields, wrists that bend, switches, beams and hands.
+"""Simulates the two gantries that are connected to the pins: rotors that magnetic fields pull along, wrists
+that bend, switches, light beams and hands.
 
-The fields of all motors are known in advance from the pulse trains of their firmware, as tables with one row per
-millisecond. The physics follows these tables. In each millisecond, one product and one comparison show whether a
-wrist has crossed its threshold, a switch has changed, or a rotor has slipped; only then do other parts have to act.
+The fields of all motors are computed in advance from the pulse trains of their firmware, as tables with one row
+per millisecond. The physics follows these tables. In each millisecond, one matrix product and one comparison
+show whether a force on a wrist has crossed its threshold, a switch has changed, or a rotor has slipped. Only
+then is other code executed.
 """
 
 import math
@@ -68,7 +70,7 @@ Table = NDArray[np.float64]
 
 
 def scene(world: GantryWorld) -> mujoco.MjSpec:
-    """The scene of a world, with an empty board."""
+    """Return the scene of a world with an empty board."""
     spec = mujoco.MjSpec.from_file(str(scenes() / SCENE))
     stiffer = world.axes(STIFFNESS)
     friction = world.value(FRICTION)
@@ -83,7 +85,7 @@ def scene(world: GantryWorld) -> mujoco.MjSpec:
 
 
 class Field(NamedTuple):
-    """The position of a motor's field from a physics step on; the last row stays in force."""
+    """The position of a motor's magnetic field from a physics step on. The field stays at the last row."""
 
     first: int
     places: Table  # pulses
@@ -101,7 +103,8 @@ class Gantries(Plant[GantryMemory]):
         """Switch the gantries on.
 
         Args:
-            compensated: add the signals of the accelerometers to those of the wrists.
+            compensated: add the signals of the accelerometers to those of the wrists, so that the force that
+                accelerates a hand is not counted.
         """
         self.bench, self.memory = Bench(spec.compile()), GantryMemory()
         assert self.bench.tick * 10**6 * PS == TICK
@@ -189,18 +192,18 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def places(self) -> Array:
-        """True position of each axis, steps from its low switch, shape (6,)."""
+        """True position of each axis (steps from its low switch, shape (6,))."""
         return np.asarray((self.bench.data.qpos[self._q] - self._low) / STEP)
 
     @property
     def felt(self) -> Array:
-        """Present force on the wrists along each axis, N, shape (6,)."""
+        """Present force on the wrists along each axis (N, shape (6,))."""
         return np.asarray(self._felt[:_N] @ self.bench.data.sensordata + self._still[:_N])
 
     @property
     def period(self) -> ServoPeriod:
-        """The present state of the arms, for traces and pictures: positions and speeds of joints, forces on the
-        wrists.
+        """The present state of the arms for traces and pictures: positions and speeds of the joints, and forces
+        on the wrists.
         """
         data, felt = self.bench.data, self.felt.tolist()
         channels = {channel: tuple(felt[part]) for channel, part in zip(FORCES, _WRIST.values(), strict=True)}
@@ -228,7 +231,7 @@ class Gantries(Plant[GantryMemory]):
         return self._step * TICK, seen
 
     def _plan(self) -> None:
-        """Combine the fields of all motors in one table, from the present physics step on."""
+        """Combine the fields of all motors in one table, which begins at the present physics step."""
         self._first = self._step
         left = [(field, min(self._step - field.first, len(field.places) - 1)) for field in self._fields]
         rows = max(len(field.places) - gone for field, gone in left)
@@ -255,7 +258,7 @@ class Gantries(Plant[GantryMemory]):
         self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + strains, strains - places
 
     def _draw(self) -> None:
-        """Let the fields draw the rotors for one physics step."""
+        """Let the fields pull the rotors for one physics step."""
         if not self._whole and self._step - self._first > self._last:
             self._plan()
         self._row = min(self._step - self._first, self._last)
@@ -265,7 +268,7 @@ class Gantries(Plant[GantryMemory]):
             self.bench.model.actuator_forcerange[:_N] *= np.array(self.memory.holds)[:, np.newaxis]
 
     def _look(self) -> None:
-        """Detect the changes made by a physics step."""
+        """Detect what a physics step has changed."""
         sensed = self._felt @ self.bench.data.sensordata + self._still
         self._step += 1
         np.maximum(self._peaks, np.abs(sensed[:_N]), out=self._peaks)
@@ -274,7 +277,7 @@ class Gantries(Plant[GantryMemory]):
             self._change(levels, sensed)
 
     def _change(self, levels: bytes, sensed: Array) -> None:
-        """Handle changed comparators and switches, and rotors that leave their poles."""
+        """Handle changes of comparators and switches, and rotors that leave their poles."""
         for index in range(_LEVELS):
             if levels[index] != self._known[index]:
                 kind, axis = divmod(index, _N)
@@ -291,7 +294,8 @@ class Gantries(Plant[GantryMemory]):
             self.bench.end_early()
 
     def _strain(self, places: Array) -> None:
-        """Let poles hold less the further their rotors are away; beyond the half of a pole the next ones catch them."""
+        """Reduce the force of each pole with the distance of its rotor. Beyond half a pole, the next pole
+        catches the rotor."""
         most, least = np.split(self._limits[self._row, _LEVELS:], 2)
         lags, begins = (places - (most - least) / 2) / STEP, (most + least) / 2 / STEP
         ends = np.maximum(POLE / 2, begins + 1)
@@ -308,12 +312,13 @@ class Gantries(Plant[GantryMemory]):
 
 
 def _hold(lags: Array, begins: Array, ends: Array) -> Array:
-    """The share of its pull-out force that each pole holds its rotor with, by the lag in steps."""
+    """Return the fraction of its pull-out force with which each pole holds its rotor, from the rotor's lag
+    (steps)."""
     return np.cos(np.clip((np.abs(lags) - begins) / (ends - begins), 0.0, 1.0) * math.pi / 2)
 
 
 def _field(motor: Motor, first: int) -> Field:
-    """The position of a motor's field from a physics step on."""
+    """Return the position of a motor's field from a physics step on."""
     memory = motor.memory
     if memory.train is None:
         return Field(first, np.array([float(memory.pulses)]), np.zeros(1))
@@ -326,21 +331,23 @@ def _field(motor: Motor, first: int) -> Field:
 
 
 def pull_out(speeds: Table) -> Table:
-    """Greatest force of a motor, N, at speeds in steps/s."""
+    """Return the greatest force of a motor (N) at these speeds (steps/s)."""
     usual, slow, fast = Drive(mass=1.0), CURVES[1].start, CURVES[1].top
     return np.asarray(np.interp(np.abs(speeds), (slow, fast), (usual.start_force, usual.top_force)))
 
 
 def _least_over(threshold: float) -> float:
-    """The least force whose reading exceeds a threshold, N."""
+    """Return the least force (N) whose reading exceeds a threshold (N)."""
     return (math.floor(threshold / CONVERTER_N + 1e-9) + 0.5) * CONVERTER_N
 
 
 def _gauges(gain: Array, left: float) -> tuple[Table, Array]:
-    """The matrix, shape (6, 24), and the offset, shape (6,), that convert the scene's sensors to the six forces.
+    """Return the matrix, shape (6, 24), and the offset, shape (6,), that convert the readings of the scene's
+    sensors to the six forces.
 
-    A strain gauge measures the force in the wrist. An accelerometer adds the force that accelerates the hand
-    itself, except a fraction `left`, so that their sum is the external force.
+    A strain gauge measures the force in the wrist. The signal of an accelerometer corrects this for the force
+    that accelerates the hand itself, so that the sum is the external force. A fraction `left` of the force of
+    acceleration remains uncorrected.
     """
     inertia = (1 - left) * _HAND_KG * _SENSE
     gauges = np.zeros((_N, 4 * _N))

@@ -1,4 +1,4 @@
-"""The state of the gantries besides their scene, for the states of runs."""
+"""Defines the state of the gantries that is not in their scene."""
 
 from msgspec import field
 

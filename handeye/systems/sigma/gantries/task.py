@@ -1,4 +1,4 @@
-"""The task of a program that moves the two gantries over an empty board, without a referee."""
+"""Defines the task of a program that moves the two gantries over an empty board. It has no referee."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Worlds of the gantries: errors of switches, motors, wrists, beams and clocks, generated from a seed."""
+"""The worlds of the gantries: errors of switches, motors, wrists, beams and clocks, generated from a seed."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -102,20 +102,21 @@ VARIATION: Final = Variation(
 
 @dataclass(frozen=True, slots=True)
 class GantryWorld:
-    """A world; without a specification it has no errors. Each number is drawn from a separate stream, by name."""
+    """A world of the gantries. Without a specification, it has no errors. Each number is drawn from a stream of
+    its own, which is selected by the number's name."""
 
     spec: WorldSpec | None = None
 
     def value(self, quantity: str) -> float:
-        """The value of a quantity in the world, SI."""
+        """Return the value of a quantity in the world (SI)."""
         if self.spec is None:
             nominal = VARIATION.quantities[quantity]
             return nominal.nominal * nominal.measure.size
         return VARIATION.value(quantity, self.spec)
 
     def normal(self, name: str, quantity: str) -> float:
-        """A normally distributed number by name; its sigma is a quantity of the world, and it is clipped at two
-        sigma.
+        """Draw the normally distributed number called `name`. Its standard deviation is the world's value of
+        `quantity`, and it is clipped at two standard deviations.
         """
         if self.spec is None:
             return 0.0
@@ -123,11 +124,11 @@ class GantryWorld:
         return min(max(drawn, -_CLIPPED), _CLIPPED) * self.value(quantity)
 
     def numbers(self, name: str) -> np.random.Generator:
-        """The random stream for a name."""
+        """Return the random number generator of the stream called `name`."""
         return random_numbers(0 if self.spec is None else self.spec.seed, f"gantries.{name}")
 
     def axes(self, quantity: str) -> Array:
-        """A normally distributed number for each axis, shape (6,)."""
+        """Draw a normally distributed number for each axis, shape (6,)."""
         return np.array([self.normal(f"{quantity}.{axis}", quantity) for axis in AXES])
 
     @property

@@ -1,1 +1,1 @@
-"""Machines behind the bus that need no physics."""
+"""Machines behind the bus interface that need no physics."""

@@ -1,5 +1,5 @@
-"""Perfect motors behind the bus interface: each command takes its time, nothing slips, there are no obstacles, and
-no byte is lost.
+"""Perfect motors behind the bus interface. Each command takes its time, but nothing slips, there are no
+obstacles, and no byte is lost.
 """
 
 from typing import Final
@@ -27,7 +27,7 @@ _HANDS: Final = (NUMBERS["HAND1"], NUMBERS["HAND2"])
 
 
 class MotorMemory(MutableRecord, kw_only=True):
-    """A motor: its count, and the command in progress."""
+    """The state of a motor: its count, and the command in progress."""
 
     count: int = 0  # steps, as it counts
     place: int = SWITCHED_ON_AT  # steps from the end of its rail, as it is
@@ -41,7 +41,7 @@ class MotorMemory(MutableRecord, kw_only=True):
 
 
 class PerfectMemory(MutableRecord, kw_only=True):
-    """The whole state of the machine."""
+    """The complete state of the machine."""
 
     now: int = 0
     free_at: int = 0  # when the bus is free
@@ -55,7 +55,7 @@ class PerfectMemory(MutableRecord, kw_only=True):
 
 
 class PerfectMotors(MicrobusPort):
-    """The ten microcomputers of SUPERSIGMA, with perfect machines."""
+    """The ten microcomputers of SUPERSIGMA, connected to perfect motors."""
 
     def __init__(self) -> None:
         self._memory = PerfectMemory()
@@ -136,7 +136,7 @@ class PerfectMotors(MicrobusPort):
     # -- microcomputers -------------------------------------------------------------------------------
 
     def _accept(self, command: Command) -> bytes | None:
-        """Let a microcomputer take a command if it listens; returns its answer, if it gives one."""
+        """Let a microcomputer take a command if it is listening. Returns its answer, or None."""
         number, busy = command.number, self._status(command.number) == Status.BUSY
         if number in _FORCES:  # its force is 0: nothing is in the way
             return bytes(ANSWERS[Op.FORCE]) if command.op == Op.FORCE else None

@@ -1,4 +1,5 @@
-"""Durations of moves of a motor, by number of steps: short, medium and long profiles, in whole microseconds."""
+"""Computes how long the moves of a motor take, from the number of steps and the profile: short, medium or long.
+Durations are in whole microseconds."""
 
 import math
 
@@ -6,7 +7,8 @@ from handeye.systems.sigma.motors.pulses import CURVES, SHORT
 
 
 def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
-    """Duration of a move by `steps` along a curve, microseconds; `limit` is in steps/s, 0: none."""
+    """Return the duration of a move by `steps` along a curve (microseconds). `limit` is a speed limit
+    (steps/s); 0 means none."""
     form = CURVES[curve if curve < len(CURVES) else 0]
     start, top, acceleration = form.start, form.top, form.acceleration
     if limit:
@@ -23,5 +25,6 @@ def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
 
 
 def slow_us(steps: int, speed: float) -> int:
-    """Duration of a move at one speed (steps/s), microseconds; above start/stop speed it has ramps."""
+    """Return the duration of a move at a constant speed (steps/s), in microseconds. Above the start/stop speed,
+    the move begins and ends with ramps."""
     return math.ceil(steps / speed * 1e6) if speed <= CURVES[0].start else move_us(steps, 0, round(speed))

@@ -1,3 +1,3 @@
-"""MAL, Multipurpose Assembly Language: scanner, parser, checks, compiler, and the virtual machine that executes
-tasks.
+"""MAL, the Multipurpose Assembly Language: its scanner, parser, checks and compiler, and the virtual machine
+that executes tasks.
 """

@@ -1,4 +1,4 @@
-"""Executes the arithmetic instructions on the numbers of the stack."""
+"""Executes the arithmetic instructions of the stack machine."""
 
 import math
 import operator
@@ -49,13 +49,13 @@ UNARY: Final[dict[str, Callable[[float], float]]] = {
 
 
 def checked(value: float) -> float:
-    """Return a number; raises Trap if it is not finite."""
+    """Return the number. Raises Trap if it is not finite."""
     if not math.isfinite(value):
         raise Trap("the value is beyond the largest number of MAL")
     return float(value)
 
 
 def shown(value: float) -> str:
-    """A number as PRINT prints it."""
+    """Return a number in the form in which PRINT prints it."""
     whole = value == int(value) and abs(value) < 1e15
     return f"{value:.0f}" if whole else f"{value:.6g}"

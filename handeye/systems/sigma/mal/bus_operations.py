@@ -1,4 +1,4 @@
-"""Instructions that use the machine: they send commands, ask questions, and read status lines."""
+"""Executes the instructions that use the machine. They send commands, ask questions, and read status lines."""
 
 from collections.abc import Callable
 from typing import Final
@@ -130,7 +130,7 @@ class BusOperations:
         task.pc += 1
 
     def _do_cmd(self, name: str, task: TaskMemory, _: Instruction) -> None:
-        """Send the task's commands in order; wait for busy microcomputers."""
+        """Send the commands of a task in order. Before each command, wait until its microcomputer is free."""
         while task.outgoing:
             first = task.outgoing[0]
             needed = tuple(each for each in (first.to, *first.after) if self.busy(each))
@@ -190,7 +190,8 @@ class BusOperations:
         return answer
 
     def busy(self, name: str) -> bool:
-        """True if an axis or device has a command in progress; a force microcomputer always accepts commands."""
+        """Return True if an axis or device is executing a command. A force microcomputer always accepts
+        commands."""
         if name.startswith("FORCE"):
             return False
         if name in MAL_DEVICES:
@@ -216,7 +217,7 @@ _DEVICES: Final = {number: name for name, number in protocol.DEVICES.items()}
 
 
 def _meaning(command: Command) -> str:
-    """A command in words."""
+    """Describe a command in words."""
     return {
         Op.ORIGIN: "search the end of the rail",
         Op.LIMIT_SPEED: f"limit the speed to {counted(command.value, 'step')}/s",

@@ -1,4 +1,4 @@
-"""Checks of a program without syntax errors: names, jumps, loops, flags, axes."""
+"""Checks a program that has no syntax errors: names, jumps, loops, flags and axes."""
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterator, Sequence
@@ -37,7 +37,8 @@ TRAVEL_MM: Final = {"X": 600.0, "Y": 400.0, "Z": 200.0}
 
 
 def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
-    """The lines of a program in the order of their numbers, and all mistakes, by place."""
+    """Return the lines of a program in the order of their numbers, and all mistakes in the order of their
+    places."""
     lines, found = parsed(source)
     form = has_errors(found)
     kept: dict[int, Line] = {}
@@ -53,7 +54,7 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def in_order(lines: Sequence[Line]) -> list[Line]:
-    """Lines in the order of their numbers, each with the task to which it belongs in that order."""
+    """Sort lines by their numbers. Each line gets the task to which it belongs in that order."""
     ordered, task = [], MAIN
     for line in sorted(lines, key=lambda line: line.number):
         if line.statement.word == "TASK":
@@ -64,7 +65,7 @@ def in_order(lines: Sequence[Line]) -> list[Line]:
 
 
 def within(statement: Statement) -> Iterator[Statement]:
-    """A statement, and the statements after its THEN and ELSE."""
+    """Yield a statement, and the statements after its THEN and ELSE."""
     yield statement
     for branch in (statement.then, statement.otherwise):
         if branch is not None:
@@ -72,7 +73,7 @@ def within(statement: Statement) -> Iterator[Statement]:
 
 
 def expressions(statement: Statement) -> Iterator[Expression]:
-    """The expressions that a statement evaluates, without those of its branches."""
+    """Yield the expressions that a statement evaluates, without those of its branches."""
     yield from statement.values
     yield from (goal.distance for goal in statement.goals)
     if statement.slow is not None:
@@ -83,7 +84,7 @@ def expressions(statement: Statement) -> Iterator[Expression]:
 
 
 def parts(expression: Expression) -> Iterator[Expression]:
-    """An expression and all its subexpressions."""
+    """Yield an expression and all its subexpressions."""
     left = [expression]
     while left:
         part = left.pop()
@@ -98,7 +99,7 @@ def parts(expression: Expression) -> Iterator[Expression]:
 
 
 def reads(statement: Statement) -> Iterator[Token]:
-    """The variables that a statement reads, without those of its branches."""
+    """Yield the variables that a statement reads, without those of its branches."""
     for expression in expressions(statement):
         for part in parts(expression):
             if isinstance(part, Variable):
@@ -106,13 +107,13 @@ def reads(statement: Statement) -> Iterator[Token]:
 
 
 def writes(statement: Statement) -> Iterator[Token]:
-    """The variables that a statement sets."""
+    """Yield the variables that a statement sets."""
     if statement.word in ("LET", "FOR", "INPUT"):
         yield statement.names[0]
 
 
 def driven(statement: Statement) -> Iterator[Token]:
-    """The axes that a statement moves."""
+    """Yield the axes that a statement moves."""
     if statement.word == "ORIGIN":
         yield from statement.names
     yield from (goal.axis for goal in statement.goals)
@@ -126,13 +127,13 @@ class _Task:
     lines: list[Line] = field(default_factory=list)
 
     def nearest(self, number: int) -> int:
-        """Number of the task's line that is nearest to a given number."""
+        """Return the line number of the task that is nearest to `number`."""
         at = bisect_left(self.lines, number, key=lambda line: line.number)
         near = [line.number for line in self.lines[max(0, at - 1) : at + 1]]
         return min(near, key=lambda each: (abs(each - number), each))
 
     def having(self, word: str) -> Iterator[tuple[Line, Statement]]:
-        """The statements with a given word, each with its line."""
+        """Yield the statements that begin with a word, each with its line."""
         for line in self.lines:
             for statement in within(line.statement):
                 if statement.word == word:
@@ -140,7 +141,7 @@ class _Task:
 
 
 class _Check:
-    """All checks of a program; checks for missing statements are left out if lines could not be parsed."""
+    """All checks of a program. If lines could not be parsed, there are no checks for missing statements."""
 
     def __init__(self, lines: list[Line], *, complete: bool) -> None:
         self._lines, self._complete = lines, complete
@@ -152,7 +153,7 @@ class _Check:
         self._all = [(line, statement) for line in lines for statement in within(line.statement)]
 
     def found(self) -> Iterator[Diagnostic]:
-        """The mistakes, in no particular order."""
+        """Yield the mistakes, in no particular order."""
         yield from self._task_names()
         yield from self._shared_axes()
         for line, statement in self._all:
@@ -169,7 +170,8 @@ class _Check:
             yield from self._variables()
 
     def _near(self, name: str, known: Collection[str]) -> SimilarName | KnownNames | None:
-        """Names that may be intended; None if there are already more mistakes than are shown."""
+        """Return names that may be intended. Returns None if more mistakes have already been found than are
+        shown."""
         self._told += 1
         return alternatives(name, known) if self._told <= LIMIT else None
 
@@ -337,7 +339,7 @@ _RANGES: Final = {
 
 
 def constant(expression: Expression) -> float | None:
-    """The value of an expression that is a number; None for other expressions."""
+    """Return the value of an expression that is a number, or None for any other expression."""
     match expression:
         case Number(value):
             return value

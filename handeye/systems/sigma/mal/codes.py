@@ -1,4 +1,4 @@
-"""All kinds of mistakes in MAL programs, by code, each with an example text and a cure."""
+"""The table of all kinds of mistakes in MAL programs, by code, each with an example text and a cure."""
 
 from typing import Final
 
@@ -140,7 +140,7 @@ def mistake(
     help: str | None = None,
     meant: SimilarName | KnownNames | None = None,
 ) -> Diagnostic:
-    """A diagnostic with the cure of its code, unless there is a more specific one."""
+    """Make a diagnostic. It has the cure of its code, unless a more specific cure is given."""
     known = CODES[code]
     cure = help or names_sentence(meant) or known.cure
     return problem(code, message, span, *secondary, help=cure, meant=meant, own=known.severity)

@@ -51,7 +51,7 @@ Operand = float | str | tuple[str, ...] | None
 
 
 class Instruction(NamedTuple):
-    """An instruction of the stack machine, with its operand, and the target address of a jump."""
+    """An instruction of the stack machine with its operand. `target` is the address to which a jump leads."""
 
     op: Op
     operand: Operand = None
@@ -60,7 +60,7 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledLine:
-    """An executable line, and the address at which its code begins."""
+    """An executable line. `begin` is the address at which its code begins."""
 
     number: int
     task: str
@@ -88,7 +88,7 @@ class MalProgram:
 
     @cached_property
     def line_at(self) -> tuple[int, ...]:
-        """For each address, the index of its line; the END after a task belongs to the task's last line."""
+        """For each address, the index of its line. The END after a task belongs to the task's last line."""
         owners, at = [], 0
         begins = {line.begin: number for number, line in enumerate(self.lines)}
         for address in range(len(self.code)):
@@ -98,17 +98,17 @@ class MalProgram:
 
     @cached_property
     def closing(self) -> frozenset[int]:
-        """Addresses of the END after the last line of each task."""
+        """Addresses of the ENDs that follow the last line of each task."""
         firsts = sorted(self.tasks.values())
         return frozenset(begin - 1 for begin in (*firsts[1:], len(self.code)))
 
     def line_of(self, address: int) -> CompiledLine:
-        """The line to which an address belongs."""
+        """Return the line to which an address belongs."""
         return self.lines[self.line_at[address]]
 
 
 def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]:
-    """The program of a text, or None if it has errors, and its diagnostics."""
+    """Compile a text. Returns the program, or None if there are errors, and the diagnostics."""
     lines, found = checked(source)
     if has_errors(found):
         return None, found
@@ -117,7 +117,7 @@ def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]
 
 @lru_cache(maxsize=8)
 def program_of(name: str, text: str) -> MalProgram:
-    """The program of a text; raises BadFile if it has errors."""
+    """Compile a text. Raises BadFile if it has errors."""
     program, found = compile_source(Source(name=name, text=text))
     if program is None:
         first = next(each for each in found if each.severity == "error")
@@ -233,7 +233,7 @@ class _Compiler:
                 self._plain(word, names)
 
     def _plain(self, word: str, names: tuple[str, ...]) -> None:
-        """Compile a statement that is one instruction, or one for each of its names."""
+        """Compile a statement that consists of one instruction, or of one instruction for each of its names."""
         op = _PLAIN[word]
         if word in ("START", "KILL"):
             self._emit(op, names)
@@ -342,7 +342,7 @@ class _Ways:
 
     @cached_property
     def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
-        """The lines after each FOR and GOSUB, by task, instruction and operand."""
+        """The lines after each FOR and each GOSUB, by task, instruction and operand."""
         behind: dict[tuple[str, str, Operand], list[int | None]] = {}
         for index, line in enumerate(self._program.lines):
             for op, operand, _ in self._code(index):

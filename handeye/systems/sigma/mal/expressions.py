@@ -17,7 +17,7 @@ class ExpressionReader(TokenReader):
     """Parses expressions from the tokens of a line."""
 
     def _condition(self) -> Expression:
-        """Parse a condition: OR of ANDs of relations."""
+        """Parse a condition, in which OR connects conjunctions, and AND connects relations."""
         self._deeper()
         left = self._conjunction()
         while self._skip("OR"):

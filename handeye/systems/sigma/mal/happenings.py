@@ -1,4 +1,4 @@
-"""Events of MAL programs: commands and answers, changes of flags, printed lines."""
+"""Defines the events of MAL programs: commands and answers, changes of flags, and printed lines."""
 
 from typing import ClassVar
 
@@ -74,7 +74,8 @@ class Printed(SystemEvent, frozen=True, kw_only=True):
 
 
 class MotorAborted(SystemEvent, frozen=True, kw_only=True):
-    """A motor was stopped, at the end of its rail or by a force, and the central computer has queried its position."""
+    """A motor was stopped by the end of its rail or by a force, and the central computer has queried its
+    position."""
 
     importance: ClassVar[Importance] = "warning"
     task: str  # that had sent it on its way
@@ -88,8 +89,8 @@ class MotorAborted(SystemEvent, frozen=True, kw_only=True):
 
 
 class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
-    """A wrist has sensed a greater force than a standing or stopping motor can certainly hold, so its count may be
-    wrong.
+    """A wrist sensed a greater force than a standing or stopping motor is certain to hold, so the motor's count
+    may be wrong.
     """
 
     importance: ClassVar[Importance] = "warning"

@@ -1,7 +1,9 @@
-"""Tries every order in which the tasks of a program may continue; states are hashed, and each is examined once.
+"""Tries every order in which the tasks of a program may continue. States are hashed, so that each state is
+examined only once.
 
-A statement is one act. Motions and delays may take any time. Statements that concern no other task are not tried in
-different orders, because the order has no effect; motions of an axis that only one task uses end at once.
+A statement is one act. Motions and delays may take any time. Statements that do not concern another task are
+not tried in different orders, because the order has no effect. Motions of an axis that only one task uses end
+at once.
 """
 
 from collections import deque
@@ -41,7 +43,7 @@ _SHARED_WORDS: Final = {"SET", "RESET", "WAIT", "TAKE", "START", "KILL", "STOP",
 
 
 class Act(Record, frozen=True, kw_only=True):
-    """One act of a schedule: a task executes a line or continues one, or an axis arrives."""
+    """One act of a schedule: a task begins or continues a line, or an axis reaches its goal."""
 
     task: str  # or the axis
     line: int | None = None
@@ -49,7 +51,7 @@ class Act(Record, frozen=True, kw_only=True):
 
 
 class OrderFinding(Record, frozen=True, kw_only=True):
-    """A problem that occurs in some order."""
+    """A problem that occurs if the tasks run in a certain order."""
 
     kind: FindingKind
     told: str
@@ -58,7 +60,7 @@ class OrderFinding(Record, frozen=True, kw_only=True):
 
 
 class Interleavings(Record, frozen=True, kw_only=True):
-    """The result of trying all orders."""
+    """The result of trying all orders of the tasks."""
 
     states: int
     complete: bool  # all orders were tried
@@ -73,7 +75,7 @@ class _State(NamedTuple):
 
 @dataclass(slots=True)
 class _Reached:
-    """How a state was first reached."""
+    """How the search first reached a state."""
 
     before: bytes | None
     act: Act | None
@@ -108,19 +110,19 @@ class _Search:
 
     @cached_property
     def both_arms(self) -> bool:
-        """True if both arms move along the rail, commanded by different tasks."""
+        """True if both arms move along the rail, each commanded by a different task."""
         return len(self._users.get("X1", set()) | self._users.get("X2", set())) > 1
 
     @cached_property
     def instant(self) -> frozenset[str]:
-        """Axes whose motions concern no other task."""
+        """Axes whose motions do not concern any other task."""
         asked = "STATUS(" in self.program.text.upper().replace(" ", "")
         private = {name for name, tasks in self._users.items() if len(tasks) == 1}
         return frozenset() if asked else frozenset(private - ({"X1", "X2"} if self.both_arms else set()))
 
     @cached_property
     def _private(self) -> tuple[bool, ...]:
-        """For each line, True if it concerns no other task."""
+        """For each line, True if it does not concern any other task."""
         return tuple(all(map(self._is_private, within(line.statement))) for line in self.program.statements)
 
     def _is_private(self, statement: Statement) -> bool:
@@ -160,8 +162,8 @@ class _Search:
         )
 
     def _expanded(self, key: bytes, state: _State) -> list[tuple[Act, _State]]:
-        """The states that follow a state; only the one after a statement that concerns no other task, if there is
-        one that leads to a new state.
+        """Return the states that follow a state. If a statement that concerns no other task leads to a new
+        state, only that state is returned.
         """
         if state.memory.fault is not None:
             return []
@@ -189,7 +191,7 @@ class _Search:
         return found
 
     def _after(self, key: bytes, state: _State, name: str) -> tuple[Act, _State] | None:
-        """The act and the state if a task continues; None if it cannot."""
+        """Let a task continue, and return the act and the new state, or None if the task cannot continue."""
         self._put(_State(copied(state.memory), copied(state.machine)))
         memory = self.vm.memory
         task, line = memory.tasks[name], self.program.lines[self._line(state, name)]
@@ -226,7 +228,7 @@ class _Search:
         self.events.clear()
 
     def _taken(self) -> _State:
-        """The present state, without values that have no effect on the future."""
+        """Return the present state, without values that do not affect what follows."""
         memory = self.vm.memory
         memory.turn, memory.last, memory.printed, memory.commands, memory.questions = "", "", "", 0, 0
         for axis in [axis for axis in memory.owners if axis not in self.machine.state.moving]:
@@ -243,7 +245,7 @@ class _Search:
     # -- looking --------------------------------------------------------------------------------------
 
     def _see_events(self, key: bytes, state: _State, act: Act) -> None:
-        """Find signals that an act loses."""
+        """Find signals that are lost by an act."""
         taken = {each.operand for each in self.program.code if each.op == "TAKEF"}
         for event in self.events:
             lost = (
@@ -313,7 +315,7 @@ class _Search:
     def _find(
         self, kind: FindingKind, told: str, lines: Sequence[int], key: bytes, act: Act | None = None
     ) -> None:
-        """Record a finding, once for its lines; the first path to it is the shortest."""
+        """Record a finding once for its lines. The first path that leads to it is the shortest."""
         name = (kind, tuple(sorted(lines)) if kind != "variable" else told)
         if name not in self.found:
             schedule = (*self._schedule(key), *(() if act is None else (act,)))
@@ -332,7 +334,7 @@ _encoder: Final = msgspec.msgpack.Encoder(order="sorted")
 
 
 def _uses(program: MalProgram, line: CompiledLine) -> tuple[set[str], set[str]]:
-    """The variables that a line reads, and those that it sets."""
+    """Return the variables that a line reads, and those that it sets."""
     index = program.line_at[line.begin]
     read, written = set[str](), set[str]()
     for statement in within(program.statements[index].statement):
@@ -348,7 +350,7 @@ def interleavings(program: MalProgram, most: int = MOST_STATES) -> Interleavings
 
 
 def schedule_lines(schedule: Sequence[Act]) -> list[str]:
-    """A schedule as lines of text: the tasks that continue, with the lines they execute."""
+    """Return a schedule as lines of text: the tasks that continue, each with the lines that it executes."""
     rows: list[tuple[str, list[str]]] = []
     for act in schedule:
         text = "arrives" if act.line is None else f"{act.line} goes on" if act.goes_on else str(act.line)

@@ -22,7 +22,7 @@ _TASK_NEXT: Final = {"START", "KILL"}
 
 
 class MalLanguage(OwnLanguage):
-    """MAL for editors and commands."""
+    """MAL as editors and commands use it."""
 
     system = ENTRY.name
 
@@ -30,11 +30,12 @@ class MalLanguage(OwnLanguage):
         return checked(source)[1]
 
     def explanation(self, word: str) -> str | None:
-        """The meaning of a code or word of MAL; words that the arm language has too are explained by `sigma words`."""
+        """Return the meaning of a code or a word of MAL, or None. `handeye sigma words` explains those words
+        that the arm language also has."""
         return code_explained(word) or explained(word)
 
     def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
-        """Completions: statements after the number of a line; after a word, whatever may follow it."""
+        """Return completions: after a line number, the statements; after a word, what may follow that word."""
         row, column = source.position(offset)
         before = source.line(row)[: column - 1].upper()
         written = re.findall(r"[A-Z][A-Z0-9_]*|[0-9.]+|\S", before)
@@ -70,22 +71,22 @@ class MalLanguage(OwnLanguage):
         return [*((name, "a variable") for name in names), *rest, *axes]
 
     def formatted(self, text: str) -> str:
-        """Lines in the order of their numbers, in capitals, with one blank between words; texts and remarks are
-        unchanged.
+        """Return the lines in the order of their numbers, in capitals, with one blank between words. Texts in
+        quotes and remarks are unchanged.
         """
         lines, _ = parsed(Source(name="text", text=text))
         return "".join(f"{line.number} {tidy(line.text)}\n" for line in in_order(lines))
 
 
 def tidy(text: str) -> str:
-    """A statement in capitals, except texts in quotes and remarks."""
+    """Return a statement in capitals. Texts in quotes and remarks are unchanged."""
     if text.upper().startswith("REM"):
         return f"REM{text[3:]}"
     return "".join(part if part.startswith('"') else part.upper() for part in re.split(r'("[^"]*")', text))
 
 
 def code_explained(code: str) -> str | None:
-    """The meaning of a code, with an example and its cure; None for an unknown code."""
+    """Return the meaning of a code, with an example and the cure, or None if the code is unknown."""
     known = CODES.get(code.casefold())
     if known is None:
         return None

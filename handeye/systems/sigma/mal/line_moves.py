@@ -1,5 +1,5 @@
-"""Straight paths of axes that are not synchronised: each moves at constant speed, and the axes wait for each other
-at intermediate points.
+"""Moves axes along a straight line although they are not synchronised. Each axis moves at constant speed, and
+the axes wait for each other at intermediate points.
 """
 
 import math
@@ -14,10 +14,11 @@ _STRAIGHT_MM: Final = 0.4  # by how much the path of a part may be off
 
 
 def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> list[Outgoing]:
-    """Commands that move axes to their goals (steps) along a straight line, within half a millimetre.
+    """Return commands that move axes to their goals (steps) along a straight line, with a deviation of at most
+    half a millimetre.
 
-    Speeds can be set only in steps of 2 mm/s, so their ratio is only approximately that of the distances. The path
-    is therefore divided into parts, after each of which the axes wait for each other.
+    Speeds can be set only in steps of 2 mm/s, so the ratio of the speeds is only approximately that of the
+    distances. The path is therefore divided into parts. After each part, the axes wait for each other.
     """
     ways = {axis: target - counts.get(axis, 0) for axis, target in goals}
     moved = {axis: way for axis, way in ways.items() if way}
@@ -43,8 +44,8 @@ def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> l
 
 
 def _codes(moved: Mapping[str, int], longest: int, fastest: int) -> tuple[dict[str, int], float]:
-    """Speed codes with the longest distance at speed `fastest`, and the resulting deviation from the straight line,
-    mm.
+    """Return the codes of the speeds if the axis with the longest distance moves at speed `fastest`, and the
+    resulting deviation from the straight line (mm).
     """
     codes = {axis: max(1, round(fastest * abs(way) / longest)) for axis, way in moved.items()}
     off = max(abs(codes[axis] / fastest - abs(way) / longest) for axis, way in moved.items())

@@ -1,4 +1,4 @@
-"""The whole state of the virtual machine between two statements, as one record."""
+"""Defines the complete state of the virtual machine between two statements, as one record."""
 
 from typing import Annotated, Literal
 
@@ -12,7 +12,7 @@ Address = Annotated[int, Meta(ge=0)]
 
 
 class Flags(Record, frozen=True, kw_only=True, tag=True):
-    """Wait until flags are set; with `take`, the single flag is cleared in the same act."""
+    """Wait until flags are set. With `take`, there is only one flag, and it is cleared in the same act."""
 
     names: tuple[str, ...]
     take: bool
@@ -25,13 +25,13 @@ class Motors(Record, frozen=True, kw_only=True, tag=True):
 
 
 class Moment(Record, frozen=True, kw_only=True, tag=True):
-    """Wait until a time, microseconds on the machine's clock."""
+    """Wait until a time on the machine's clock (microseconds)."""
 
     until: int
 
 
 class TypedNumber(Record, frozen=True, kw_only=True, tag=True):
-    """Wait for a number from the console, for a variable."""
+    """Wait until the user types a number for a variable at the console."""
 
     name: str
 
@@ -40,7 +40,8 @@ Waiting = Flags | Motors | Moment | TypedNumber
 
 
 class Loop(Record, frozen=True, kw_only=True):
-    """A FOR loop in progress: its variable, last value, step, and the address at which its lines begin."""
+    """A FOR loop in progress: its variable, the variable's last value, the step, and the address at which the
+    lines of the loop begin."""
 
     name: str
     last: float
@@ -49,7 +50,8 @@ class Loop(Record, frozen=True, kw_only=True):
 
 
 class Outgoing(Record, frozen=True, kw_only=True):
-    """A command that waits to be sent: for a motor given by the goal position, else as it is."""
+    """A command that waits to be sent. A command to a motor is given by its goal position, any other by its
+    five bytes."""
 
     to: str  # the axis or device that has to be free
     target: int | None = None  # steps
@@ -73,7 +75,7 @@ class TaskMemory(MutableRecord, kw_only=True):
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """The reason why a program stands."""
+    """The reason why a program has stopped."""
 
     kind: Literal["trap", "abort", "deadlock", "input", "break"]
     task: str

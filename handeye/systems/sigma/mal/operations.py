@@ -1,4 +1,4 @@
-"""Executes the instructions of a task: arithmetic, jumps, loops, tasks, flags and the console."""
+"""Executes the instructions of a task: arithmetic, jumps, loops, tasks, flags, and the console."""
 
 import math
 from collections.abc import Callable
@@ -51,7 +51,7 @@ class Operations(BusOperations):
                 self._acts[name.removeprefix("_do_").upper()] = getattr(self, name)
 
     def run(self, name: str, task: TaskMemory) -> int:
-        """Execute instructions to the end of the statement, or until it waits; returns the number of arithmetic
+        """Execute instructions until the statement ends or waits. Returns the number of arithmetic
         instructions.
         """
         task.amid, began, calculated = True, self.program.line_of(task.pc).begin, 0
@@ -78,7 +78,7 @@ class Operations(BusOperations):
         self._tell(TaskEnded(time=self.time, task=name, killed=killed))
 
     def behind(self, address: int) -> int:
-        """The address after the line to which an address belongs."""
+        """Return the address that follows the line to which an address belongs."""
         index = self.program.line_at[address]
         line = self.program.lines[index]
         if index + 1 < len(self.program.lines) and self.program.lines[index + 1].task == line.task:
@@ -86,7 +86,7 @@ class Operations(BusOperations):
         return min(each for each in self.program.closing if each >= line.begin)
 
     def met(self, name: str, task: TaskMemory, waits: Waiting) -> bool:
-        """True if the condition for which a task waits is met; the condition is then consumed."""
+        """Return True if the condition for which a task waits is met. The task then stops waiting."""
         match waits:
             case Flags(names=names, take=take):
                 if not {*names} <= {*self.memory.flags}:

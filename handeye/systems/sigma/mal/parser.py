@@ -1,4 +1,4 @@
-"""The parser: recursive descent, line by line. A mistake affects only its line."""
+"""Parses programs by recursive descent, line by line. A mistake affects only its own line."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -27,7 +27,7 @@ MOST_LINES: Final = 5000
 
 
 def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
-    """The lines of a program, in the order of the text, and the syntax errors."""
+    """Return the lines of a program in the order of the text, and the syntax errors."""
     lines: list[Line] = []
     found: list[Diagnostic] = []
     start, task = 0, MAIN
@@ -47,7 +47,8 @@ def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def parsed_line(text: str, start: int, row: int, task: str) -> tuple[Line | None, Diagnostic | None]:
-    """Parse a line that begins at an offset of its text, in a task; None if it cannot be parsed."""
+    """Parse a line that begins at the offset `start` of its text and belongs to a task. Returns the line, or
+    None, and the mistake, or None."""
     scanned, wrong = tokens(text, start)
     if wrong is not None:
         return None, wrong

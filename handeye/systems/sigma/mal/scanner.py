@@ -1,4 +1,4 @@
-"""Splits a line of MAL into tokens. Every text gives tokens and mistakes; nothing is raised."""
+"""Splits a line of MAL into tokens. Mistakes are returned; no text raises an exception."""
 
 import re
 from typing import Final, Literal, NamedTuple
@@ -13,7 +13,7 @@ TokenKind = Literal["name", "number", "text", "mark"]
 
 
 class Token(NamedTuple):
-    """A token; `start` and `end` are offsets in the whole text."""
+    """A token. `start` and `end` are offsets in the whole text."""
 
     kind: TokenKind
     text: str  # names in capitals; texts without their quotes
@@ -36,7 +36,8 @@ _TOKEN: Final = re.compile(
 
 
 def tokens(line: str, start: int) -> tuple[list[Token], Diagnostic | None]:
-    """The tokens of a line that begins at an offset, and the first mistake; a remark has only the token REM."""
+    """Return the tokens of a line that begins at the offset `start`, and the first mistake, or None. A remark
+    has only the token REM."""
     found: list[Token] = []
     if len(line) > LONGEST_LINE:
         told = f"a line has {LONGEST_LINE} characters at most; this one has {len(line)}"

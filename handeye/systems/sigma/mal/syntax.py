@@ -37,7 +37,7 @@ class Binary(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A function with an expression, an axis, or no argument."""
+    """A call of a function. The argument is an expression or an axis, or None."""
 
     function: str
     argument: "Expression | Token | None"
@@ -62,7 +62,7 @@ class AxisGoal(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Statement:
-    """A statement. The fields that are set depend on its word, according to the grammar."""
+    """A statement. Its word determines, according to the grammar, which fields are set."""
 
     word: str
     span: Span

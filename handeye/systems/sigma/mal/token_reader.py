@@ -1,4 +1,4 @@
-"""Reads the tokens of a line one by one, and reports a token that does not fit."""
+"""Reads the tokens of a line one by one. A token that does not fit raises an exception."""
 
 from collections.abc import Callable
 from typing import Final, NoReturn

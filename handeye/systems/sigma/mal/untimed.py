@@ -1,4 +1,4 @@
-"""A machine without time, in which motions in progress may end in any order."""
+"""A machine without time. Motions in progress may end in any order."""
 
 from typing import Final
 
@@ -20,7 +20,7 @@ class UntimedMemory(MutableRecord, kw_only=True):
 
 
 class UntimedMachine(MicrobusPort):
-    """A machine whose sensors answer 0. Axes in `instant` are at their goals as soon as they are commanded."""
+    """A machine whose sensors answer 0. Axes in `instant` reach their goals as soon as they are commanded."""
 
     def __init__(self, instant: frozenset[str]) -> None:
         self.state, self._instant = UntimedMemory(), instant
@@ -57,7 +57,7 @@ class UntimedMachine(MicrobusPort):
         self.state.places[axis] = self.state.places.get(axis, 0) + self.state.moving.pop(axis)
 
     def reach(self, axis: str) -> int:
-        """The farthest position at which an axis may be now, steps."""
+        """Return the farthest position at which an axis may be now (steps)."""
         place = self.state.places.get(axis, 0)
         return max(place, place + self.state.moving.get(axis, 0))
 

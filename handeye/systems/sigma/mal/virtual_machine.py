@@ -1,6 +1,6 @@
-"""The virtual machine: schedules the tasks, one statement each in turn, and handles aborts and deadlocks.
+"""The virtual machine. It schedules the tasks, one statement of each in turn, and handles aborts and deadlocks.
 
-It accesses the machine only through `ports/microbus.py`. Between two statements its whole state is its memory.
+It uses the machine only through `ports/microbus.py`. Between two statements, its memory is its complete state.
 """
 
 import math
@@ -35,7 +35,7 @@ DOUBT_N: Final = 20.0  # force on a wrist above which the count of its axis is d
 
 
 class VirtualMachine:
-    """Executes a compiled program. `tell` gets the events, `poll` is called before time passes."""
+    """Executes a compiled program. `tell` is called with each event; `poll` is called before time passes."""
 
     def __init__(
         self,
@@ -54,7 +54,7 @@ class VirtualMachine:
 
     @property
     def memory(self) -> MalMemory:
-        """The whole state between two statements."""
+        """The complete state between two statements."""
         return self._operations.memory
 
     @memory.setter
@@ -68,17 +68,17 @@ class VirtualMachine:
 
     @property
     def idle(self) -> float:
-        """Fraction of the time in which the central computer was idle."""
+        """Fraction of the time since the program began in which the central computer was idle."""
         passed = self.machine.now - self.memory.began
         return 1.0 - self.memory.worked / passed if passed else 0.0
 
     @property
     def turn(self) -> str:
-        """The task whose turn it is; empty: no task can continue."""
+        """The task whose turn it is; empty if no task can continue."""
         return self.memory.turn
 
     def waits_for(self, task: str) -> str:
-        """The reason for which a task waits, in words; empty: its turn."""
+        """Say in words what a task waits for. Empty if it waits only for its turn."""
         match self.memory.tasks[task].waits:
             case Flags(names=names):
                 return f"{'flag' if len(names) == 1 else 'flags'} {' and '.join(names)}"
@@ -100,8 +100,8 @@ class VirtualMachine:
         self.settle()
 
     def statement(self) -> None:
-        """Execute the statement of the task whose turn it is, as far as possible; `settle` then determines the next
-        task.
+        """Execute the statement of the task whose turn it is, until it ends or waits. `settle` then determines
+        the next task.
         """
         memory, name = self.memory, self.memory.turn
         memory.last, began = name, self.machine.now
@@ -110,7 +110,7 @@ class VirtualMachine:
         memory.worked += self.machine.now - began
 
     def settle(self) -> None:
-        """Let time pass until a task can begin a statement, unless all have ended or the program stands."""
+        """Let time pass until a task can begin a statement, all tasks have ended, or the program has stopped."""
         self.memory.turn = ""
         while self.memory.fault is None and self.memory.tasks:
             self._see_aborts()
@@ -128,7 +128,7 @@ class VirtualMachine:
         self.memory.turn = task
 
     def proceed(self) -> None:
-        """Continue after the statement at which the program stands."""
+        """Continue after the statement at which the program has stopped."""
         fault = self._unfault()
         task = self.memory.tasks.get(fault.task)
         if fault.kind in ("trap", "abort") and task is not None:
@@ -136,7 +136,7 @@ class VirtualMachine:
         self.settle()
 
     def retry(self) -> None:
-        """Repeat the statement at which the program stands."""
+        """Repeat the statement at which the program has stopped."""
         fault = self._unfault()
         task = self.memory.tasks.get(fault.task)
         if fault.kind in ("trap", "abort") and task is not None:
@@ -151,7 +151,8 @@ class VirtualMachine:
         self.memory.turn = ""
 
     def type_number(self, text: str, task: str = "") -> None:
-        """Give a number to a task that waits for one; raises InvalidInput if none waits, or the text is no number."""
+        """Give a number to a task that waits for one. Raises InvalidInput if no task waits, or if the text is
+        not a number."""
         waiting = [name for name, each in self.memory.tasks.items() if isinstance(each.waits, TypedNumber)]
         if (task and task not in waiting) or not waiting:
             raise BadArgument(
@@ -175,7 +176,7 @@ class VirtualMachine:
         put_back(self.memory, memory)
 
     def fits(self, memory: MalMemory) -> bool:
-        """True if all addresses and names in a state belong to this program."""
+        """Return True if all addresses and names in a state belong to this program."""
         size, tasks = len(self.program.code), self.program.tasks
         addresses = [each.pc for each in memory.tasks.values()]
         for each in memory.tasks.values():
@@ -193,7 +194,8 @@ class VirtualMachine:
     # -- turns ---------------------------------------------------------------------------------------------
 
     def _order(self) -> list[str]:
-        """The tasks in order of turn: those after the task that had the last turn come first."""
+        """Return the tasks in the order of their turns. Those that come after the task that had the last turn
+        are first."""
         names = [*self.memory.tasks]
         after = names.index(self.memory.last) + 1 if self.memory.last in names else 0
         return names[after:] + names[:after]
@@ -207,7 +209,7 @@ class VirtualMachine:
         return None
 
     def goes_on(self, name: str) -> bool:
-        """Complete the wait of a task if its condition is met; True if the task can then begin a statement."""
+        """End the wait of a task if its condition is met. Returns True if the task can then begin a statement."""
         task = self.memory.tasks[name]
         if task.amid:
             if task.waits is not None and not self._operations.met(name, task, task.waits):
@@ -220,7 +222,8 @@ class VirtualMachine:
         return name in self.memory.tasks and not task.amid and self.memory.fault is None
 
     def _pass_time(self) -> bool:
-        """Let time pass until something may have changed; False if nothing can change by itself."""
+        """Let time pass until something may have changed. Returns False if nothing can change without a
+        command."""
         moments = [each.waits.until for each in self.memory.tasks.values() if isinstance(each.waits, Moment)]
         event = self.machine.next_event
         times = moments if event is None else [*moments, event]
@@ -231,8 +234,8 @@ class VirtualMachine:
         return True
 
     def _stand_still(self) -> None:
-        """Handle the case that all tasks wait and nothing can change by itself: a number is awaited, or it is a
-        deadlock.
+        """Handle the case that all tasks wait and nothing can change without a command. Either a task waits for
+        a typed number, or the tasks are in a deadlock.
         """
         tasks = self.memory.tasks
         typing = next((name for name, each in tasks.items() if isinstance(each.waits, TypedNumber)), None)
@@ -252,14 +255,14 @@ class VirtualMachine:
         )  # fmt: skip
 
     def _spend(self, microseconds: int) -> None:
-        """Let time pass in which the central computer works."""
+        """Let the time pass that the central computer needs for its work."""
         self._poll()
         until = self.machine.now + microseconds
         while self.machine.now < until:
             self.machine.wait(until)
 
     def _abandon(self, task: TaskMemory, address: int) -> None:
-        """Let a task continue at an address, and drop its present work."""
+        """Let a task continue at an address, and discard what it was doing."""
         task.pc, task.amid, task.waits = address, False, None
         task.stack.clear()
         task.outgoing.clear()
@@ -273,8 +276,8 @@ class VirtualMachine:
     # -- aborts --------------------------------------------------------------------------------------------
 
     def _see_aborts(self) -> None:
-        """If a motor interrupts, query its position, and let its task continue as ON ABORT says; without ON ABORT,
-        the program stands.
+        """If a motor has raised the interrupt, query its position, and let its task continue as its ON ABORT
+        says. If the task has no ON ABORT, the program stops.
         """
         if not self.machine.interrupt:
             return
@@ -299,7 +302,7 @@ class VirtualMachine:
             self._after_abort(axis, owner, f"ABORT {axis} {cause} {at:.2f}")
 
     def _doubt(self, name: str) -> None:
-        """Query the greatest forces of both wrists, because a standing motor that was hit does not report it."""
+        """Query the greatest forces on both wrists, because a standing motor that was hit does not report it."""
         for axis in AXES:
             try:
                 answer = self._operations.ask(name, protocol.force(int(axis[1]), axis[0], peak=True))

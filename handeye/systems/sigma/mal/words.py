@@ -1,4 +1,4 @@
-"""The words of MAL, as a table from which parser, completion, `explain` and the page of words are derived."""
+"""The table of the words of MAL. The parser, completion, `explain` and the page of words are derived from it."""
 
 from typing import Final, Literal, NamedTuple
 
@@ -8,7 +8,7 @@ Kind = Literal["statement", "part", "function", "operator"]
 
 
 class Word(NamedTuple):
-    """A word of the language."""
+    """A word of MAL."""
 
     kind: Kind
     usage: str
@@ -156,7 +156,7 @@ RESERVED: Final = {*WORDS, *AXES, "DIM"}
 
 
 def explained(word: str) -> str | None:
-    """The meaning of a word, with an example; None if it is no word of MAL."""
+    """Return the meaning of a word with an example, or None if it is not a word of MAL."""
     known = WORDS.get(word.upper())
     if known is None:
         return None

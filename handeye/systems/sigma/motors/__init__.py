@@ -1,1 +1,1 @@
-"""Stepping motors: pulse trains, and the rotor that follows them or slips."""
+"""Stepping motors: their pulse trains, and the rotor that follows the pulses or slips."""

@@ -1,4 +1,4 @@
-"""Plots of a move: speed, required force and available force."""
+"""Plots a move: its speed, the force that it requires, and the force that the motor can give."""
 
 from typing import Final
 
@@ -22,7 +22,7 @@ _STYLE: Final = (
 
 
 def as_text(found: AxisStudy, width: int = 100) -> list[str]:
-    """Speed over time as lines of text, in eighths of the greatest speed."""
+    """Return the speed over time as lines of text. One line is an eighth of the greatest speed."""
     times, speeds, _, _ = series(found)
     columns = max(20, width - _NAME - 1)
     edges = np.linspace(0, times[-1], columns + 1)
@@ -42,7 +42,7 @@ def _axis(times: NDArray[np.float64], columns: int) -> str:
 
 
 def as_svg(found: AxisStudy) -> str:
-    """Speed, required force and pull-out force over time, as SVG."""
+    """Return the speed, the required force and the pull-out force over time as SVG."""
     times, speeds, forces, pulls = series(found)
     title = f"{found.mass:g} kg, curve {found.curve}, {counted(found.steps, 'step')}: {verdict(found)[-1]}"
     pieces = [element("text", title, x=12, y=22, class_="t")]
@@ -87,7 +87,7 @@ def _panel(
 
 
 def _round_values(least: float, most: float) -> list[float]:
-    """About six round numbers for an axis."""
+    """Return about six round numbers for an axis."""
     span = most - least
     step = next(d * 10.0**p for p in range(-6, 9) for d in (1, 2, 5) if d * 10.0**p * 6 >= span)
     first = int(np.ceil(least / step))

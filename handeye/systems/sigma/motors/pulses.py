@@ -1,7 +1,8 @@
-"""Pulse trains of the motor microcomputers: the times of the steps, made by a counter that divides a 2 MHz clock.
+"""Computes the pulse trains of the motor microcomputers. A counter that divides a 2 MHz clock determines the
+times of the steps.
 
-A train is a value of a few numbers. The times of its pulses have a closed form, so that the firmware needs no time
-steps.
+A few numbers define a train. The times of its pulses have a closed form, so the simulated firmware needs no
+time steps.
 """
 
 import math
@@ -44,8 +45,8 @@ CURVES: Final = (
 
 
 class Train(Record, frozen=True, kw_only=True):
-    """A pulse train of `steps` that begins and ends at speed `start` and does not exceed `top`; or a stop from
-    `top`.
+    """A train of `steps` pulses that begins and ends at the speed `start` and does not exceed `top`, or a stop
+    from the speed `top`.
     """
 
     kind: Literal["profile", "stop"] = "profile"
@@ -56,7 +57,7 @@ class Train(Record, frozen=True, kw_only=True):
 
     @property
     def peak(self) -> float:
-        """Greatest speed of the profile, steps/s."""
+        """Greatest speed of the profile (steps/s)."""
         if self.steps <= SHORT or self.top <= self.start:
             return min(self.start, self.top)
         return min(self.top, math.sqrt(self.start**2 + self.steps * self.acceleration))
@@ -79,7 +80,7 @@ class Pulses:
 
     @property
     def end(self) -> int:
-        """Ticks until the last pulse; 0 if there is none."""
+        """Number of ticks until the last pulse; 0 if there is no pulse."""
         return int(self.ticks[-1]) if len(self.ticks) else 0
 
     @cached_property
@@ -88,35 +89,35 @@ class Pulses:
         return np.diff(self.ticks, prepend=0)
 
     def count(self, ticks: int) -> int:
-        """Number of pulses made up to a time, ticks."""
+        """Return the number of pulses up to a time (ticks)."""
         return int(np.searchsorted(self.ticks, ticks, side="right"))
 
     def speed(self, ticks: int) -> float:
-        """Speed at a time, steps/s; 0 after the end."""
+        """Return the speed at a time given in ticks (steps/s); 0 after the end."""
         done = self.count(ticks)
         return CLOCK_HZ / int(self.dividers[done]) if done < len(self.ticks) else 0.0
 
     @property
     def seconds(self) -> float:
-        """Duration until the last pulse, s."""
+        """Time until the last pulse (s)."""
         return self.end / CLOCK_HZ
 
 
 def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
-    """The train of a move: constant speed if very short, else a ramp up and a ramp down, with constant speed in
-    between if it is long.
+    """Return the train of a move. A very short move has a constant speed. All others have a ramp up and a ramp
+    down, and long ones have a constant speed in between.
 
     Args:
         steps: number of steps, at least 1.
-        limit: greatest speed, steps/s; 0: that of the curve.
+        limit: greatest speed (steps/s), or 0 for that of the curve.
     """
     top = min(curve.top, float(limit)) if limit else curve.top
     return Train(steps=steps, start=min(curve.start, top), top=top, acceleration=curve.acceleration)
 
 
 def constant(steps: int, speed: float, curve: Curve, limit: float = 0.0, *, ramped: bool = True) -> Train:
-    """The train of a move at constant speed, steps/s; above start/stop speed it has ramps, unless `ramped` is
-    False.
+    """Return the train of a move at constant speed (steps/s). Above the start/stop speed, the move begins and
+    ends with ramps, unless `ramped` is False.
     """
     speed = min(speed, float(limit)) if limit else speed
     start = min(curve.start, speed) if ramped else speed
@@ -124,14 +125,14 @@ def constant(steps: int, speed: float, curve: Curve, limit: float = 0.0, *, ramp
 
 
 def stop(speed: float, curve: Curve) -> Train:
-    """The steepest ramp from a speed, steps/s, down to the speed at which a motor may stop."""
+    """Return the steepest ramp from a speed (steps/s) down to the speed at which a motor may stop."""
     steps = max(0, math.ceil((speed**2 - curve.start**2) / (2 * EMERGENCY)))
     return Train(kind="stop", steps=steps, start=curve.start, top=speed, acceleration=EMERGENCY)
 
 
 def stopped(train: Train, curve: Curve, ticks: int, *, cut: bool = False) -> Pulses:
-    """Pulses of a train that is interrupted after some ticks: by the steepest ramp or, with `cut`, abruptly, which
-    is a fault.
+    """Return the pulses of a train that is interrupted after some ticks. It stops by the steepest ramp or, with
+    `cut`, abruptly, which is a fault.
     """
     pulses = train.pulses
     made = pulses.ticks[: pulses.count(ticks)]
@@ -148,7 +149,7 @@ def _pulses(train: Train) -> Pulses:
 
 
 def _stop_times(train: Train) -> NDArray[np.float64]:
-    """Pulse times of a constant deceleration."""
+    """Return the times of the pulses of a constant deceleration."""
     speeds = np.sqrt(
         np.maximum(train.top**2 - 2 * train.acceleration * np.arange(1, train.steps + 1), train.start**2)
     )
@@ -156,7 +157,8 @@ def _stop_times(train: Train) -> NDArray[np.float64]:
 
 
 def _profile_times(train: Train) -> NDArray[np.float64]:
-    """Pulse times of two ramps with the shape of raised cosines, and of the part between them."""
+    """Return the times of the pulses of two ramps, whose speeds follow raised cosines, and of the part between
+    the ramps."""
     steps, start, peak = train.steps, train.start, train.peak
     made = np.arange(1.0, steps + 1)
     if peak <= start:
@@ -173,7 +175,7 @@ def _profile_times(train: Train) -> NDArray[np.float64]:
 
 
 def _ramp_times(steps: NDArray[np.float64], start: float, peak: float, ramp: float) -> NDArray[np.float64]:
-    """Times of steps on a ramp from speed `start` to `peak` that takes `ramp` s."""
+    """Return the times of steps on a ramp from the speed `start` to `peak` that takes `ramp` seconds."""
 
     def made(time: NDArray[np.float64]) -> NDArray[np.float64]:
         turned = ramp / math.pi * np.sin(math.pi * time / ramp)

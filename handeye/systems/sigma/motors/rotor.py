@@ -1,9 +1,10 @@
-"""The rotor of a stepping motor: the pulses draw it along by a spring as strong as its pull-out force, or it slips.
+"""Simulates the rotor of a stepping motor. The pulses pull it along like a spring whose greatest force is the
+pull-out force. Beyond that force, the rotor slips.
 
-There are two models. The sine model, force = pull-out x sin(2 pi lag / 4 steps), integrated in steps of .1 ms, is
-the reference. The balance model, in steps of 1 ms, is a quick check: it tests whether the force that the pulses
-require is available, and lets a rotor that has lost its pulses coast until a pole catches it. In both models the
-rotor slips by whole poles of 4 steps. Units are SI, except steps.
+There are two models. The reference is the sine model, force = pull-out x sin(2 pi lag / 4 steps), which is
+integrated in steps of .1 ms. The balance model, in steps of 1 ms, is a quick check. It tests whether the force
+that the pulses require is available, and lets a rotor that can no longer follow its pulses coast until a pole
+catches it. In both models the rotor slips by whole poles of 4 steps. Units are SI, except for steps.
 """
 
 import math
@@ -31,7 +32,7 @@ _FULL: Final = 2 * math.pi / POLE  # rad of the sine for a step of lag
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drive:
-    """A motor with its moving mass and load."""
+    """A motor with the mass that it moves, and its load."""
 
     mass: float  # kg
     friction: float = FRICTION  # N s/m for each kg
@@ -41,25 +42,26 @@ class Drive:
     damping: float = 0.1  # of the rotor about its field, as a share of critical, at start/stop speed
 
     def pull_out(self, speed: float) -> float:
-        """Greatest force at a speed in steps/s, N."""
+        """Return the greatest force (N) at a speed (steps/s)."""
         first, last = CURVES[1].start, CURVES[1].top
         share = min(max((abs(speed) - first) / (last - first), 0.0), 1.0)
         return self.start_force + (self.top_force - self.start_force) * share
 
     @property
     def damper(self) -> float:
-        """Damping between rotor and field, N s/m."""
+        """Damping between rotor and field (N s/m)."""
         return 2 * self.damping * math.sqrt(self.start_force * _FULL / STEP * self.mass)
 
     @property
     def starts(self) -> bool:
-        """True if a rotor at rest can follow the jump to start/stop speed: its pole is deep enough for that energy."""
+        """True if a rotor at rest can follow the jump to the start/stop speed, because its pole can absorb the
+        energy of that jump."""
         return _holds(self, CURVES[0].start, self.start_force)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Followed:
-    """How a rotor followed its pulses."""
+    """How well a rotor followed its pulses."""
 
     lost: int  # poles by which it is behind at the end; negative: ahead
     lag: float  # the greatest, steps
@@ -77,8 +79,8 @@ class Followed:
 def commanded(
     pulses: Pulses, period: float, settle: float = _SETTLE
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Position (steps) and speed (steps/s) commanded by pulses, as means over each `period` s, until `settle` s
-    after the last pulse.
+    """Return the position (steps) and the speed (steps/s) that pulses command, as means over each `period` (s),
+    until `settle` seconds after the last pulse.
     """
     count = math.ceil((pulses.seconds + settle) / period)
     ticks = np.arange(count + 1) * (period * CLOCK_HZ)
@@ -90,10 +92,10 @@ def commanded(
 
 
 def wanted(pulses: Pulses, drive: Drive) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The force that a train requires in each millisecond, N, and the speed then, steps/s.
+    """Return the force (N) that a train requires in each millisecond, and the speed at that time (steps/s).
 
-    The jumps to and from start/stop speed are not included. Changes of speed are averaged over some milliseconds,
-    so that the rounding of dividers does not count as acceleration.
+    The jumps to and from the start/stop speed are not included. Changes of speed are averaged over some
+    milliseconds, so that the rounding of the counter's dividers does not count as acceleration.
     """
     count = max(1, math.ceil(pulses.seconds / _COARSE))
     edges = np.minimum(np.arange(count + 1) * _COARSE, pulses.seconds)
@@ -107,8 +109,9 @@ def wanted(pulses: Pulses, drive: Drive) -> tuple[NDArray[np.float64], NDArray[n
 class Balance:
     """A rotor in the balance model, with steps of one millisecond.
 
-    The rotor is `caught` as long as its pole can give the required force; `strained` if more is required, until it
-    is two steps away; then `slipping`, drawn along only by the damping, until a pole can hold it again.
+    The rotor is `caught` as long as its pole can give the required force. If more force is required, it is
+    `strained` until it is two steps away. After that it is `slipping`, and only the damping pulls it along,
+    until a pole can hold it again.
     """
 
     def __init__(self, drive: Drive) -> None:
@@ -120,8 +123,8 @@ class Balance:
         self._speed = self._before = 0.0  # steps/s of the rotor, and of the field a millisecond ago
 
     def follow(self, there: float, pace: float, force: float) -> None:
-        """Let a millisecond pass in which the field is at position `there` (steps), moves at `pace` (steps/s), and
-        requires a force.
+        """Let a millisecond pass. In it, the field is at the position `there` (steps), moves at `pace`
+        (steps/s), and requires a force (N).
         """
         pull, jump = self.drive.pull_out(pace), abs(pace - self._before)
         if self.state != "slipping" and jump > _JUMP and not _catches(self.drive, pace, self._before):
@@ -161,7 +164,7 @@ class Balance:
 
 
 def by_balance(pulses: Pulses, drive: Drive) -> Followed:
-    """Follow a train in the balance model."""
+    """Let a rotor follow a pulse train in the balance model."""
     field, _ = commanded(pulses, _COARSE)
     forces, speeds = wanted(pulses, drive)
     rest = np.zeros(max(0, len(field) - len(forces)))
@@ -182,31 +185,32 @@ def by_balance(pulses: Pulses, drive: Drive) -> Followed:
 
 
 def _margin(forces: NDArray[np.float64], speeds: NDArray[np.float64], drive: Drive) -> tuple[float, float]:
-    """The least ratio of pull-out force to required force, and its time, s."""
+    """Return the least ratio of the pull-out force to the required force, and the time at which it occurs (s)."""
     margins = np.array([drive.pull_out(speed) for speed in speeds]) / np.maximum(np.abs(forces), _NOTHING)
     tightest = int(margins.argmin())
     return float(margins[tightest]), (tightest + 1) * _COARSE
 
 
 def lag_for(force: float, most: float) -> float:
-    """Lag of a rotor, steps, when it gives a force, with a greatest force of `most`."""
+    """Return the lag of a rotor (steps) when it gives `force`; `most` is its greatest force."""
     return math.asin(min(max(force / most, -1.0), 1.0)) / _FULL
 
 
 def _catches(drive: Drive, field: float, speed: float) -> bool:
-    """True if a field catches a rotor that has another speed."""
+    """Return True if a field catches a rotor that moves at another speed."""
     return _holds(drive, abs(field - speed), drive.pull_out(field))
 
 
 def _holds(drive: Drive, between: float, pull: float) -> bool:
-    """True if a pole is deep enough for a difference of speed, steps/s; a load makes the pole shallower."""
+    """Return True if a pole can absorb a difference of speed (steps/s). A load reduces the energy that the pole
+    can absorb."""
     lag = lag_for(drive.load, pull) * _FULL
     depth = pull * (math.cos(lag) - math.cos(math.pi - lag)) - drive.load * (math.pi - 2 * lag)
     return drive.load < pull and drive.mass * (between * STEP) ** 2 / 2 <= depth * STEP / _FULL
 
 
 def by_sine(pulses: Pulses, drive: Drive) -> Followed:
-    """Follow a train in the sine model, in steps of a tenth of a millisecond."""
+    """Let a rotor follow a pulse train in the sine model, in steps of a tenth of a millisecond."""
     field, speeds = commanded(pulses, _FINE)
     pulls = [drive.pull_out(speed) for speed in speeds.tolist()]
     damper, mass = drive.damper, drive.mass

@@ -1,4 +1,4 @@
-"""Study of one axis: a move, the force that it requires, and whether the rotor follows it."""
+"""Studies one axis: a move, the force that it requires, and whether the rotor follows it."""
 
 import math
 from typing import Final, Literal
@@ -27,7 +27,7 @@ _HEAVIEST: Final = 1000.0  # kg
 
 
 class Moment(Record, frozen=True, kw_only=True):
-    """A moment of a move."""
+    """The state of a move at one moment."""
 
     time: float  # s
     speed: float  # steps/s
@@ -70,10 +70,10 @@ def study(
 
     Args:
         mass: moving mass, kg.
-        slow: constant speed, mm/s; None: the profile for the length.
+        slow: constant speed (mm/s), or None for the profile that belongs to the length of the move.
         load: force against the motion, N.
         stop_after: time after which an emergency stop begins, s; None: no stop.
-        cut: stop by omitting the pulses, instead of by the steepest ramp.
+        cut: stop by sending no more pulses, instead of by the steepest ramp.
     """
     _check(mass, steps, curve, slow, load)
     shape = CURVES[curve]
@@ -141,7 +141,7 @@ def _moments(pulses: Pulses, drive: Drive) -> tuple[Moment, ...]:
 
 
 def lines(found: AxisStudy) -> list[str]:
-    """The study in words and a table."""
+    """Describe the study in words and a table."""
     curve = CURVES[found.curve]
     load = f" against {found.load:g} N" if found.load else ""
     out = [
@@ -165,7 +165,7 @@ _INTERRUPTED: Final = {"": "", "stop": ", stopped by the steepest ramp", "cut": 
 
 
 def verdict(found: AxisStudy) -> list[str]:
-    """Sentences on whether the rotor follows."""
+    """Say in sentences whether the rotor follows the pulses."""
     out = [
         f"the smallest ratio of the pull-out force to the required force is {found.margin:.2f}, at "
         f"{1000 * found.tightest:.0f} ms"
@@ -191,6 +191,6 @@ def verdict(found: AxisStudy) -> list[str]:
 
 
 def series(found: AxisStudy) -> tuple[NDArray[np.float64], ...]:
-    """Times (ms), speeds, required forces and pull-out forces."""
+    """Return the times (ms), speeds (steps/s), required forces (N) and pull-out forces (N)."""
     rows = [(1000 * m.time, m.speed, m.force, m.pull_out) for m in found.moments]
     return tuple(np.array(rows).T)

@@ -1,1 +1,2 @@
-"""MAL programs as runs: stepped by statement, saved, resumed, and taken back to earlier states of all tasks."""
+"""MAL programs as runs, which can be stepped by statement, saved, resumed, and taken back to earlier states of
+all tasks."""

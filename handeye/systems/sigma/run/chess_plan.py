@@ -1,4 +1,4 @@
-"""The run of the chess experiment: its program, and the pieces on its board."""
+"""Sets up the run of the chess experiment: its program, and the pieces on its board."""
 
 from typing import Final
 
@@ -13,11 +13,11 @@ PROGRAM: Final = "chess.mal"
 
 
 def chess_plan(pieces: int) -> MalPlan:
-    """The plan for a board with this number of pieces."""
+    """Return the plan for a board with this number of pieces."""
     text = read_source(plans() / PROGRAM).text
     return MalPlan(name=PROGRAM, text=text, arm="gantries", pieces=pieces)
 
 
 def chess_setup(pieces: int, world: WorldSpec) -> Setup:
-    """The setup of a run of the chess experiment."""
+    """Return the setup of a run of the chess experiment."""
     return Setup(system=ENTRY.name, plan=chess_plan(pieces), world=world, camera="auto", judged=True)

@@ -1,4 +1,4 @@
-"""Trials of the chess experiment: boards generated from seeds, sorted and judged."""
+"""Trials of the chess experiment. Boards are drawn from seeds, sorted, and judged."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -72,7 +72,7 @@ class ChessWork:
 
 
 def _more(rows: Sequence[ChessRow]) -> dict[str, object]:
-    """Means of the figures, and the greatest error of each kind."""
+    """Return the means of the figures, and the greatest error of each kind."""
     ended = [row for row in rows if row.figures]
     names = ended[0].figures if ended else ()
     most: dict[str, float] = {}

@@ -1,4 +1,4 @@
-"""Runs a MAL program on the simulated bus only, to measure the load of bus and computer."""
+"""Runs a MAL program on the simulated bus without gantries, to measure the load of bus and computer."""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -17,7 +17,7 @@ _LONGEST: Final = 3_600  # s by the clock of the machine
 
 
 class BusRun(Record, frozen=True, kw_only=True):
-    """Results of a program on the bus."""
+    """The results of a program on the bus."""
 
     completed: bool
     message: str  # why it did not finish; empty: it did
@@ -36,7 +36,7 @@ def over_wires(
     seed: int = 0,
     poll: Callable[[], None] = lambda: None,
 ) -> tuple[BusRun, WiredBus, list[AnyBusEvent]]:
-    """Run a program; returns the results, the bus, and its log."""
+    """Run a program. Returns the results, the bus, and the log of the bus."""
     bus, log = WiredBus(defects=defects, seed=seed), list[AnyBusEvent]()
     bus.tell.append(log.append)
     vm = VirtualMachine(program, bus, poll=poll, statement_us=statement_us)
@@ -65,7 +65,7 @@ def over_wires(
 
 
 def lines(found: BusRun, log: Sequence[AnyBusEvent]) -> list[str]:
-    """The results of a run, in sentences."""
+    """Describe the results of a run in sentences."""
     out = [
         found.message or "all tasks have ended",
         f"{counted(found.commands, 'command')} in {found.seconds:.3f} s: {found.per_second:.2f} a second, "

@@ -1,4 +1,4 @@
-"""The plan of a MAL run: the text of the program, and settings of the run."""
+"""The plan of a MAL run: the text of the program, and the settings of the run."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ LONGEST_STATEMENT_US: Final = 1_000_000
 
 
 class MalPlan(Record, frozen=True, kw_only=True):
-    """A program and the machine on which it runs."""
+    """A program, and the machine on which it runs."""
 
     name: str
     text: Annotated[str, msgspec.Meta(max_length=LARGEST)]
@@ -36,14 +36,14 @@ class MalPlan(Record, frozen=True, kw_only=True):
 
     @property
     def task(self) -> TaskName:
-        """Name of the task of the plan's runs."""
+        """Name of the task to which runs of the plan belong."""
         if self.pieces:
             return "chess"
         return "gantries" if self.arm == "gantries" else "mal"
 
     @property
     def program(self) -> MalProgram:
-        """The compiled program; raises BadFile if the text has errors."""
+        """The compiled program. Raises BadFile if the text has errors."""
         return program_of(self.name, self.text)
 
 
@@ -65,7 +65,7 @@ class MalStep:
 
     @property
     def needs(self) -> Device | None:
-        """The device that the line uses: `hand` for a line that actuates a hand's device."""
+        """The device that the line uses: `hand` if the line actuates a device of a hand, or else None."""
         return (
             "hand"
             if self.word == "ACTUATE" and any(f" {name}" in self.text for name in MAL_DEVICES)
@@ -93,7 +93,7 @@ class MalListing:
 
 @lru_cache(maxsize=8)
 def listing(plan: MalPlan) -> MalListing:
-    """The listing of a plan; the names of tasks are its labels."""
+    """Return the listing of a plan. Its labels are the names of the tasks."""
     program = plan.program
     steps = [
         MalStep(line=line.number, text=line.text, word=line.word, task=line.task, ways=line.ways)
@@ -123,7 +123,7 @@ def decode(data: bytes, name: str) -> MalPlan:
 
 
 def sound(plan: MalPlan) -> None:
-    """Raises BadFile unless the plan's program can be executed."""
+    """Raise BadFile unless the plan's program can be executed."""
     if plan.pieces and plan.arm != "gantries":
         raise BadFile(f"{plan.name} has pieces on its board, but no gantries")
     if not plan.program.lines:

@@ -1,4 +1,4 @@
-"""A MAL program during a run: a step is one statement of the task whose turn it is."""
+"""A MAL program during a run. A step is one statement of the task whose turn it is."""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -154,7 +154,7 @@ class RunningMal(RunningSystem):
         self._call()
 
     def _stand(self) -> None:
-        """Record the present place of each task."""
+        """Record where each task is in the program."""
         state, memory, program = self._state, self.vm.memory, self.vm.program
         turn = self.vm.turn
         names = sorted(memory.tasks, key=lambda name: name != turn)
@@ -166,7 +166,7 @@ class RunningMal(RunningSystem):
             self._close("done")
 
     def _call(self) -> None:
-        """Call the operator if the program stands."""
+        """Call the operator if the program has stopped."""
         state, fault = self._state, self.vm.memory.fault
         if fault is None:
             return
@@ -181,7 +181,8 @@ class RunningMal(RunningSystem):
             self._state.stage = None
 
     def answer(self, choice: Choice) -> None:
-        """Continue: after the statement at which the program stands, by repeating it, or not at all."""
+        """Follow the operator's answer: continue after the statement at which the program has stopped, repeat
+        that statement, or end the program."""
         state = self._state
         state.stopped, state.onward = None, None
         if choice == "skip":
@@ -202,7 +203,7 @@ class RunningMal(RunningSystem):
         raise refusal(ENTRY.name, "undo")
 
     def type_line(self, text: str, task: str) -> None:
-        """Give a number to the task that waits for one."""
+        """Give the typed number to the task that waits for one."""
         self.vm.type_number(text, task)
         state = self._state
         state.stopped, state.onward = None, None
@@ -300,8 +301,8 @@ class RunningMal(RunningSystem):
 
 
 def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness | None]":
-    """The bus of the simulated machine, the gantries, and the witness that records what the program prints about
-    its board.
+    """Return the bus of the simulated machine, the gantries, and the witness, which records what the program
+    prints about its board.
     """
     from handeye.systems.sigma.chess.task import board
     from handeye.systems.sigma.chess.witness import Witness

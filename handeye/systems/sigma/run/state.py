@@ -1,4 +1,5 @@
-"""The state of a MAL run between two statements: that of the virtual machine, and that of the machine."""
+"""Defines the state of a MAL run between two statements: the state of the virtual machine, and that of the
+simulated machine."""
 
 from msgspec import field
 
@@ -9,7 +10,7 @@ from handeye.systems.sigma.mal.memory import MalMemory
 
 
 class MalState(SystemState, kw_only=True):
-    """The whole state, except the program."""
+    """The complete state of a run, except the program."""
 
     memory: MalMemory = field(default_factory=MalMemory)
     machine: PerfectMemory | None = None  # of perfect motors

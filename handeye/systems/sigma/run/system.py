@@ -1,4 +1,4 @@
-"""SUPERSIGMA as a system: builds its runs, and provides the words for them."""
+"""Defines SUPERSIGMA as a system. It builds runs, and provides the words for them."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -20,7 +20,7 @@ OWN: Final = "handover.mal"  # the program that is run where none is named
 
 
 class SigmaSystem(System):
-    """MAL programs, executed on the machine of their plan."""
+    """The system that executes MAL programs on the machine of their plan."""
 
     name = ENTRY.name
     plan = MalPlan

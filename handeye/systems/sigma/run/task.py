@@ -1,4 +1,4 @@
-"""The task of a MAL program on perfect motors: no errors are drawn, and there is no referee."""
+"""Defines the task of a MAL program on perfect motors. No errors are drawn, and there is no referee."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class MalTask(AnyTask):
-    """A task without scene and referee, for perfect motors."""
+    """A task for perfect motors, without scene and referee."""
 
     name = "mal"
     words = Words(product="the program", done="The program has ended.")
