@@ -63,7 +63,7 @@ def test_a_report_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_
     command: Command, kept: Path
 ) -> None:
     assert command("report", "kept")[1] == "kept/report.html\n"
-    assert command("report", "kept")[1] == "kept/report.html; the earlier one is replaced\n"
+    assert command("report", "kept")[1] == "kept/report.html; the earlier file is replaced\n"
     assert command("report", "kept", "-o", "page.html")[0] == 0
     assert refused(command, "kept", "-o", "page.html") == "page.html already exists; --overwrite replaces it"
     assert command("report", "kept", "-o", "page.html", "--overwrite")[0] == 0

@@ -176,7 +176,7 @@ def test_a_video_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_r
 ) -> None:
     assert command("video", "kept", *SMALL)[0] == 0
     shutil.copy(kept / "video.webp", "it.webp")
-    assert command("video", "kept", *SMALL)[1].endswith("; the earlier one is replaced\n")
+    assert command("video", "kept", *SMALL)[1].endswith("; the earlier file is replaced\n")
     said = refused(command, "kept", "-o", "it.webp", *SMALL)
     assert said == "it.webp already exists; --overwrite replaces it"
 

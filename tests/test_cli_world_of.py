@@ -97,8 +97,8 @@ def test_a_fault_that_cannot_set_in_is_told(
 ) -> None:
     short = planned("OPEN 1\n")
     assert refused(command, short, "--world-of", "run") == (
-        "the fault lamp.dead from stage 2 on of run begins at a later stage than this plan has: it has 1 "
-        "stage"
+        "the fault lamp.dead from stage 2 on of run begins at a later stage than this plan has; the plan has "
+        "1 stage"
     )
 
 

@@ -83,10 +83,10 @@ _MEANINGS: Final = {
     "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if it never does",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
     "OPEN": "open or close the fingers to this gap (in)",
-    "CLOSE": "close on a part; error 2 if there is none or it is thinner than the minimum (in), error 7 if it is "
-    "thicker than the maximum (in)",
-    "CENTER": "close without pushing the part: the arm moves instead; error 2 if there is none or it is thinner than "
-    "the minimum (in)",
+    "CLOSE": "close on a part; error 2 if there is no part or the part is thinner than the minimum (in), error 7 if "
+    "the part is thicker than the maximum (in)",
+    "CENTER": "close on a part without pushing it: the arm moves instead; error 2 if there is no part or the part is "
+    "thinner than the minimum (in)",
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
     "SEARCH": "start a search from the present place with this step (in): a spiral of three steps to each side, or, "
@@ -149,7 +149,7 @@ _OPERANDS: Final[dict[str, tuple[Operand, ...]]] = {
     "FREE": (_AXES,),
     "SPIN": (_AXES,),
     "VIA": (_POSITION, *[replace(_POSITION, optional=True)] * (VIAS - 1)),
-    "TOUCH": (count("mask", 1, 3, "1 and 2 are the fingers, 3 is either"),),
+    "TOUCH": (count("mask", 1, 3, "1 and 2 each mean one finger, 3 means either finger"),),
     "TORQUE": (number("torque", OZ_IN, MIN_POSITIVE),),
     "RESTORE": (name_of("name", Refers.SAVED), word("LEVEL")),
     "OPEN": (gap("gap"),),

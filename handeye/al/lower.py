@@ -230,7 +230,7 @@ class _Lowerer:
         if motion.word.text not in fits:
             modified = Label(span=motion.word.span, text="the motion")
             message = f"`{word.text}` cannot modify `{motion.word.text}`"
-            help = "it modifies " + ", ".join(f"`{op}`" for op in fits)
+            help = "this modifier can modify only " + ", ".join(f"`{op}`" for op in fits)
             self.problem("modifier-misplaced", message, word, modified, help=help)
             return False
         if modifier is not first:
@@ -340,7 +340,7 @@ class _Lowerer:
     def skips_modifier(self, skip: Name, modifier: Name) -> None:
         skipped = Label(span=modifier.span, text="the skip would skip only this")
         message = f"`{skip.text}` would skip `{modifier.text}`, but not the motion it modifies"
-        help = "jump over both with the opposite test and `JUMP`"
+        help = "jump over modifier and motion with the opposite test and `JUMP`"
         self.problem("skip-over-modifier", message, skip, skipped, help=help)
 
     def problem(

@@ -308,7 +308,9 @@ class Run:
         if self.out is None:
             raise Refused("the run has no folder, and so no trace; begin it with out=...")
         if self._closed is None:
-            raise Refused("the trace is complete when the run is closed: leave its `with`, or close() it")
+            raise Refused(
+                "the trace is complete only after the run is closed: leave the `with` block, or call close()"
+            )
         return read_trace_as(Trace, self.out / TRACE)
 
     @property

@@ -66,6 +66,6 @@ def _check_faults(path: Path, begun: RunStarted, plan: Plan) -> None:
     for fault in begun.world.faults:
         if fault.stage is not None and fault.stage > stages:
             raise BadArgument(
-                f"the fault {fault} of {path} begins at a later stage than this plan has: it has "
-                f"{counted(stages, 'stage')}"
+                f"the fault {fault} of {path} begins at a later stage than this plan has; the plan "
+                f"has {counted(stages, 'stage')}"
             )

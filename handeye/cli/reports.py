@@ -61,7 +61,7 @@ def report(
         raise BadArgument("--demo brings its own run; give either a run or --demo")
     if demo:
         place = output or Path(DEMO)
-        replaced = "; the earlier one is replaced" if place.exists() else ""
+        replaced = "; the earlier file is replaced" if place.exists() else ""
         write_report(resources.demo(), place, overwrite=overwrite or output is None)
         note(f"open {place} in a browser")
     elif run is not None and other is not None:
@@ -72,7 +72,7 @@ def report(
     else:
         run = run_or_newest(run)
         place = output or (run / REPORT if run.is_dir() else run.with_name(REPORT))
-        replaced = "; the earlier one is replaced" if place.exists() else ""
+        replaced = "; the earlier file is replaced" if place.exists() else ""
         write_report(run, place, overwrite=overwrite or output is None)
     say(f"{place}{replaced}")
     return 0

@@ -80,7 +80,7 @@ def video(
     place = output or (run / VIDEO if run.is_dir() else run.with_name(VIDEO))
     trace = _trace(run)
     check_task(wanted_task, trace.head.task, run)
-    replaced = "; the earlier one is replaced" if place.exists() else ""
+    replaced = "; the earlier file is replaced" if place.exists() else ""
     with drawing() as told:
         made = make_video(trace, place, wanted, overwrite=overwrite or output is None, told=told)
     how = f"{counted(made.frames, 'frame')} of {wanted.width} x {wanted.height}"

@@ -140,8 +140,8 @@ def view(way: Course, lacking: str, opening: float = 0.0) -> Iterator[Markup]:
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     yield element("div", play, slider, speed, views, id="controls", class_="controls", hidden=True)
     yield note(
-        "The runs are aligned step by step. Where one run took longer over a step, or did a step that the other run "
-        "did not do, the view of the other run waits."
+        "The runs are aligned step by step. Where one run took longer over a step, or executed a step that the other "
+        "run did not execute, the view of the other run waits."
     )
 
 

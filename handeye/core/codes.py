@@ -160,9 +160,7 @@ CODES: Final[dict[str, Code]] = {
         "a search has no MOVE between its label and its AOJ",
         "MOVE T\nSEARCH .07\nL: STOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
-    "search-without-aoj": _warning(
-        "there is no AOJ after a SEARCH on any path from it", "SEARCH .07\nMOVE T"
-    ),
+    "search-without-aoj": _warning("no AOJ can be executed after a SEARCH", "SEARCH .07\nMOVE T"),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
         "a skip would skip a modifier but not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"

@@ -105,7 +105,7 @@ ERRORS: Final[dict[int, str]] = {
     WATCHDOG: "the computer missed a servo period: drives cut, brakes set",
     SEARCH_EXHAUSTED: "the search has tried all its places",
     WRONG_THICKNESS: "the object between the fingers is thicker than the maximum",
-    WRONG_TRAVEL: "the last CHANGE, PLACE or CENTER moved too far, or not far enough",
+    WRONG_TRAVEL: "the last CHANGE, PLACE or CENTER moved the hand too far or not far enough",
     WRONG_HEIGHT: "the hand stopped at a wrong height above the place of a SAVE",
     NO_FORCE: "the motion ended without meeting the force of its STOP",
     NO_TORQUE: "the motion ended without meeting the torque of its TORQUE",
@@ -115,13 +115,13 @@ ERRORS: Final[dict[int, str]] = {
     GASKET_WRONG: "the gasket is not in place",
     PART_ASTRAY: "the part has moved since the earlier picture",
     SWITCH_WRONG: "a finger switch does not show what its finger touches, or the fingers press too weakly",
-    GAP_WRONG: "the gap is not the commanded one: its potentiometer fails, something holds or forces the fingers, or "
-    "the held part has slipped",
+    GAP_WRONG: "the gap differs from the commanded gap: its potentiometer fails, something holds or forces the "
+    "fingers, or the held part has slipped",
     FORCE_WRONG: "the hand feels a force in free air: something touches it, the load differs from the declared one, "
     "or the force sense or a drive fails",
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
     CURRENT_WRONG: "the current of the screwdriver's motor does not fit its torque and speed",
-    PICTURE_WRONG: "the camera gives a picture that is not live, or too noisy",
+    PICTURE_WRONG: "the camera's picture is not live, or is too noisy",
     JOINT_STIFF: "one joint alone does not follow its drive: its drive, brake or friction has changed",
 }
 """Error numbers that a script can test, with the message to the operator. Numbers 2 and 23 are those of 1973;

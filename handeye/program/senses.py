@@ -10,7 +10,7 @@ SENSES: Final[tuple[str, ...]] = get_args(Sense)
 ASSUMPTIONS: Final[dict[str, str]] = {
     "vision": "every part is assumed to be at its planned pose",
     "touch": "finger switches report nothing: CENTER closes blindly and measures nothing",
-    "search": "every search tries one place only",
+    "search": "every search tries only its first place",
     "force": "no force ends or guides a motion: every motion is assumed to have ended as planned",
     "centring": "CENTER acts as CLOSE: the hand does not yield",
 }

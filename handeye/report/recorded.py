@@ -60,7 +60,9 @@ def check_scene(run: RecordedRun) -> None:
     for begin in run.trace.times[:1]:
         for name in run.trace.at(float(begin)).poses:
             if name not in there:
-                raise BadFile(f"{run.trace.name} belongs to another scene: here there is no {quoted(name)}")
+                raise BadFile(
+                    f"{run.trace.name} belongs to another scene: the scene shown here has no {quoted(name)}"
+                )
 
 
 def told_faults(run: RecordedRun) -> Iterator[tuple[str, str]]:

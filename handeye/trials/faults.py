@@ -247,7 +247,7 @@ FAULTS: Final = Sweep(
         "recovered": "right", "stopped": "right", "misnamed": "wrong",
         "unnoticed": "silent", "unbraked": "silent", "silent": "silent",
     },
-    success="recovered from, or stopped with the right name",
+    success="recovered, or stopped and named rightly",
     noun="fault",
     sentence=_sentence,
     summary=_summary,

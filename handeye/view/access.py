@@ -49,7 +49,7 @@ class Access:
         if [*hosts] not in ([host] for host in own):
             return Refusal(HTTPStatus.FORBIDDEN, "this server has another name")
         if [*origins] not in ([f"http://{host}"] for host in own) and (origins or path == LIVE):
-            return Refusal(HTTPStatus.FORBIDDEN, "another page cannot use this server")
+            return Refusal(HTTPStatus.FORBIDDEN, "this server refuses requests from other web pages")
         if not self._has_token(query):
             wrong = "the token is missing or wrong: open the address that handeye printed"
             return Refusal(HTTPStatus.FORBIDDEN, wrong)

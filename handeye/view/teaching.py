@@ -69,7 +69,7 @@ def _jogging(arm: ArmModel) -> Markup:
         _pair(f"j{number}", joint.name, "way" if joint.kind == "prismatic" else "angle")
         for number, joint in enumerate(arm.joints, 1)
     )
-    grids = _grid("hand, a step at a time", hand), _grid("joints, a step at a time", joints)
+    grids = _grid("move the hand step by step", hand), _grid("move the joints step by step", joints)
     return element("div", steps, *grids, id="jog")
 
 

@@ -172,7 +172,9 @@ def _number(given: object, said: str) -> float:
 
 
 def _points(given: object, name: str) -> Array:
-    found = places(given, f"the {name} of beams are pairs of numbers, shape (n, 2)")
+    found = places(given, f"the {name} of the beams must be pairs of numbers, shape (n, 2)")
     if found.ndim != 2 or found.shape[1] != 2:
-        raise BadArgument(f"the {name} of beams are pairs of numbers, shape (n, 2), not {found.shape}")
+        raise BadArgument(
+            f"the {name} of the beams must be pairs of numbers, shape (n, 2), not {found.shape}"
+        )
     return found

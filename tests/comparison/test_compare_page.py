@@ -136,12 +136,12 @@ def test_without_a_scene_the_page_says_so_and_has_all_else(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def lacking(_: RecordedRun) -> None:
-        raise InvalidInput("a.mcap belongs to another scene: here there is no `base`")
+        raise InvalidInput("a.mcap belongs to another scene: the scene shown here has no `base`")
 
     monkeypatch.setattr("handeye.report.recorded.check_scene", lacking)
     assert command("compare", "a.mcap", "b.mcap", "-o", "page.html")[0] == 0
     page = tree(Path("page.html").read_text(encoding="utf-8"))
-    said = "There is no 3D view: a.mcap belongs to another scene: here there is no `base`."
+    said = "There is no 3D view: a.mcap belongs to another scene: the scene shown here has no `base`."
     assert said in [node.text for node in page.all("p")]
     assert [node.attributes["id"] for node in page.all("section") if "aria-labelledby" in node.attributes][
         :2

@@ -98,7 +98,7 @@ def test_the_last_guarded_motions_of_a_run_that_failed_are_unfolded(run: Recorde
         ({"error": 6}, "Error 6: the search has tried all its places."),
         (
             {"cause": NothingBetween(gap=0.0254)},
-            "Not both fingers touch; the gap is 1.00 in.",
+            "At most one finger touches; the gap is 1.00 in.",
         ),
         ({}, "The program called the operator."),
     ],

@@ -42,8 +42,7 @@ def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int, faile
 def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: bool) -> Iterator[Markup]:
     if lost:
         yield note(
-            f"{counted(lost, 'guard')} tripped before this trace begins; the forces before that time were not "
-            "recorded."
+            f"Before this trace begins, {counted(lost, 'guard')} tripped; the forces of that time were not recorded."
         )
     if not motions:
         if not lost:

@@ -63,7 +63,7 @@ def planned_section(
 
 def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Iterator[Markup]:
     if not ends:
-        yield note("No motion of this run ended.")
+        yield note("No motion of this run was completed.")
         return
     yield note(
         f"How far each of {counted(len(ends), 'motion')} ended from its planned end, in millimetres, as the arm’s "

@@ -38,7 +38,9 @@ def record_section(run: RecordedRun) -> Markup:
 def _again(run: RecordedRun) -> Iterator[Markup]:
     typed = command(run)
     if typed is None:
-        yield note("This run used Python code of its caller; the same call from Python repeats it.")
+        yield note(
+            "This run used Python code of the calling program. To repeat the run, make the same call from Python."
+        )
         return
     yield element("pre", element("code", typed), class_="command")
     if any(isinstance(event, OperatorAnswered | ExperimentMade | LineTyped) for event in run.trace.events):

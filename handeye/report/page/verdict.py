@@ -121,7 +121,7 @@ def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
     told = f"The referee made {counted(len(run.result.referee), 'measurement')}"
     if shares:
         share, check = max(shares, key=lambda each: each[0])
-        told += f"; closest to its limit is the {check.subject}, at {100 * share:.0f} %"
+        told += f"; closest to its limit is the {check.subject}, at {100 * share:.0f} % of the limit"
     yield element("p", f"{told}.")
     for doubt in outcome.doubts:
         yield element("p", f"Caution: {doubt.told}.", class_="doubtful")

@@ -56,7 +56,7 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
     if list(trace.events) != carried.runner.events:
         yield "the trace differs from what happened"
     if trace.head.world != carried.runner.setup.world:
-        yield "the trace is of another world"
+        yield "the trace belongs to another world"
 
 
 def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]:

@@ -118,7 +118,7 @@ def test_a_job_that_is_right_is_told_and_kept(command: Command) -> None:
     assert "Palletise: right" in Path("job/report.html").read_text(encoding="utf-8")
     assert command("report", "job", "-o", "other.html")[0] == 0
     assert Path("other.html").read_bytes() == Path("job/report.html").read_bytes()
-    assert command("report", "job")[1] == "job/report.html; the earlier one is replaced\n"
+    assert command("report", "job")[1] == "job/report.html; the earlier file is replaced\n"
 
 
 @pytest.mark.slow

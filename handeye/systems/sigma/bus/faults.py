@@ -37,7 +37,7 @@ KINDS: Final[dict[str, Defects]] = {
         help="a regenerator does not reverse its direction for answers", where="segment", default=1
     ),
     "long-strobe": Defects(
-        help="the computer raises /DATA READY late, by this time",
+        help="the computer raises /DATA READY later by this time",
         value="microseconds",
         amount=35,
         least=3,
@@ -59,14 +59,18 @@ KINDS: Final[dict[str, Defects]] = {
         most=500,
     ),
     "address": Defects(
-        help="a microcomputer answers to another number than its own",
+        help="a microcomputer answers to this number instead of its own",
         where="microcomputer",
         value="number",
         amount=1,
         most=255,
     ),
-    "status-a": Defects(help="status line A is stuck", where="microcomputer", value="level", amount=1),
-    "status-b": Defects(help="status line B is stuck", where="microcomputer", value="level", amount=1),
+    "status-a": Defects(
+        help="status line A is stuck at this level", where="microcomputer", value="level", amount=1
+    ),
+    "status-b": Defects(
+        help="status line B is stuck at this level", where="microcomputer", value="level", amount=1
+    ),
     "no-reflex": Defects(help="the wires from the wrists to the motors are cut"),
     "no-interrupt": Defects(help="the wire that joins the A lines of the motors is broken"),
 }

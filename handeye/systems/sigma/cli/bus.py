@@ -28,7 +28,9 @@ BusFaults = Annotated[
 AllLines = Annotated[
     bool, Parameter(negative=(), help="Show all twenty status lines, including those that do not change.")
 ]
-Seed = Annotated[WholeNumber, Parameter(help="Seed of the world: when each microcomputer begins to poll.")]
+Seed = Annotated[
+    WholeNumber, Parameter(help="Seed of the world: it decides when each microcomputer begins to poll.")
+]
 
 bus = App(
     name="bus",
@@ -190,7 +192,8 @@ def errors(
         WholeNumber, Parameter(help="Number of commands to draw for each clock error.")
     ] = 200_000,
     seed: Annotated[
-        WholeNumber, Parameter(help="Seed of the world: bytes, clocks, and when receivers become free.")
+        WholeNumber,
+        Parameter(help="Seed of the world: it decides bytes, clocks, and when receivers become free."),
     ] = 0,
     json: Json = False,
 ) -> int:

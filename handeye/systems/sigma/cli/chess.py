@@ -34,7 +34,9 @@ Pieces = Annotated[WholeNumber, Parameter(help=f"Number of pieces on the board, 
 def chess(
     *,
     pieces: Pieces = USUAL,
-    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: pieces, and errors of the machine.")] = 0,
+    seed: Annotated[
+        WholeNumber, Parameter(help="Seed of the world: it decides the pieces and the errors of the machine.")
+    ] = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     json: Json = False,
     details: Details = False,

@@ -42,7 +42,7 @@ MEANS: Final = {
     "strobe": Means("strobe", "let a microcomputer become free amid a command to another one"),
     "force": Means("force ARM", "load each component of a wrist with known forces"),
     "beam": Means("beam ARM", "hold nothing, a rod and a grey glass into the beam of a hand"),
-    "grip": Means("grip ARM", "close a hand on a block off its middle"),
+    "grip": Means("grip ARM", "close a hand on a block that is not in the middle of its fingers"),
     "origin": Means("origin AXIS", "search the low end of a rail"),
     "rail": Means("rail AXIS", "move to the high end of a rail"),
     "moves": Means("moves AXIS", "move out at full speed, and look for lost steps at the low switch"),

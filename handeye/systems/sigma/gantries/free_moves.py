@@ -65,7 +65,7 @@ def lines(found: Sequence[FreeMoves]) -> list[str]:
         moves, tripped = sum(each.moves for each in these), sum(each.tripped for each in these)
         worlds = counted(len(these), "world")
         out.append(
-            f"{'with' if compensated else 'without'} accelerometers: {tripped} of {moves} moves stopped in {worlds}; "
-            f"the greatest force is {min(forces):.1f} to {max(forces):.1f} N"
+            f"{'with' if compensated else 'without'} accelerometers: the reflex stopped {tripped} of {moves} moves in "
+            f"{worlds}; the greatest force in a world was {min(forces):.1f} to {max(forces):.1f} N"
         )
     return out

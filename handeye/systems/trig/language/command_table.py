@@ -68,11 +68,11 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="MAG [POS [n|g]]", group=STEPS, takes=("position", "branch"),
-        act=step_commands.move("absolute", guarded=True), help="as MA, guarded",
+        act=step_commands.move("absolute", guarded=True), help="like MA, but slow and guarded",
     ),
     TrigCommand(
         usage="MRG [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"),
-        act=step_commands.move("relative", guarded=True), help="as MR, guarded",
+        act=step_commands.move("relative", guarded=True), help="like MR, but slow and guarded",
     ),
     TrigCommand(usage="GRASP", group=STEPS, act=step_commands.hand(True), help="close the hand"),
     TrigCommand(usage="UNGRASP", group=STEPS, act=step_commands.hand(False), help="open the hand"),
@@ -122,18 +122,18 @@ TABLE: Final = (
         help="give the present position of the arm a name",
     ),
     TrigCommand(
-        usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here, help="the same"
+        usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here, help="the same as HERE"
     ),
     TrigCommand(
         usage="SR POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here_relative,
-        help="name the move to here from the end of the last step",
+        help="give a name to the move from the end of the last step to the present place of the arm",
     ),
     TrigCommand(
         usage="CALPOS", group=POSITIONS, act=arm_commands.begin_way, help="remember the place of the arm for ENDCAL"
     ),
     TrigCommand(
         usage="ENDCAL POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.end_way,
-        help="name the move from the place of CALPOS to the present place of the arm",
+        help="give a name to the move from the place of CALPOS to the present place of the arm",
     ),
     TrigCommand(
         usage="N [COUNT]", group=CURSOR, takes=("count",), act=program_commands.next_step, help="go down COUNT steps"

@@ -118,7 +118,7 @@ def target_hint(session: Session) -> str:
     if first == NONE:
         return "the program is empty"
     name = session.program.graph[first].name
-    return f"the first is {name}" if name else "P and CN name the first"
+    return f"the first step is {name}" if name else "to name the first step, go to it with P and type CN"
 
 
 def link(session: Session, given: Arguments) -> None:
@@ -151,7 +151,7 @@ def rename(session: Session, given: Arguments) -> None:
     """CN: give the active step a name."""
     node, name = active_step(session), given.step or ""
     if node.type == "loop":
-        raise Refused("a loop step shows where it goes back to and has no name")
+        raise Refused("a loop step has no name: its line shows the step to which it goes back")
     other = session.program.graph.named(name)
     if other is not None and other is not node:
         raise BadArgument(f"another step is called {name}; GOTO {name} shows which")

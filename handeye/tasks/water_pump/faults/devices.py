@@ -68,7 +68,7 @@ _WITHIN_DRIVES: Final = (
 )
 
 _WITHIN_WEIGHTS: Final = (
-    "Only joints 2 and 3 carry weight, and the arm knows their weights to 6 and 17 %. It takes an error that is "
+    "Only joints 2 and 3 carry weight, and the arm knows their weights to 6 and 17 %. The arm takes an error that is "
     "present from the start for the weight of the links."
 )
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
