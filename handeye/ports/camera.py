@@ -11,13 +11,13 @@ from handeye.core.record import Record
 COLUMNS: Final = 333
 ROWS: Final = 256
 RASTER: Final = (0.0128, 0.0096)
-"""Width and height of the raster on a one-inch vidicon, m. Inferred; picture points are not square."""
+"""Width and height of the raster on a one-inch vidicon (m). Inferred; picture points are not square."""
 
 WIDE: Final = 0.025  # focal length of a lens of the turret, m, as CLOSE_UP
 CLOSE_UP: Final = 0.050
 LENSES: Final = (WIDE, CLOSE_UP)
 FIRST_LENS: Final = CLOSE_UP
-"""The lens in place when the cell is switched on, as after the last look of a run."""
+"""The lens in place when the cell is switched on. It is also the lens of the last picture of a run."""
 
 DIGITISE: Final = 0.5  # s for a picture: the layout study, 6
 
@@ -29,7 +29,9 @@ class Renderer(Record, frozen=True, kw_only=True):
 
     method: Literal["opengl", "rays", "none", "replaced"]  # `replaced`: by code of the calling program
     platform: str = ""
-    """Library that provides OpenGL: `EGL`, `OSMesa`, ...; or the name of the code that replaces the renderer."""
+    """Library that provides OpenGL, such as `EGL` or `OSMesa`, or the name of the code that replaces the
+    renderer.
+    """
 
 
 class TvCamera(ABC):

@@ -17,7 +17,7 @@ from handeye.tasks.interface import HistoricalTiming, Words
 TimingRow = tuple[str, float, float | None]
 """A row of the timing table: name, seconds in this run, and seconds in 1973; None: not reported."""
 _NEUTRAL = Words(done="The referee accepts the result.", product="the work")
-"""Words for a task that is defined only in the Python program that began the run."""
+"""Words for a task that is unknown here, because only the Python program that began the run defines it."""
 _MARK = {
     "done": ("✓", "green"),
     "under way": ("▸", "yellow"),

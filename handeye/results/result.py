@@ -163,8 +163,8 @@ class Result(Record, frozen=True, kw_only=True):
     without: tuple[str, ...] | UnsetType = UNSET
     """Senses that were switched off in the program."""
     apart: bool | UnsetType | None = UNSET
-    """After all work was undone: True if the referee finds every part back in place. None: not judged, or not all
-    work was undone.
+    """Only for a run that undid its work: True if the referee finds every part back in its place; None if the
+    referee has not judged the run, or if only a part of the work was undone.
     """
     figures: dict[str, float] | UnsetType = UNSET
     """Figures that the system of the run adds, by name."""
@@ -227,7 +227,8 @@ def restore_figures(findings: Any) -> None:
 
 
 def told_limits(result: Result) -> tuple[str, ...]:
-    """The limits that the calling program set, each with its quantity and unit if the quantity was measured."""
+    """Return the limits that the calling program set, each with its quantity and unit if the quantity was
+    measured."""
     checks = {**result.referee, **(result.built or {})}
     return tuple(
         f"{name}: {limit:g}"

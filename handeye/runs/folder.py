@@ -310,12 +310,12 @@ def _refuse_others(path: Path) -> None:
 
 
 def holds_only_a_run(path: Path) -> bool:
-    """True if a folder contains only files of a run."""
+    """Return True if a folder contains only files of a run."""
     return not _others(path)
 
 
 def _others(path: Path) -> list[str]:
-    """Names of the files in a folder that do not belong to a run."""
+    """Return the names of the files in a folder that do not belong to a run."""
     ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", CHECKPOINTS, PICTURES, HOST, MARK, *_outcomes()}
     if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
         ours.remove(PICTURES)

@@ -52,8 +52,8 @@ class Meter:
 
 
 def read_host_seconds(path: Path) -> HostSeconds | None:
-    """Read the host time of earlier sessions; None if there is no record. Raises BadFile if the record is not
-    valid."""
+    """Read the host time of earlier sessions. Returns None if there is no record. Raises BadFile if the record
+    is not valid."""
     if not path.exists():
         return None
     try:

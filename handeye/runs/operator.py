@@ -104,7 +104,7 @@ class UnwindOnce:
 
 
 def undoing(runner: Runner) -> bool:
-    """True if the arm is undoing steps."""
+    """Return True if the arm is undoing steps."""
     last = next((event for event in reversed(runner.events) if isinstance(event, StepStarted)), None)
     return isinstance(last, UndoStarted)
 

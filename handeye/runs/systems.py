@@ -16,7 +16,7 @@ def system_named(name: str) -> System:
 
 
 def system_of(setup: Setup) -> System:
-    """The system of a run."""
+    """Return the system of a run."""
     return system_named(setup.system)
 
 

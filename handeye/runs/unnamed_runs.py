@@ -110,7 +110,7 @@ def _new_place(home: Path, start: Checkpoint) -> Path:
 
 
 def _runs(home: Path) -> Iterator[Path]:
-    """Folders that contain files of a run."""
+    """Yield the folders that contain files of a run."""
     if home.is_dir():
         for path in home.iterdir():
             if not path.name.startswith(".") and any((path / name).is_file() for name in (EVENTS, TRACE)):

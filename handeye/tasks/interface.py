@@ -58,7 +58,7 @@ class ExportedScene(Record, frozen=True, kw_only=True):
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Names of the bodies that can be exported separately, by the name of the whole that they form."""
     densities: Mapping[str, float] = field(default_factory=dict)
-    """Densities, kg/m3, of solids that consist of one metal, by their names."""
+    """Densities (kg/m3), of solids that consist of one metal, by their names."""
 
 
 class Disturbance(Record, frozen=True, kw_only=True):
@@ -85,14 +85,14 @@ class AnyTask(ABC):
     name: str
     words: Words
     camera: str = "studio"
-    """The camera of the scene that shows the whole cell; pictures use it unless another camera is named."""
+    """Name of the camera that shows the whole cell. Pictures are taken with it unless another camera is named."""
     photographs: tuple[str, ...] = ()  # cameras of the scene that photograph the end of a run
 
     force_axes: str = "world axes"  # axes of the hand's force in traces
     measures: Measures = INCHES  # display units for runs of the task
     holds_from: Mapping[str, int] = MappingProxyType({})
-    """Stages of the task's own program after which findings must already hold, by the beginning of the stage's
-    name.
+    """Number of the stage of the task's own program after which a finding must already hold, by the beginning
+    of the finding's name.
     """
 
     def __repr__(self) -> str:
@@ -152,7 +152,7 @@ class AnyTask(ABC):
 
 
 def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
-    """Raises Refused if a scene lacks a camera that its task names, or if it shows nothing."""
+    """Raise Refused if a scene lacks a camera that its task names, or if no shape in it is visible."""
     from handeye.cell.looks import LATENT, SCENERY, SEEN
 
     cameras = [scene.camera(number).name for number in range(scene.ncam)]
@@ -173,13 +173,15 @@ class Task(AnyTask):
 
     arm: ArmModel
     park: Array
-    """Joint positions at which the cell is switched on, rad or m, shape (n,)."""
+    """Joint positions at which the cell is switched on (rad or m), shape (n,)."""
     script: str | None = None
     """The task's own program, used unless another is named: a file among the included plans, or the path of a file
     elsewhere.
     """
     other_scripts: tuple[str, ...] = ()
-    """Further programs of the task, given in the same way. Commands find each by its file name without the ending."""
+    """Further programs of the task, given in the same way as `script`. Commands find each by its file name
+    without the ending.
+    """
     eye: CameraSetup | None = None
     period: HistoricalTiming | None = None
     contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})
@@ -232,7 +234,7 @@ class Task(AnyTask):
         raise Refused(f"the task {quoted(self.name)} exports no scene")
 
     def check_arm(self, plan: Plan) -> None:
-        """Raises Refused if a plan was not made for this task's arm."""
+        """Raise Refused if a plan was not made for this task's arm."""
         if (plan.arm, plan.arm_digest) != (self.arm.name, digest(self.arm)):
             raise Refused(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
         joints = len(self.arm.joints)

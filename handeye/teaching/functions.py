@@ -24,7 +24,9 @@ _ALONE: Final = frozenset(
         "unused-position", "unused-vector", "compared-without-hold",
     }
 )  # fmt: skip
-"""Warnings about instructions that are missing in the text; they may have been executed before, or may follow."""
+"""Codes of warnings about instructions that are missing in the text. These instructions may have been executed
+before, or may follow.
+"""
 _LASTING: Final = ("TRANS", "VECT")
 
 

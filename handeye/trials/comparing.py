@@ -20,7 +20,9 @@ class Difference(Record, frozen=True, kw_only=True):
     pairs: int
     more: float  # Median of how much more it is in this batch than in the first
     p: float
-    """Two-sided p of Wilcoxon's signed-rank test: the probability of such differences if both batches are equal."""
+    """Two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least so one-sided if
+    neither batch is better.
+    """
 
 
 class PairedBatch(Record, frozen=True, kw_only=True):

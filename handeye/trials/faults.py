@@ -29,7 +29,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
 """The outcome of a run with a fault.
 
-- recovered: the pump is right, which the fault permits
+- recovered: the pump is right, and the fault may remain unnoticed
 - stopped: brakes on, with an error that names the fault, in a correct stage
 - misnamed: stopped, but by another error or in another stage
 - unnoticed: the pump is right, but the fault should have been noticed
@@ -139,8 +139,8 @@ class FaultWork:
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs from which runs with faults of a later stage start; None: every run is
-    complete.
+    """Folder of the fault-free runs. A run whose fault begins with a later stage starts from one of them. None:
+    every run starts at its beginning.
     """
 
     def __call__(self, case: Case) -> list[FaultRow]:

@@ -42,7 +42,9 @@ TASK: Final = "insertion"
 TRIALS_A_WORLD: Final = 10  # Trials that share one fetched pin; fetching takes a second of a processor
 _WRITTEN_STEP: Final = "SEARCH  .07"
 _STEP_SHARE: Final = 0.92
-"""Fraction used of the greatest search step that catches every hole: .07 in for Factory's hole."""
+"""The search step as a fraction of the greatest step with which every hole is found. It gives .07 in for
+Factory's hole.
+"""
 _PLACE: Final = 0.005  # in, to which it is rounded down
 
 
@@ -110,7 +112,9 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     peak: float = 0.0  # Greatest force between pin and plate, N, by the truth of each physics step
     felt: float = 0.0  # Greatest force that the hand felt, N
     seconds: float | None = None
-    """Time on the cell's clock, s, from the first contact of pin and plate until the pin was seated; None: never."""
+    """Time on the cell's clock (s) from the first contact of pin and plate until the pin was seated; None:
+    never.
+    """
     whole: float = 0.0  # Seconds of the cell's clock that all of it took
     told: str = ""
 

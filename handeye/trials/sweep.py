@@ -25,16 +25,18 @@ if TYPE_CHECKING:
 Ended = Literal[
     "ended", "raised", "machine", "killed", "simulated limit", "processor limit", "wall limit", "not built"
 ]
-"""The end of a trial: by itself; by an exception; because this computer lacked memory or could not open a file;
-because its process was killed; at a limit of simulated time, of CPU time, or (in older batches) of wall-clock time;
-or before there was anything to try.
+"""How a trial ended: by itself; by an exception; because this computer lacked memory or could not open a file;
+because its process was killed; at a limit of simulated time, of CPU time, or (in older batches) of wall-clock
+time; or because the work that the trial needs was not built.
 """
 Standing = Literal["right", "wrong", "silent", "uncounted"]
 """The class of an outcome: success; failure; failure that was taken for a success; not counted."""
 
 FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
-"""Multiple of the CPU time limit at which a process is ended, because it hangs where the limit is not checked."""
+"""A process is ended when its CPU time reaches this multiple of the limit, because it then hangs in code that
+does not check the limit.
+"""
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
 """Ends that depend on this computer and not on the program, so that a repetition may end differently."""
@@ -231,7 +233,7 @@ def lost(row: type[R], case: Case, **fields: object) -> list[R]:
 
 
 Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
-"""Executes cases in any order; a case whose process is lost is repeated once."""
+"""Executes cases in any order. A case whose process is lost is repeated once."""
 
 
 def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:

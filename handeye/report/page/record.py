@@ -29,7 +29,7 @@ from handeye.trace.sentences import renderer_name
 
 
 def record_section(run: RecordedRun) -> Markup:
-    """The section with the conditions of the run."""
+    """Return the section with the conditions of the run."""
     return section(
         "record", "World, versions, and how to repeat the run", *_again(run), facts(run), *_world(run)
     )

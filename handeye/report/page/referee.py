@@ -15,7 +15,7 @@ _HIGH: Final = 5.0
 
 
 def referee_section(run: RecordedRun) -> Markup:
-    """The section with the referee's measurements."""
+    """Return the section with the referee's measurements."""
     return section("referee", "What the referee measured", *_content(run))
 
 

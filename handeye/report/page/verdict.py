@@ -154,7 +154,7 @@ def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
 
 
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
-"""Events that are no sensor readings, or that are the reason of the outcome itself."""
+"""Events that are not sensor readings, or that are themselves the reason for the outcome."""
 _SAID: Final = 4
 
 

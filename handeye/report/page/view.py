@@ -22,7 +22,7 @@ _KEYS: Final = (
 
 
 def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
-    """The section with the 3D view."""
+    """Return the section with the 3D view."""
     pairs = joined((joined([element("kbd", key), f" {does}"]) for key, does in _KEYS), ", ")
     canvas = element(
         "canvas", id="view", hidden=True, tabindex="0", role="img",

@@ -201,7 +201,7 @@ def lowest(model: Any) -> float:
 
 
 def _pieces(model: Any, palette: Palette, names: Names, body: int) -> list[Piece]:
-    """The pieces of a body."""
+    """Return the pieces of a body."""
     pieces = []
     for shape in seen(model, body):
         part = surface(model, shape)

@@ -23,9 +23,9 @@ from handeye.tasks.stanford_cell.dimensions import PARK, base_top, dimensions, p
 from handeye.tasks.stanford_cell.shapes import Bore, Shaper, add_camera
 
 HOLE: Final = (25 * INCH, 38 * INCH)
-"""Position of the hole as taught to the program, m: the position of a hole in the pump's base."""
+"""Position of the hole as taught to the program (m): the position of a hole in the pump's base."""
 HOLDER: Final = (15 * INCH, 35 * INCH)
-"""Position of the holder with the pin, m: as in the pump's cell."""
+"""Position of the holder with the pin (m): as in the pump's cell."""
 FACE: Final = base_top()  # height of the face around the hole, m
 CORNERS: Final = 48  # corners of a section of the nose, which is .005 mm slimmer between them
 WEDGES: Final = 24
@@ -33,14 +33,14 @@ WEDGES: Final = 24
 .057 to .063 mm instead of .057 mm.
 """
 PUSH: Final = "push"
-"""Name of the sensor for the resultant force of all contacts between plate and pin, N, in W; no device reads the
-sensor.
+"""Name of the sensor for the resultant force of all contacts between plate and pin (N), in W; no device reads
+the sensor.
 """
 _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
-"""The quantity that the sensor measures: the force, of all contacts (their resultant), one of them."""
+"""What the sensor measures: one value, the resultant force of all contacts."""
 _RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
-"""Classes of shapes whose friction is that of the world's parts."""
+"""Default classes of the shapes whose friction varies between worlds."""
 
 
 def build(world: InsertionWorld) -> mujoco.MjModel:
@@ -110,7 +110,7 @@ def in_holder() -> Array:
 
 
 def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
-    """The aligning pin of the pump, with a rounder nose."""
+    """Add the shapes of the pump's aligning pin, with a rounder nose, to a body."""
     d = dimensions()
     r, length, bevel = d("pin.nose_radius"), d("pin.nose_length"), d("pin.nose_bevel")
     nose = [(r - bevel, -length), (r, bevel - length), (r, 0.0)]
@@ -125,8 +125,8 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 SEATED: Final = 2e-4
-"""Greatest height of the shoulder over the face at which a pin counts as seated, m. Chosen: a hundredth of its
-descent.
+"""Greatest height of the shoulder above the face at which a pin counts as seated (m). Chosen: a hundredth of
+its descent.
 """
 
 

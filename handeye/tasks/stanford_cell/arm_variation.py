@@ -24,7 +24,7 @@ _RATES: Final = ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s")
 MOST: Final = {
     "in": 100.0, "deg": 360.0, "%": 1000.0, "oz": 1000.0, "N": 1000.0, "N m": 100.0, "rad/s": 10.0, "m/s": 10.0,
 }  # fmt: skip
-"""Greatest value to which a quantity can be set, by unit: beyond any plausible value."""
+"""Greatest value to which a quantity can be set, by unit. It is beyond any plausible value."""
 _READING: Final = (
     "The offset of the potentiometers from the joints displaces the hand by .060 in (median) or .112 in (95 %); "
     "layout study, section 4."

@@ -82,7 +82,7 @@ def parse(text: str) -> Dimensions:
 
 @cache
 def dimensions() -> Dimensions:
-    """The figures of the water-pump work cell."""
+    """Return the figures of the water-pump work cell."""
     return parse((scenes() / "water_pump" / "dimensions.toml").read_text(encoding="utf-8"))
 
 

@@ -20,8 +20,9 @@ from handeye.core.variation import Level, checked_seed
 from handeye.core.world_options import by_number, faults
 
 BreakKind = Literal["panic", "pause", "back", "kill"]
-"""Kinds of interruptions: panic button after N servo periods; pause after N steps, and resumption from disk; the
-same, but going back by half of the steps; process killed after N events.
+"""Kinds of interruptions. `panic`: the panic button is pressed after N servo periods. `pause`: the run pauses
+after N steps, and is resumed from disk. `back`: like `pause`, but the run then goes back by half of its steps.
+`kill`: the process is killed after N events.
 """
 Answer = Literal["retry", "skip", "proceed", "abort"]
 Count = Annotated[int, msgspec.Meta(ge=1, le=9999)]

@@ -17,7 +17,7 @@ from handeye.systems.sigma.protocol import AXES, NUMBERS
 MOVES: Final = (
     ("X1", 8000), ("Y1", 8000), ("Z1", 3500), ("X1", -267), ("Z1", -13), ("X1", 8), ("X2", 4000), ("Z2", 3000),
 )  # fmt: skip
-"""Axes, and steps: long, medium and short moves."""
+"""The moves, each with its axis and its number of steps: long, medium and short ones."""
 _REST: Final = 100_000  # microseconds between two moves, until the wrists are still
 _LONGEST: Final = 10_000_000  # microseconds of a move
 

@@ -12,8 +12,8 @@ class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
     slipped: list[int] = field(default_factory=lambda: [0] * len(AXES))
     """Number of poles that rotors have slipped forward; negative if backward."""
     holds: list[float] = field(default_factory=lambda: [1.0] * len(AXES))
-    """Share of its pull-out force with which the pole of each rotor holds it."""
+    """Fraction of the pull-out force with which the pole of each rotor holds the rotor."""
     peaks: list[float] = field(default_factory=lambda: [0.0] * len(AXES))
-    """The greatest forces on the wrists since they were last read, N."""
+    """The greatest forces on the wrists since they were last read (N)."""
     levels: bytes = b""  # of comparators and switches at the last step
     grips: list[bool] = field(default_factory=lambda: [False, False])  # hands are closed, or close

@@ -104,8 +104,8 @@ class Pulses:
 
 
 def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
-    """Return the train of a move. A very short move has a constant speed. All others have a ramp up and a ramp
-    down, and long ones have a constant speed in between.
+    """Return the pulse train of a move. A very short move has a constant speed. All others have a ramp up and a
+    ramp down, and long ones have a constant speed in between.
 
     Args:
         steps: number of steps, at least 1.
@@ -116,8 +116,8 @@ def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
 
 
 def constant(steps: int, speed: float, curve: Curve, limit: float = 0.0, *, ramped: bool = True) -> Train:
-    """Return the train of a move at constant speed (steps/s). Above the start/stop speed, the move begins and
-    ends with ramps, unless `ramped` is False.
+    """Return the pulse train of a move at constant speed (steps/s). Above the start/stop speed, the move begins
+    and ends with ramps, unless `ramped` is False.
     """
     speed = min(speed, float(limit)) if limit else speed
     start = min(curve.start, speed) if ramped else speed

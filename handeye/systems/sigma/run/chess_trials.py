@@ -1,4 +1,4 @@
-"""Trials of the chess experiment. Boards are drawn from seeds, sorted, and judged."""
+"""Trials of the chess experiment: the pieces of boards drawn from seeds are sorted, and the results are judged."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -26,13 +26,13 @@ from handeye.systems.trig.language.trig_arm import (
 
 APPROACH: Final = 5e-3  # m of vertical approach when setting down: a slanted path would push over a stack
 DEEPER: Final = 2e-3
-"""Distance below a place, m, within which the arm must find support when it puts an object back. Places are taught
-with an accuracy of .3 mm, so an object may have dropped by two or three times that, and have been grasped that much
-higher.
+"""Distance below a place (m) within which the arm must find support when it puts an object back. Places are
+taught with an accuracy of .3 mm, so an object may have dropped by two or three times that, and have been
+grasped that much higher.
 """
 AGAIN: Final = 1.5
-"""Permitted force during a reversal, as a multiple of the force met in the move itself, as for the pump. A hand
-that presses an object onto a support senses a change of force of that size when it rises.
+"""Permitted force during a reversal, as a multiple of the force met in the move itself. It is the same as for
+the pump. A hand that presses an object onto a support senses a change of force of that size when it rises.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 

@@ -62,7 +62,7 @@ class _Chain:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """A program whose steps have been placed."""
+    """The places of a program's steps on a display, and the lines between them."""
 
     cells: tuple[Cell, ...]
     elbows: tuple[Elbow, ...]

@@ -101,8 +101,9 @@ class RunResult:
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]
-    """The reason for the end: number of steps reached, end of the program, halt by a key, nothing left to undo,
-    history dropped, step deleted, or an obstacle.
+    """Why the run ended, in this order: the number of steps was reached, the program ended, a key was pressed,
+    nothing was left to undo, the history of earlier steps was dropped, a step was deleted, or an obstacle
+    stopped the arm.
     """
     obstacle: Obstacle | None = None  # met while reversing the active step
 

@@ -21,8 +21,8 @@ from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.run.running_job import RunningJob, plan_of
 
 Outcome = Literal["right", "stopped", "silent", "halted"]
-"""The outcome of a job: right; stopped early by program or arm; finished, but the referee disagrees (silent);
-halted by the user.
+"""The outcome of a job: `right`; `stopped` early by the program or the arm; `silent` if it finished but the
+referee disagrees; `halted` by the user.
 """
 
 When = Literal["taught", "run", "undone"]

@@ -24,7 +24,7 @@ class MishapState(Record, frozen=True, kw_only=True):
 
     seconds: float | None = None  # since it began; None: it has not
     place: tuple[float, float, float] | None = None
-    """Position of the part, m, when the mishap began; None if the mishap concerns no part."""
+    """Position of the part (m) when the mishap began; None if the mishap concerns no part."""
     over: bool = False  # it has happened
 
 

@@ -28,12 +28,13 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls for a joint that was off from the beginning; they name neither table nor blocks. The joint's two sensors
-agree, and the camera is calibrated with the joint, so that only the parts in the cell reveal the error.
+"""Calls of the operator for a joint that read wrong from the beginning. They name neither table nor blocks. The
+joint's two sensors agree, and the camera is calibrated with the joint, so that only the parts in the cell
+reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
-"""Calls for a place that is not where it should be or was found before, and for a hole or pin that is not found:
-either the place, or the gear or potentiometer of a joint, is wrong.
+"""Calls of the operator for a place that is not where it should be or was before, and for a hole or pin that is
+not found. Either the place is wrong, or the gear or potentiometer of a joint.
 """
 UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
 NOT_WHERE_SEEN: Final = (
@@ -56,8 +57,8 @@ NOT_IN_HOLDER: Final = (
 NO_BASE: Final = "NO BASE STANDS UNDER PIN {number}"
 PUMP_ASTRAY: Final = "THE PUMP IS NOT WHERE IT WAS PUT: {how}"
 OR_PUMP: Final = "{what}, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
-"""Calls for a part of the pump that touch does not find where it was: the part, the pump, or a joint of the arm is
-wrong.
+"""Calls of the operator for a part of the pump that the hand does not feel where it was before. The part, the
+pump, or a joint of the arm is wrong.
 """
 SCREW_IN_NO_HOLE: Final = (
     "SCREW {number} FINDS NO HOLE AT {hole}: POINT OR HOLE IS WRONG, OR A JOINT READS WRONG"

@@ -20,7 +20,8 @@ def commanded(truth: Truth) -> list[str]:
 
 
 def _arm_driven(truth: Truth) -> bool:
-    """True if the arm is commanded a torque while its brakes are set, or a torque that does not hold it still.
+    """Return True if the arm has a torque command while its brakes are set, or a torque command that does not
+    hold it still.
 
     The check allows for a drive that is too weak by some factor, and for friction that carries a part of the
     load.
@@ -38,7 +39,7 @@ def _arm_driven(truth: Truth) -> bool:
 
 
 def _hand_driven(truth: Truth) -> bool:
-    """True if the fingers are neither at their commanded gap nor blocked on the way to it."""
+    """Return True if the fingers are neither at their commanded gap nor blocked on the way to it."""
     hand, model = truth.states[f"{ARM}hand"], STANFORD.hand
     assert isinstance(hand, HandState)
     rate = truth.data.ctrl[truth.model.actuator(f"{ARM}grip").id]
@@ -51,7 +52,7 @@ def _hand_driven(truth: Truth) -> bool:
 
 
 def _driver_driven(truth: Truth) -> bool:
-    """True if the screwdriver has a speed command, or its motor turns the spindle or a screw."""
+    """Return True if the screwdriver has a speed command, or if its motor turns the spindle or a screw."""
     model, driver = truth.model, truth.states[SimulatedScrewdriver.name]
     assert isinstance(driver, ScrewdriverState)
     spindle, drive = (model.actuator(name).id for name in ("spindle", "drive"))

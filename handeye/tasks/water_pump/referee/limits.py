@@ -10,35 +10,37 @@ BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
 LAYER_HEIGHT: Final = 0.3
-"""Greatest deviation from the nominal height at each screw hole, mm. Half of it would already show a lost chip
+"""Greatest deviation from the nominal height at each screw hole (mm). Half of it would already show a lost chip
 under the layer; assembly study.
 """
 
 SCREW_GAP: Final = 0.2
-"""Greatest gap between head and flange, mm. A cross-threaded screw stands 4.4 to 5.7 mm high; assembly study."""
+"""Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high; assembly study."""
 SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 56 to 298 N
 SCREW_TURNED: Final = 400.0
-"""Greatest force of a head when its screw was last turned, N. In pumps that the arm has made, it is at most 250 N.
-The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world; twice the
-clutch's torque gives 530 to 560 N.
+"""Greatest force of a head when its screw was last turned (N). In pumps that the arm has made, it is at most
+250 N. The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world;
+twice the clutch's torque gives 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
-"""Greatest force under a head, N. Screws that are tightened later shift the load; in pumps that the arm has made,
-it is at most 298 N.
+"""Greatest force under a head (N). Screws that are tightened later shift the load; in pumps that the arm has
+made, it is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Least torque to turn a screw back, N m: the friction torque of a clean thread without clamp. With a clamp of 40 N
-it is at least .026 N m in any world; without friction, the clamp itself would turn the screw out.
+"""Least torque to turn a screw back (N m): the friction torque of a clean thread without clamp. With a clamp of
+40 N it is at least .026 N m in any world; without friction, the clamp itself would turn the screw out.
 """
 SCREW_SIZE: Final = 0.35
-"""Greatest deviation of any length or radius from the design, mm: the play of a screw's point in a tapped hole."""
+"""Greatest deviation of any length or radius from the design (mm): the play of a screw's point in a tapped
+hole.
+"""
 SCREW_THREAD: Final = 6.35
-"""Least length of thread in the base, mm: one diameter of a 1/4 in screw, the rule for steel. A seated screw has
-6.93 mm.
+"""Least length of thread in the base (mm): one diameter of a 1/4 in screw, the rule for steel. A seated screw
+has 6.93 mm.
 """
 SCREW_PLACE: Final = 0.12
-"""Greatest distance of a screw's axis from its hole's, mm: the loosest fit of a 1/4-20 thread of class 2, pitch
-diameters .2127 in and .2224 in; ASME B1.1.
+"""Greatest distance of a screw's axis from its hole's (mm): the loosest fit of a 1/4-20 thread of class 2,
+pitch diameters .2127 in and .2224 in; ASME B1.1.
 """
 SCREW_LEAN: Final = 1.0  # deg: a head 11 mm wide that leans farther gapes by SCREW_GAP
 SCARS: Final = 0
@@ -48,8 +50,8 @@ straight (SCREW_LEAN) and has its length of thread (SCREW_THREAD). But a person 
 of the scar, because a thread that was cut twice strips sooner.
 """
 SOFT: Final = 0.03
-"""Tolerated overlap beyond the clearance of a shank or pin in its hole, mm. Contacts are soft: a shank pressed on a
-bore with 4 to 32 N went .02 mm into it, with 64 N .033 mm. A shank that cuts metal goes farther.
+"""Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank pressed
+on a bore with 4 to 32 N went .02 mm into it, with 64 N .033 mm. A shank that cuts metal goes farther.
 """
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
@@ -67,22 +69,22 @@ ROTOR_PLACE: Final = 0.1  # mm from its bearing, and of its crank: the bearing i
 ROTOR_LEAN: Final = 0.1  # deg against the top, which it is drawn square to
 
 STILL: Final = 1.0
-"""Greatest speed of any point of a part or of the arm, mm/s. While contacts come to rest, parts at rest move at up
-to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, .01 mm/s at the hand.
+"""Greatest speed of any point of a part or of the arm (mm/s). While contacts come to rest, parts at rest move
+at up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, .01 mm/s at the hand.
 """
 
 REST: Final = 0.25
-"""Greatest distance, mm, that anything may move until it has settled. In pumps that the arm has made, parts settle
-by up to .03 mm; a part without support falls.
+"""Greatest distance (mm) that any part may move until it has settled. In pumps that the arm has made, parts
+settle by up to .03 mm; a part without support falls.
 """
 
 HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or touches something is nearer
 
 APART: Final = 3.0  # mm from where the run found a part: what the arm puts back, its next run must find
 APART_GASKET: Final = 6.0
-"""Greatest distance of the returned gasket from its original position, mm. Fingers that close on the gasket in its
-tray draw it along before they lift it, by 3.3 mm in seed 0. The gasket is laid back where it was lifted; at 6.4 mm
-its holes would not let the fingers of the next run in.
+"""Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket in
+its tray draw it along before they lift it, by 3.3 mm in seed 0. The gasket is laid back where it was lifted; at
+6.4 mm its holes would not let the fingers of the next run in.
 """
 APART_TURN: Final = (
     3.0  # deg: at the end of a part as long as the base, half of what the fingers have to spare
@@ -90,12 +92,12 @@ APART_TURN: Final = (
 
 SETTLE: Final = 0.2  # s: forces come up to date, and what hangs in the air falls
 TRAY: Final = 3.0
-"""Greatest distance, mm, of the parked body of a screw from its place on the tray below the floor. While a carrier
-represents a screw, a body elsewhere would mean that the screw exists twice.
+"""Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a
+carrier represents a screw, a body elsewhere would mean that the screw exists twice.
 """
 FORCE: Final = 0.0  # N and N m from outside on a part or the arm: nothing is held by an unseen hand
 MERGED: Final = 0.1
-"""Greatest distance, mm, between a clamped layer and the position in which its weld holds it. Screws that are
+"""Greatest distance (mm) between a clamped layer and the position in which its weld holds it. Screws that are
 tightened later press the layer away from there: by up to .030 mm in pumps that the arm has made.
 """
 MERGED_TURN: Final = 0.1  # deg, the same: up to .017

@@ -21,7 +21,7 @@ _METAL: Final = (
     "solid", "grip", "bore", "tap", "face", "hub", "shank", "shoulder", "threaded", "nose", "head",
     "base_land", "gasket_land", "top_land",
 )  # fmt: skip
-"""Classes of shapes whose friction is that of the world's parts."""
+"""Default classes of the shapes whose friction varies between worlds."""
 
 
 def specification(world: PumpWorld) -> mujoco.MjSpec:

@@ -70,7 +70,8 @@ def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Seq
 
 
 def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
-    """True if a hole at (x, y) from the ring's axis, with radius `reach`, cuts into the wedge at `angle`."""
+    """Return True if a hole at (x, y) from the ring's axis (m), with radius `reach` (m), cuts into the wedge at
+    `angle` (rad)."""
     away = abs(math.remainder(math.atan2(y, x) - angle, 2 * math.pi))
     return away < math.pi / _WEDGES + math.asin(min(1.0, reach / math.hypot(x, y)))
 

@@ -73,7 +73,7 @@ def _add_reel(shaper: Shaper, number: int, at: Vector, tape: float) -> None:
 
 
 def _flange() -> solids.Surface:
-    """The front flange of a reel, with three windows and its axis along y."""
+    """Return the front flange of a reel, with three windows and its axis along y."""
     disc = solids.disc(_REEL_RADIUS_M)
     for k in range(3):
         angle = 2 * math.pi * k / 3 + 0.5
@@ -101,13 +101,13 @@ def add_teletype(shaper: Shaper) -> None:
 
 
 def _case() -> solids.Surface:
-    """The case of a teletype; its keyboard slopes down along x."""
+    """Return the case of a teletype, whose keyboard slopes down along x."""
     below, keys = [(-0.22, 0.60), (0.30, 0.60), (0.30, 0.655)], [(0.12, 0.70), (0.06, 0.80)]
     return solids.surface(solids.prism([*below, *keys, (-0.16, 0.82), (-0.22, 0.79)], -0.26, 0.20))
 
 
 def _keys() -> solids.Surface:
-    """Four rows of keys on the slope of the keyboard."""
+    """Return four rows of keys on the slope of the keyboard."""
     key = solids.extruded(solids.disc(0.0075, segments=8), 0.0, 0.012)
     keys = [
         key.translate((0.285 - 0.04 * row, -0.22 + 0.028 * place + 0.007 * row, 0.655 + 0.010 * row))

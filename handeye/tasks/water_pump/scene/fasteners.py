@@ -102,7 +102,7 @@ def screw_look(shaper: Shaper, body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:
 
 @cache
 def _screw_surfaces() -> dict[str, solids.Surface]:
-    """The surface of a screw by colour."""
+    """Return the surface of a screw, divided by colour."""
     top = dimensions()("screw.length") + dimensions()("screw.head_height")
 
     def colour(middles: Array, normals: Array) -> NDArray[np.str_]:
@@ -114,7 +114,7 @@ def _screw_surfaces() -> dict[str, solids.Surface]:
 
 @cache
 def _screw() -> solids.Surface:
-    """The surface of a screw."""
+    """Return the surface of a screw."""
     d = dimensions()
     length, height, tip = d("screw.length"), d("screw.head_height"), d("screw.point_length")
     crest, head, pitch = d("screw.shank_radius"), d("screw.head_radius"), d("screw.pitch")

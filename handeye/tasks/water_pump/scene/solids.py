@@ -153,7 +153,7 @@ def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold
 
 
 def surface(solid: Manifold) -> Surface:
-    """The whole surface of a solid."""
+    """Return the whole surface of a solid."""
     mesh = solid.to_mesh()
     vertices = np.array(mesh.vert_properties[:, :3], np.float64)  # copies: no mesh stays
     return vertices, np.array(mesh.tri_verts, np.int32)

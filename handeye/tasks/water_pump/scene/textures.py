@@ -59,7 +59,7 @@ def _tinted(value: Array, tint: tuple[float, float, float] = (1.0, 1.0, 1.0)) ->
 
 
 def _streaks(rng: np.random.Generator, size: int = _SIZE) -> Array:
-    """Wood grain along x."""
+    """Return wood grain along x."""
     return 0.035 * _smooth(rng, 60, 1.2, size) + 0.02 * np.sin(6 * _smooth(rng, 90, 12, size))
 
 
@@ -75,12 +75,12 @@ def _bench(rng: np.random.Generator) -> Array:
 
 
 def _cast(rng: np.random.Generator) -> Array:
-    """Surface of a sand casting."""
+    """Return the surface of a sand casting."""
     return _tinted(0.88 + 0.07 * _smooth(rng, 1.5, 1.5) + 0.03 * _smooth(rng, 20, 20), (1.0, 0.985, 0.96))
 
 
 def _milled(rng: np.random.Generator) -> Array:
-    """Marks of a face mill that moved along y: slightly uneven arcs."""
+    """Return the marks of a face mill that moved along y: slightly uneven arcs."""
     x = np.arange(_SIZE) - _SIZE / 2
     arc = np.sqrt((0.8 * _SIZE) ** 2 - x**2)
     marks = np.sin(2 * np.pi * _MARKS * np.add.outer(np.arange(_SIZE), -arc) / _SIZE)
@@ -88,14 +88,14 @@ def _milled(rng: np.random.Generator) -> Array:
 
 
 def _woven(rng: np.random.Generator) -> Array:
-    """The weave of a slightly worn belt."""
+    """Return the weave of a slightly worn belt."""
     x = np.arange(_SIZE)
     weave = 0.05 * np.add.outer(np.sin(2 * np.pi * x / 8), np.sin(2 * np.pi * x / 8))
     return _tinted(0.86 + weave + 0.05 * _smooth(rng, 15, 60))
 
 
 def _tiles(rng: np.random.Generator) -> Array:
-    """Linoleum tiles, two by two in a picture, in alternating tones."""
+    """Return linoleum tiles in alternating tones, two by two in a picture."""
     half = _SIZE // 2
     tone = np.kron(np.array([[0.94, 0.80], [0.80, 0.94]]), np.ones((half, half)))
     joint = np.arange(_SIZE) % half < 3

@@ -50,7 +50,7 @@ def _boxes(figure: str) -> tuple[Box, ...]:
 
 
 def stations() -> tuple[str, ...]:
-    """Names of all stations."""
+    """Return the names of all stations."""
     return (*Station, *plain_stations())
 
 
