@@ -121,7 +121,7 @@ def searches(runs: TwoRuns) -> tuple[Searches, ...]:
 
 
 def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
-    """Return the searches of a run, each by the turn of the step that started it."""
+    """Return the searches of a run, each under the turn of the step that started it."""
     found: dict[Turn, Search] = {}
     turn: Turn | None = None
     for each in steps:

@@ -106,8 +106,8 @@ def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that removes the blank lines between a modifier at the end of a macro and its motion, if the
-    macro still ends after that."""
+    """Yield a fix for a macro that ends with a modifier while its motion follows after blank lines: remove the
+    blank lines, so that the motion belongs to the macro. There is no fix if the macro would then have no end."""
     behind = document.line_of(diagnostic.secondary[0].span.start)
     body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))
     words = {word_of(line) for line in body if line.split()[1]}

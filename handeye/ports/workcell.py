@@ -30,8 +30,8 @@ class ScrewdriverPort(ABC):
 
     @abstractmethod
     def drive(self, speed: float) -> None:
-        """Set the speed of the spindle (rad/s), which is positive to drive a screw in. Raises InvalidInput if
-        the speed is not finite.
+        """Set the speed of the spindle (rad/s). A positive speed drives a screw in. Raises InvalidInput if the
+        speed is not finite.
         """
 
     @abstractmethod

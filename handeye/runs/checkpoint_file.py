@@ -190,12 +190,12 @@ def decode_head(data: bytes, name: str) -> Head:
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
-    """Read the checkpoint in a file; raises BadFile as `decode` does."""
+    """Read the checkpoint in a file. Raises BadFile as `decode` does."""
     return decode(read_whole(path), str(path))
 
 
 def read_head(path: Path) -> Head:
-    """Read the summary of the checkpoint in a file; raises BadFile as `decode` does."""
+    """Read the summary of the checkpoint in a file. Raises BadFile as `decode` does."""
     return decode_head(read_whole(path), str(path))
 
 

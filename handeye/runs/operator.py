@@ -67,10 +67,11 @@ NOBODY: Final = Abort()
 
 @dataclass(frozen=True, slots=True)
 class Retry:
-    """Repeats each stage up to `times` times, then gives up; while the arm undoes its work, it gives up at once.
+    """Repeats a stage that has failed up to `times` times, then gives up. While the arm undoes its work, this
+    operator gives up at once.
 
-    Earlier attempts are counted from the events of the run, so that a resumed run continues as if it had not been
-    interrupted.
+    Earlier attempts are counted from the events of the run, so that a resumed run continues as if it had not
+    been interrupted.
     """
 
     times: int

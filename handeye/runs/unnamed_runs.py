@@ -53,7 +53,7 @@ class UnnamedRun:
         return self.folder.path
 
     def close(self) -> None:
-        """Close the folder; raises CannotWrite if the trace cannot be completed."""
+        """Close the folder. Raises CannotWrite if the trace cannot be completed."""
         try:
             self.folder.close()
         finally:

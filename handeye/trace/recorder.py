@@ -102,7 +102,8 @@ class Recorder:
     # -- what happens -------------------------------------------------------------------------------
 
     def event(self, event: Event) -> None:
-        """Write an event; the first event must be RunStarted. `WentBack` does not occur in a trace: see `cut`."""
+        """Write an event. The first event must be RunStarted. A trace contains no `WentBack`; `cut` removes the
+        undone events instead."""
         if isinstance(event, WentBack):
             return
         self._catch_up()

@@ -15,7 +15,7 @@ Key = tuple[str, int, int]  # Condition, seed, and which of the trials in that w
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """The difference of a measured value, over those pairs in which both trials succeeded."""
+    """The difference between two batches in a measured value, over the pairs of trials that both succeeded."""
 
     pairs: int
     more: float  # Median of how much more it is in this batch than in the first

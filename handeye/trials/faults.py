@@ -59,7 +59,7 @@ SOON: Final = 120  # Servo periods of a stage, two seconds, after which the butt
 
 
 class PanicInStage(Observer):
-    """Presses the panic button once, a number of servo periods after the beginning of a stage."""
+    """Presses the panic button once, a number of servo periods after a stage has begun."""
 
     def __init__(self, stage: int, periods: int = SOON) -> None:
         """Wait for the stage with this index."""

@@ -162,7 +162,7 @@ class InsertionRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWork:
-    """Executes the trials of a case. The name of the case's condition selects the condition."""
+    """Executes the trials of a case under the case's condition, which is given by its name."""
 
     conditions: Mapping[str, Condition]
 

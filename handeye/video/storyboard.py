@@ -129,7 +129,7 @@ class Frame:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Storyboard:
-    """The frames of a video in order, and the number of frame periods for which the last frame is held."""
+    """The frames of a video in order. The last frame is held for a further `held` frame periods."""
 
     frames: tuple[Frame, ...]
     held: int

@@ -76,8 +76,8 @@ class Server:
         self._up = Event()
 
     def show(self, page: bytes, newest: Newest | None = None) -> None:
-        """Start to serve a page and to send states of the run. If `newest` is None, no states are sent and no
-        sockets are opened."""
+        """Start to serve a page and to send states of the run. If `newest` is None, only the page is served: no
+        states are sent, and viewers cannot open a socket."""
         self._page, self._newest = page, newest
         self.link.tell = lambda text: self._call(lambda: self._tell(text))
         self._thread = Thread(

@@ -24,7 +24,7 @@ class MetGuard(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GuardedMotion:
-    """The value that a guard watched during a motion of n servo periods."""
+    """A guarded motion of n servo periods, with the value that its guard watched."""
 
     stage: str
     step: StepStarted

@@ -60,7 +60,7 @@ class Timing(Record, frozen=True, kw_only=True):
 
 
 class Op(IntEnum):
-    """The operations, byte 2 of a command."""
+    """The operations that microcomputers can execute. The operation is byte 2 of a command."""
 
     MOVE = 0x01  # steps, profile by length
     MOVE_SLOW = 0x02  # steps at constant speed
@@ -108,7 +108,8 @@ def name_of(number: int) -> str:
 
 
 def move(axis: str | int, steps: int, curve: int = 0) -> Command:
-    """Make the command to move by a signed number of steps, along the profile that belongs to this number."""
+    """Make the command that moves a motor by a signed number of steps, along the profile that belongs to this
+    number."""
     return Command(
         number=number_of(axis),
         op=Op.MOVE,
@@ -118,31 +119,32 @@ def move(axis: str | int, steps: int, curve: int = 0) -> Command:
 
 
 def move_slow(axis: str | int, steps: int, speed: float) -> Command:
-    """Make the command to move by a signed number of steps at a constant speed (mm/s). The speed is rounded to
-    an even number from 2 to 254."""
+    """Make the command that moves a motor by a signed number of steps at a constant speed (mm/s). The speed is
+    rounded to an even number from 2 to 254."""
     code = within(max(1, round(speed / SLOW_STEP_MM)), 1, 127, "the code of a speed")
     value = within(abs(steps), 1, LONGEST_MOVE, "a move in steps")
     return Command(number=number_of(axis), op=Op.MOVE_SLOW, detail=(steps < 0) | code << 1, value=value)
 
 
 def limit_speed(axis: str | int, speed: int) -> Command:
-    """Make the command to limit the speed (steps/s). A limit of 0 allows the greatest speed of the curve."""
+    """Make the command that limits the speed of a motor (steps/s). A limit of 0 allows the greatest speed of
+    the curve."""
     limit = within(speed, SLOWEST, 0xFFFF, "a limit in steps/s") if speed else 0
     return Command(number=number_of(axis), op=Op.LIMIT_SPEED, value=limit)
 
 
 def origin(axis: str | int) -> Command:
-    """Make the command to move to the end of the rail, and to count from there."""
+    """Make the command that moves an axis to the end of its rail, and starts the count there."""
     return Command(number=number_of(axis), op=Op.ORIGIN)
 
 
 def position(axis: str | int, *, at_abort: bool = False) -> Command:
-    """Make the question for the count, either now or at the last abort."""
+    """Make the question for the step count of a motor, either now or at the last abort."""
     return Command(number=number_of(axis), op=Op.ABORT_POSITION if at_abort else Op.POSITION)
 
 
 def set_position(axis: str | int, count: int) -> Command:
-    """Make the command to set the count."""
+    """Make the command that sets the step count of a motor."""
     return Command(number=number_of(axis), op=Op.SET_POSITION, value=count & 0xFFFF)
 
 
@@ -155,7 +157,8 @@ def force(arm: int, component: str, *, peak: bool = False) -> Command:
 
 
 def threshold(arm: int, component: str, newtons: float | None) -> Command:
-    """Make the command to set the force (N) above which a motor is stopped. None stands for the standard value."""
+    """Make the command that sets the force (N) above which a motor is stopped. None stands for the standard
+    value."""
     value = STANDARD if newtons is None else within(round(newtons / FORCE_STEP_N), 0, STANDARD - 1, "a limit")
     return Command(
         number=number_of(f"FORCE{arm}"), op=Op.THRESHOLD, detail=COMPONENTS.index(component), value=value
@@ -163,7 +166,7 @@ def threshold(arm: int, component: str, newtons: float | None) -> Command:
 
 
 def actuate(arm: int, device: str, value: int) -> Command:
-    """Make the command to set a device of a hand microcomputer."""
+    """Make the command that sets a device of a hand microcomputer."""
     return Command(number=number_of(f"HAND{arm}"), op=Op.ACTUATE, detail=DEVICES[device], value=value)
 
 

@@ -131,7 +131,7 @@ its descent.
 
 
 class Witness(PhysicsStepper):
-    """Steps the physics, and examines pin and plate after each step with a contact."""
+    """Steps the physics, and records how pin and plate touch after each step with a contact."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         super().__init__(model, data)
@@ -157,7 +157,7 @@ class Witness(PhysicsStepper):
 
 
 class InsertionCell(SimulatedCell):
-    """A cell with a witness that records the contacts of pin and plate."""
+    """A cell with a witness, which records the contacts of pin and plate."""
 
     def __init__(self, world: InsertionWorld) -> None:
         """Build the cell of a world and switch it on."""

@@ -136,7 +136,7 @@ def pin_seat(chamfer: float, radius: float) -> float:
 
 
 def standard() -> Pose:
-    """Return `X_WP`, the pose of the base in its standard position."""
+    """Return the pose `X_WP` of the base in its standard position."""
     d = dimensions()
     x, y = d.all("standard.place")
     return planar(x, y, 0.0, d("standard.yaw"))

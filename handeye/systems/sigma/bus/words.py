@@ -22,7 +22,7 @@ def spaced(frame: bytes) -> str:
 
 
 def command_text(command: Command) -> str:
-    """Describe a command in words, such as `MOVE X1 by -800 steps, curve 3`."""
+    """Describe a command in words, for example `MOVE X1 by -800 steps, curve 3`."""
     name, code = name_of(command.number), command.detail >> 1
     if command.op not in (*Op,):
         return f"operation {command.op:02X} to {name}, an operation that no microcomputer has"

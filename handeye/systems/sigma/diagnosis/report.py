@@ -13,7 +13,7 @@ LEAST_FOUND: Final = 17
 
 
 class Diagnosed(Record, frozen=True, kw_only=True):
-    """A fault and the result of its diagnosis."""
+    """A planted fault, and the verdict of the diagnosis."""
 
     fault: str
     told: str

@@ -103,7 +103,7 @@ class MalProgram:
         return frozenset(begin - 1 for begin in (*firsts[1:], len(self.code)))
 
     def line_of(self, address: int) -> CompiledLine:
-        """Return the line to which an address belongs."""
+        """Return the program line whose code contains an address."""
         return self.lines[self.line_at[address]]
 
 

@@ -1,4 +1,4 @@
-"""Parses expressions and conditions by recursive descent, from the weakest operator to the strongest."""
+"""Parses expressions and conditions by recursive descent. The weakest operators are parsed first."""
 
 from typing import Final
 

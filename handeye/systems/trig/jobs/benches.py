@@ -74,7 +74,7 @@ class TaughtPlan(Record, frozen=True, kw_only=True):
 
     @property
     def task(self) -> JobName:
-        """Name of the task, which is that of the job."""
+        """Name of the task. It is the name of the job."""
         return self.job
 
 

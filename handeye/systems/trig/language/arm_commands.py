@@ -10,7 +10,7 @@ from handeye.systems.trig.language.step_commands import check_no_opposite
 
 
 def free(session: Session, given: Arguments) -> None:
-    """FREE: move the arm with the teach box until its save button is pressed."""
+    """FREE: let the user move the arm with the teach box, until the user presses its save button."""
     session.taught()
 
 
@@ -59,7 +59,7 @@ def here(session: Session, given: Arguments) -> None:
 
 
 def here_relative(session: Session, given: Arguments) -> None:
-    """SR: store the offset from the end of the last step to the arm's present place under a name."""
+    """SR: store, under a name, the offset from where the last step ended to the arm's present place."""
     start = session.program.ended_at
     if start is None:
         raise Refused("no step has moved the arm yet; use CALPOS and ENDCAL, which measure any distance")
@@ -72,7 +72,7 @@ def begin_way(session: Session, given: Arguments) -> None:
 
 
 def end_way(session: Session, given: Arguments) -> None:
-    """ENDCAL: store the offset from the place of CALPOS to the arm's present place under a name."""
+    """ENDCAL: store, under a name, the offset from the place that CALPOS remembered to the arm's present place."""
     if session.origin is None:
         raise Refused("type CALPOS first: it remembers the start")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)

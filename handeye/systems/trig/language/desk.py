@@ -52,7 +52,8 @@ class Desk(ABC):
 
     @abstractmethod
     def wrong(self, error: InvalidInput) -> None:
-        """Report an invalid answer or action before the next one is read, or raise the error."""
+        """Report that the user's answer or action is invalid, before the next one is read. A user interface
+        that cannot ask again raises the error instead."""
 
     def halted(self) -> bool:
         """Return True if a key was pressed since the last call."""
@@ -62,7 +63,7 @@ class Desk(ABC):
         """Redraw the displays after a change of program, cursor or arm."""
 
     def ask(self, question: str, read: Callable[[str], Read]) -> Read:
-        """Ask until the answer is valid."""
+        """Ask a question again and again until the answer is valid."""
         while True:
             try:
                 return read(self.answer(question))

@@ -28,8 +28,8 @@ from handeye.systems.trig.language.styled import UNICODE, Line, Style, Symbols, 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """A placed step, or a link to a step placed elsewhere. `branch` is `n` or `g` for the first step of a
-    branch."""
+    """A step at its place on the display, or a link to a step whose place is elsewhere. `branch` is `n` or `g`
+    for the first step of a branch."""
 
     row: int
     column: int

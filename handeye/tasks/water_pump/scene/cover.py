@@ -13,7 +13,7 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the gasket on its stand: a rigid sheet that rests on a land at every screw."""
+    """Add the gasket on its stand. The gasket is a rigid sheet, which rests on a land at every screw."""
     d = dimensions()
     (x, y), turn, thick = d.all("gasket_stand.grasp"), d("standard.yaw"), d("gasket.thickness")
     fixture = add_gasket_stand(shaper, world)

@@ -82,8 +82,8 @@ def _flange() -> solids.Surface:
 
 
 def add_teletype(shaper: Shaper) -> None:
-    """Add a teletype on its stand, with keyboard, platen, paper and a paper-tape punch; its front faces along its x
-    axis.
+    """Add a teletype on its stand, with keyboard, platen, paper and a paper-tape punch. The front faces along
+    the x axis of the teletype's frame.
     """
     place = (*_TELETYPE_PLACE_M, -dimensions()("table.height"))
     body = shaper.spec.worldbody.add_body(name="teletype", pos=place, quat=_TURN)
@@ -128,7 +128,7 @@ _HANDS: Final = {
 
 
 def add_clock(shaper: Shaper) -> None:
-    """Add the clock; each of its hands is a body."""
+    """Add the clock. Each of its hands is a body, so that it can turn."""
     wall = shaper.spec.worldbody
     for name, radius, back, front, material in (
         ("clock_case", 0.165, -0.03, 0.008, "black"),
@@ -157,7 +157,8 @@ _BACK, _FRONT = -1.36, -0.10  # from where to where along the boom they go, m
 
 
 def add_boom_cables(shaper: Shaper) -> None:
-    """Add three cables in clips, and the loop in which they leave the motor behind the end of the boom."""
+    """Add three cables in clips along the boom, and the loop in which they lead from the end of the boom to the
+    motor behind it."""
     boom = shaper.spec.body(f"{ARM}link3")
     for number, y in enumerate((_MIDDLE - 0.006, _MIDDLE, _MIDDLE + 0.006)):
         start, end = (_SIDE, y, _BACK), (_SIDE, y, _FRONT)

@@ -56,7 +56,8 @@ def add_fixture(shaper: Shaper, world: PumpWorld, station: str, middle: Point) -
 
 
 def add_blocks(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the two aligning blocks; the base is pushed against the far block (+y), then against the left one (-x)."""
+    """Add the two aligning blocks. The base is pushed first against the far block (+y), then against the left
+    block (-x)."""
     d = dimensions()
     far, left, height = d.all("blocks.far"), d.all("blocks.left"), d("blocks.height")
     fixture = add_fixture(shaper, world, Station.BLOCKS, (left[2], far[1]))

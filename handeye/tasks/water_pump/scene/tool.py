@@ -21,7 +21,7 @@ _POLE: Final = 5e-4  # m, radius: they lie within the bit, a twentieth of a mill
 
 
 def add_driver(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the rack with the screwdriver hanging in it: a square grip block with a spindle below."""
+    """Add the rack, and the screwdriver that hangs in it: a square grip block with a spindle below."""
     d = dimensions()
     x, y = d.all("rack.place")
     fixture = add_fixture(shaper, world, Station.RACK, (x, y))

@@ -86,7 +86,7 @@ def pump_base(at: Place | None = None) -> Part:
 
 
 def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
-    """Put the base at a place. With `pins`, the aligning pins stand in the base; without, they stay where they
+    """Put the base at a place. If `pins`, put the aligning pins into the base; if not, leave them where they
     are."""
     X_WP = planar(*place)
     still.put("base", X_WP)
