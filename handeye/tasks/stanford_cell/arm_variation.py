@@ -31,9 +31,8 @@ _READING: Final = (
 )
 
 
-DOUBLED: Final = (
-    "Bound: twice this size, as at the high level, where 99 of 100 pumps were assembled and none was wrong."
-)
+DOUBLED: Final = "Bound: twice this size, as at the high level, at which 99 of 100 pumps were assembled and no failure was "
+    "silent."
 
 
 def group(

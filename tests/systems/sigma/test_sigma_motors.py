@@ -318,7 +318,7 @@ def test_a_study_that_loses_steps_has_exit_code_1(command: Command) -> None:
         ("--curve 9", "there is no curve 9; the curves are 0 to 4"),
         ("--slow 900", "a constant speed is 1 to 562.5 mm/s, not 900"),
         ("--load nan", "a load is 0 N or more"),
-        ("--stop-after 5000", "it can be stopped within that, not after 5 s"),
+        ("--stop-after 5000", "the stop must be within that time, not after 5 s"),
     ],
 )
 def test_a_study_of_nothing_is_refused_in_a_sentence(words: str, why: str, command: Command) -> None:

@@ -209,7 +209,7 @@ def test_the_kill_switch_records_nothing() -> None:
         ("D **TOP**", "the top cannot be deleted; FLUSH erases the program"),
         ("RUN 0", "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last one"),
         ("W", "no file has been read or written yet; give W a name"),
-        ("N -1", "N and P go 1 to 100000 steps; N goes down, P goes up"),
+        ("N -1", "N and P move by 1 to 100000 steps: N down, P up"),
         (
             "GOPOS B\x1b[2J",
             "`B\u241b[2J` is not a name: a name is a letter, then letters, digits, `-` and `_`",

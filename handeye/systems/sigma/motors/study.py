@@ -83,7 +83,7 @@ def study(
     if stop_after is not None:
         if not 0 < stop_after < pulses.seconds:
             raise BadArgument(
-                f"the move takes {pulses.seconds:.3f} s; it can be stopped within that, not after {stop_after:g} s"
+                f"the move takes {pulses.seconds:.3f} s; the stop must be within that time, not after {stop_after:g} s"
             )
         pulses = stopped(train, shape, round(stop_after * CLOCK_HZ), cut=cut)
         interrupted = "cut" if cut else "stop"
