@@ -200,8 +200,10 @@ def _along(axis: str, size: float) -> Vector3:
 
 
 _TABLE_HELP: Final = "move the hand along an axis of the table, or turn it about one: `table turn z 10`"
-_HAND_HELP: Final = "move the hand along one of its own axes (z is its pointing direction), or turn it about one: "
+_HAND_HELP: Final = (
+    "move the hand along one of its own axes (z is its pointing direction), or turn it about an axis: "
     "`hand turn y 5`"
+)
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="j3 +1", act=_joint, help="move a joint by this much; without a sign, to this value"),
     Command(usage="table x +.5", act=_table, help=_TABLE_HELP),

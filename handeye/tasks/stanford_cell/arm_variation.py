@@ -31,8 +31,10 @@ _READING: Final = (
 )
 
 
-DOUBLED: Final = "Bound: twice this size, as at the high level, at which 99 of 100 pumps were assembled and no failure was "
+DOUBLED: Final = (
+    "Bound: twice this size, as at the high level, at which 99 of 100 pumps were assembled and no failure was "
     "silent."
+)
 
 
 def group(
