@@ -90,7 +90,7 @@ def turning_words(turning: DecidingEvent | None) -> str:
 
 
 def place_words(place: Place | None) -> str:
-    """A step in words."""
+    """Name a step in words."""
     if place is None:
         return "before the first step"
     return f"{place.stage}, line {place.name}: {one_line(place.text)}"
@@ -111,7 +111,7 @@ def stop_words(stop: Stop) -> str:
 
 
 def correction_words(found: Correction) -> str:
-    """A correction in words."""
+    """Describe a correction in words."""
     turned = "" if found.yaw is None else f", turned {found.yaw / DEGREE:.1f} deg"
     return f"{inches(found.at)}{turned}"
 

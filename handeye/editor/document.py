@@ -38,7 +38,7 @@ class Document:
 
     @cached_property
     def lines(self) -> list[Line]:
-        """The lines of the script as tokens."""
+        """The lines of the script, divided into tokens."""
         return scan(self.text)
 
     @cached_property

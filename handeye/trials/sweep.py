@@ -200,7 +200,7 @@ class Sweep(Generic[R]):
     """True if several trials share a world, so that the seed of a trial does not follow from its number."""
 
     def standing(self, row: R) -> Standing:
-        """Return the class of a trial's outcome."""
+        """Say how a trial's outcome counts: as a success, a failure, or a silent failure, or not at all."""
         return "wrong" if row.broken_off else self.outcomes[row.outcome]
 
 

@@ -35,7 +35,7 @@ class Outcome:
 
     @property
     def good(self) -> bool:
-        """True if the run had no known failure."""
+        """True if no failure of the run is known."""
         return self.kind in ("right", "ended")
 
     @property

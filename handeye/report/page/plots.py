@@ -30,35 +30,35 @@ class Scale:
 def drawing(
     *children: Content, wide: float = WIDE, high: float = HIGH, label: str, role: str = "img"
 ) -> Markup:
-    """Return a drawing with a label for screen readers. With the role `group`, screen readers can also reach
-    the elements inside the drawing."""
+    """Make a drawing with a label for screen readers. With the role `group`, screen readers can also reach the
+    elements inside the drawing."""
     return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role=role, aria_label=label)
 
 
 def curve(xs: Array, ys: Array, **attributes: str) -> Markup:
-    """Return a line through points, without the points that make no visible difference."""
+    """Draw a line through points, without the points that make no visible difference."""
     kept = kept_points(np.column_stack([xs, ys]), TOLERANCE)
     way = "M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in kept.tolist())
     return element("path", d=way, **attributes)
 
 
 def rule(x1: float, y1: float, x2: float, y2: float, **attributes: str) -> Markup:
-    """A straight line."""
+    """Draw a straight line."""
     return element("line", x1=_at(x1), y1=_at(y1), x2=_at(x2), y2=_at(y2), **attributes)
 
 
 def dot(x: float, y: float, radius: float, *, class_: str | None = None) -> Markup:
-    """A filled circle."""
+    """Draw a filled circle."""
     return element("circle", cx=_at(x), cy=_at(y), r=f"{radius:g}", class_=class_)
 
 
 def words(x: float, y: float, content: str, *, anchor: str = "start", class_: str | None = None) -> Markup:
-    """A short text in a drawing."""
+    """Write a short text in a drawing."""
     return element("text", content, x=_at(x), y=_at(y), text_anchor=anchor, class_=class_)
 
 
 def bar(x: float, y: float, wide: float, high: float, *, class_: str) -> Markup:
-    """Return a bar, which is always wide enough to be visible."""
+    """Draw a bar, which is always wide enough to be visible."""
     return element("rect", x=_at(x), y=_at(y), width=_at(max(wide, 0.5)), height=_at(high), class_=class_)
 
 

@@ -125,7 +125,7 @@ def _scaled(unit: Surface, size: Array) -> Surface:
 
 @cache
 def _box() -> Surface:
-    """A box from -1 to 1 along each axis."""
+    """Return a box that extends from -1 to 1 along each axis."""
     corners = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
     return creased(corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]))
@@ -133,7 +133,7 @@ def _box() -> Surface:
 
 @cache
 def _cylinder() -> Surface:
-    """A prism of radius 1, from z = -1 to 1."""
+    """Return a prism of radius 1 that extends from z = -1 to 1."""
     turn = 2 * np.pi * np.arange(SIDES) / SIDES
     ring = np.column_stack([np.cos(turn), np.sin(turn)])
     points = [(x, y, z) for z in (-1.0, 1.0) for x, y in ring] + [(0.0, 0.0, -1.0), (0.0, 0.0, 1.0)]
@@ -147,7 +147,7 @@ def _cylinder() -> Surface:
 
 @cache
 def _ball() -> Surface:
-    """A sphere of radius 1: a box whose faces are divided and projected outwards."""
+    """Return a sphere of radius 1, made from a box whose faces are divided and projected outwards."""
     grid = np.linspace(-1, 1, 9)
     faces = []
     for axis in range(3):

@@ -331,8 +331,8 @@ def beam(at: Technician, arm: int) -> Beam:
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """A hand that has closed on a block away from the middle of its fingers: the push on its wrist (N) when the
-    hand reports that it is done, and later."""
+    """A hand that has closed on a block that is not midway between its fingers: the push on its wrist (N) when
+    the hand reports that it is done, and later."""
 
     arm: int
     busy: bool
@@ -347,7 +347,7 @@ class Grip:
 
 
 def grip(at: Technician, arm: int) -> Grip:
-    """Close a hand on a block that is away from the middle of the fingers."""
+    """Close a hand on a block that is not midway between the fingers."""
     bus, number = at.bus, NUMBERS[f"HAND{arm}"]
     at.block(arm, there=True)
     bus.send(protocol.actuate(arm, "HAND", 1))

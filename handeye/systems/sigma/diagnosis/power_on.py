@@ -137,9 +137,10 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     one = heard[number]
 
     def takes(stranger: int, other: int) -> bool:
-        """A microcomputer that is silent at its own number takes that of another one.
+        """Return True if a microcomputer that is silent at its own number answers to the number of another one.
 
-        It becomes busy then. One that is always busy disturbs the answers of the other one.
+        It then becomes busy together with the other one. A microcomputer that is always busy, such as that of a
+        wrist, is recognised because it disturbs the answers of the other one.
         """
         theirs = heard[other]
         seen = not theirs.right if stranger in scanning else stranger in theirs.busy

@@ -345,7 +345,8 @@ def _uses(program: MalProgram, line: CompiledLine) -> tuple[set[str], set[str]]:
 
 
 def interleavings(program: MalProgram, most: int = MOST_STATES) -> Interleavings:
-    """Try every order in which the tasks of a program may continue, up to a number of states."""
+    """Try every order in which the tasks of a program may continue, until `most` different states have been
+    examined."""
     return _Search(program=program, most=most).run()
 
 

@@ -40,8 +40,8 @@ Waiting = Flags | Motors | Moment | TypedNumber
 
 
 class Loop(Record, frozen=True, kw_only=True):
-    """A FOR loop in progress: its variable, the variable's last value, the step, and the address at which the
-    lines of the loop begin."""
+    """A FOR loop in progress: its variable, the value at which it ends, its step, and the address at which its
+    lines begin."""
 
     name: str
     last: float
