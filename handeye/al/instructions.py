@@ -65,13 +65,12 @@ _MEANINGS: Final = {
     "MOVE": "go to a position: up, across and down; with DIRECT, straight there",
     "CHANGE": "move in a straight line from the present place, in this direction of the table, by this distance (in), "
     "at this speed (in/s; 0 is the usual speed)",
-    "PLACE": "lower the hand by at most 3 in, until it meets the smallest force that it can feel reliably; error 23 if "
-    "it meets none",
+    "PLACE": "lower the hand by at most 3 in, until it meets a force of 50 oz; error 23 if it does not meet this force",
     "PARK": "go to the position called PARK",
     "TURN": "move on a circle about the vertical line through a position, by this angle (degrees, counter-clockwise)",
-    "STOP": "end the next motion when the hand presses along this vector with more than its length (oz), or exerts "
-    "more than this moment (oz-in); a single number (ours) limits the force against the motion, in any direction; "
-    "error 23 if the motion is not stopped",
+    "STOP": "end the next motion when the hand presses along this vector with more ounces than the vector's length, or "
+    "exerts more than this moment (oz-in); a single number (ours) limits the force against the motion, in any "
+    "direction; error 23 if the motion is not stopped",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
     "stiff) for each axis, or the number of axes and their names: `2 X Y`",
@@ -79,14 +78,15 @@ _MEANINGS: Final = {
     "(stay stiff) for each axis, or the number of axes and their names: `2 X Y`",
     "VIA": "pass these positions on the next MOVE, in this order, without stopping",
     "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side to which angle O "
-    "points, 2 the other finger, 3 either finger; error 25 if neither touches anything",
-    "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if it never does",
+    "points, 2 the other finger, 3 either finger; error 25 if the motion ends without a touch",
+    "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if it never reaches "
+    "this torque",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
     "OPEN": "open or close the fingers to this gap (in)",
     "CLOSE": "close on a part; error 2 if there is no part or the part is thinner than the minimum (in), error 7 if "
     "the part is thicker than the maximum (in)",
-    "CENTER": "close on a part without pushing it: the arm moves instead; error 2 if there is no part or the part is "
-    "thinner than the minimum (in)",
+    "CENTER": "close on a part without pushing it, because the arm moves instead; error 2 if there is no part or "
+    "the part is thinner than the minimum (in)",
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
     "SEARCH": "start a search from the present place with this step (in): a spiral of three steps to each side, or, "
@@ -97,7 +97,8 @@ _MEANINGS: Final = {
     "SOJG": "subtract one from a counter, and jump to the label while it is still positive",
     "JUMP": "continue at the label",
     "WAIT": "set the brakes and show the operator a text; without an operator the run ends here",
-    "UNDO": "have the arm undo this stage and start it again, once or the given number of times; after that, continue",
+    "UNDO": "have the arm undo this stage and start the stage again, once or the given number of times; after that, "
+    "continue",
     "TRANS": "define a hand position by x, y, z (in) and the angles O, A, T (degrees), in table coordinates or in "
     "those of a part",
     "VECT": "define a vector for STOP, FORCE or CHANGE, in the unit of its use: ounces, ounce-inches or none; "
@@ -115,7 +116,7 @@ _MEANINGS: Final = {
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",
     "AIM": "point the camera at a position or a part, and focus",
-    "LOOK": "take a picture; with HOLD, at the target voltage (the gain) of the last picture",
+    "LOOK": "take a picture; with HOLD, at the same target voltage (gain) as the last picture",
     "GENERAL": "find the part's outline in the picture; error 30 if the picture does not show it",
     "SPECIFIC": "find the part's holes in the picture; error 31 if the picture does not show them",
     "INSPECT": "compare two pictures and check that the part is in place; error 32 if it is not",

@@ -34,9 +34,10 @@ def origin(definition: Instruction, operand: Operand) -> str:
 
 def part(definition: Instruction) -> str:
     """Describe the role of an instruction, with its origin."""
-    said = f"A {definition.role.value} {'that handeye adds' if definition.ours else 'of the period'}."
+    role = definition.role.value
+    said = f"handeye adds this {role}." if definition.ours else f"Documents of the 1970s contain this {role}."
     modified = ", ".join(f"`{word}`" for word in definition.fits)
-    return f"{said} Modifies {modified}." if modified else said
+    return f"{said} It modifies {modified}." if modified else said
 
 
 def _units(operand: Operand) -> str:

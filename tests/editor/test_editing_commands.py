@@ -135,7 +135,7 @@ def test_explain_tells_usage_operands_and_origin_of_an_instruction() -> None:
         "  position  the name of a position (period)",
         "  (DIRECT)  this word (ours)",
         "",
-        "A motion of the period.",
+        "Documents of the 1970s contain this motion.",
         "More and examples: docs/language/reference/move.md",
     ]
 
