@@ -39,8 +39,8 @@ COLUMNS: Final = ("seed", "verdict", "stage", "cause", "arm_s", "cpu_s", "events
 PROGRAM: Final = "water_pump"
 """Whose plan `handeye trials assembly` takes where it is given none."""
 PAIRED: Final = """\
-The next table compares batches in the same worlds. The batch in the first column lacks a sense or runs another
-program:
+In the next table, each batch of the first column was run without a sense or with another program. The
+second column names the batch of the full program in the same worlds:
 
 | batch | compared to | assembled | there | only here | only there | p | noticed | silent | unfinished | arm | p |
 |---|---|---|---|---|---|---|---|---|---|---|---|"""
