@@ -47,7 +47,7 @@ for_pins = [step for step in plan.stages[3].steps if step.conditions]
 #
 # A world is a cell with its errors: where the base really lies on the belt, how wrong the sensor of each joint
 # reads, how far each hole is from its place in the drawing. A seed determines all errors. The program does not know
-# these figures; it must measure what it needs with its sensors.
+# these errors; it must measure what it needs with its sensors.
 
 # %%
 world = handeye.World(0)

@@ -95,8 +95,8 @@ run.until()
 print(f"{run.state.gap / 0.0254:.2f} in; by a person: {run.result.interventions}")
 
 # %% [markdown]
-# A result always shows whether a person has changed the run. To avoid this next time, we would also correct the
-# taught file: `PIN` is at y = 35.
+# A result always shows whether a person has changed the run. So that the next run needs no change, we would also
+# correct the taught file: `PIN` is at y = 35.
 #
 # ## Expect errors
 #
@@ -166,7 +166,7 @@ print("new places:", sorted({*after.record.program.positions} - {*before.record.
 # %% [markdown]
 # `world = handeye.World(set={"pump.screws": 7})` has a pump with seven holes. `handeye.assemble(world=world,
 # script=after)` assembles this pump in a minute of processor time, and the referee finds seven screws in their
-# threads. With `before`, it finds six, and rejects the pump. The [exercise](../docs/language/seventh-screw.md) does
+# threads. With `before`, the referee finds six screws, and rejects the pump. The [exercise](../docs/language/seventh-screw.md) does
 # the same with a text editor, without Python.
 #
 # [One page](../docs/language/README.md) describes the whole language. In the next notebook, [3. Beams, blobs and

@@ -72,8 +72,8 @@ axis.legend(fontsize=8)
 print(f"{felt['beside the hole'].value[-1] / 0.278:.1f} ounces when it stopped")
 
 # %% [markdown]
-# The motion stops at more than 50 ounces, because the program measures the force once in each servo period. In this
-# time, a stiff arm on a stiff holder adds ten more ounces.
+# The motion stops at more than 50 ounces, because the program measures the force only once in each servo period.
+# Within one period, a stiff arm that presses on a stiff holder adds ten more ounces.
 #
 # ## What a hole catches
 #
@@ -99,7 +99,7 @@ print(
 )
 
 # %% [markdown]
-# The simulated physics agrees with this sum, although it does not use it.
+# The simulated physics agrees with this sum, although the simulator does not compute the sum.
 #
 # ## The rule
 #
@@ -154,8 +154,8 @@ x, y, _ = coarse.state.hand[:3, 3] / 0.0254
 print(f"({x:.2f}, {y:.2f}) in; the hole is at (15, 35)")
 
 # %% [markdown]
-# It ended beside the holder. The pin hangs in the air beyond the edge of the holder, and *no resistance* did not
-# mean a hole, but nothing at all.
+# It ended beside the holder. The pin hangs in the air beyond the edge of the holder. The motion met no resistance
+# because there was nothing under the pin, not because there was a hole.
 #
 # ## Why the pump's program presses twice
 #

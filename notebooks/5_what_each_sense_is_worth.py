@@ -77,7 +77,7 @@ print("\n".join(f"seed {seed}: {far:.1f} mm" for seed, far in enumerate(felt)))
 # ## Force
 #
 # In the next cell, the hand goes down to the table, whose height is 0. `STOP` ends the motion at 40 ounces. What
-# height do the joints then report?
+# height do the joints report at this moment?
 
 # %%
 script = """\
@@ -125,7 +125,7 @@ print("\n".join(tried))
 #
 # These commands take an evening on two processor cores. The next cell plots [their
 # result](../docs/trials.md#what-they-are-worth), as the number of pumps assembled in 60 worlds. For the senses that
-# hardly matter in these, it also shows the number in 20 worlds with doubled errors.
+# hardly matter in these worlds, the plot also shows the number in 20 worlds with doubled errors.
 
 # %%
 nominal = {"nothing": 60, "centring": 59, "touch": 56, "search": 20, "vision": 2, "force": 0}

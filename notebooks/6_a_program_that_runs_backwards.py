@@ -15,8 +15,9 @@
 # understood why undoing is more than replaying in reverse.
 #
 # [TRIG](../docs/trig.md) was made at MIT in 1982. At a terminal (`handeye trig`), you type short commands and drive
-# the arm with a teach box. In this notebook, cells contain the same lines. You can read it without running it. To
-# run it takes half a minute.
+# the arm with a teach box. In this notebook, the cells contain these commands.
+#
+# You can read this notebook without running it. Running it takes half a minute.
 
 # %%
 import matplotlib.pyplot as plt
@@ -68,7 +69,7 @@ axis.set_axis_off()
 session.type("RUN -1000")
 
 # %% [markdown]
-# How exactly does it do this? The next cell takes three photographs: before the program runs again, after its end,
+# How exactly does the arm put the blocks back? The next cell takes three photographs: before the program runs again, after its end,
 # and after the arm has undone it once more. The differences from the first photograph show what the program changed,
 # and what remains after undoing.
 

@@ -83,16 +83,18 @@ WORDS: Final[dict[str, Word]] = {
                   "10 SPEED X1, 100"),
     "CURVE": Word(
         "statement", "CURVE axis, expression",
-        "Choose how an axis accelerates: 0 as usual, 1 to a top speed of 562.5 mm/s, 2 half as fast, 3 a quarter as "
-        "fast, 4 from half the start speed.",
+        "Choose how an axis accelerates: 0 is the usual curve, 1 has a top speed of 562.5 mm/s, 2 accelerates half as "
+        "fast, 3 a quarter as fast, and 4 begins at half the start speed.",
         "10 CURVE Z1, 2",
     ),
     "LIMIT": Word(
         "statement", "LIMIT axis, (expression|STANDARD)",
-        "Set the force, N, above which the axis is stopped; STANDARD means the usual force.", "10 LIMIT Z2, 25",
+        "Set the force, N, above which the axis stops; STANDARD sets the standard limit of the machine again.",
+        "10 LIMIT Z2, 25",
     ),
     "ACTUATE": Word(
-        "statement", "ACTUATE device [= expression]", "Set a device, to 1 if the value is left out, and wait for it.",
+        "statement", "ACTUATE device [= expression]",
+        "Set a device to a value (1 if the value is left out), and wait until the device has finished.",
         "50 ACTUATE HAND1 = 0",
     ),
     "ON": Word(
@@ -112,7 +114,7 @@ WORDS: Final[dict[str, Word]] = {
         "Choose constant speeds with which all axes arrive together, so that the path is straight.",
     ),
     "NOWAIT": Word("part", "NOWAIT", "Continue as soon as the commands are sent, without waiting for the motion."),
-    "STANDARD": Word("part", "STANDARD", "The force limit that the machine has without a LIMIT."),
+    "STANDARD": Word("part", "STANDARD", "In LIMIT: the force limit that the machine has before any LIMIT."),
     "ABORT": Word("part", "ON ABORT", "A motor was stopped: at the end of its rail, or by a force."),
     "ABS": Word("function", "ABS(expression)", "The value without its sign."),
     "INT": Word("function", "INT(expression)", "The largest whole number that does not exceed the value."),
@@ -120,7 +122,7 @@ WORDS: Final[dict[str, Word]] = {
     "SQR": Word("function", "SQR(expression)", "The square root."),
     "POS": Word(
         "function", "POS(axis)",
-        "The place to which the axis was sent, mm. The computer counts it, and sends no question.",
+        "The place to which the axis was sent, mm. The computer knows it from its own commands, and asks no motor.",
     ),
     "FORCE": Word(
         "function", "FORCE(axis)",
