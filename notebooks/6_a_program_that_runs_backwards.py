@@ -69,9 +69,9 @@ axis.set_axis_off()
 session.type("RUN -1000")
 
 # %% [markdown]
-# How exactly does the arm put the blocks back? The next cell takes three photographs: before the program runs again, after its end,
-# and after the arm has undone it once more. The differences from the first photograph show what the program changed,
-# and what remains after undoing.
+# How exactly does the arm put the blocks back? The next cell takes three photographs: before the program runs
+# again, after its end, and after the arm has undone it once more. The differences from the first photograph show
+# what the program changed, and what remains after undoing.
 
 # %%
 before = session.photograph()[150:400, 210:560].astype(int)

@@ -26,14 +26,14 @@ MOST: Final = {
 }  # fmt: skip
 """Greatest value to which a quantity can be set, by unit. It is beyond any plausible value."""
 _READING: Final = (
-    "The offset of the potentiometers from the joints displaces the hand by .060 in (median) or .112 in (95 %); "
-    "layout study, section 4."
+    "The offsets of the potentiometers of all joints together displace the hand by .060 in (median) or .112 in "
+    "(95th percentile); layout study, section 4."
 )
 
 
 DOUBLED: Final = (
-    "Bound: twice this size, as at the high level, at which 99 of 100 pumps were assembled and no failure was "
-    "silent."
+    "Bound: twice this size. At the level `high`, which doubles all errors, 99 of 100 pumps were assembled, and "
+    "no failure was silent."
 )
 
 
@@ -80,10 +80,10 @@ def arm() -> Iterator[Quantity]:
         group("arm.wave", numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
             "Amplitude of the periodic error of the position reading. It limits the distance over which a saved "
             "correction is valid.",
-            unsourced="no data sheet of 1974 gives it. Today's data sheets give the greatest deviation from a "
-                      "line, .15 to .25 % of the travel for wire-wound potentiometers and 1 to 2 % for conductive "
-                      "plastic (Bourns 3400 to 3590, 6537 to 6639), but not its shape. Bound: .18, .16, .59 and "
-                      ".57 deg of joints 1, 2, 4 and 5 and .10 in of joint 3, each of which would by itself "
+            unsourced="no data sheet of 1974 gives this amplitude. Today's data sheets give the greatest deviation "
+                      "from a line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for conductive "
+                      "plastic: Bourns 3400 to 3590, 6537 to 6639), but not whether it is periodic. Bound: .18, .16, "
+                      ".59 and .57 deg of joints 1, 2, 4 and 5 and .10 in of joint 3, each of which would by itself "
                       "explain the error of .1 in of the whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
@@ -169,7 +169,7 @@ def hand() -> Iterator[Quantity]:
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
-            'Force at which a finger\'s switch closes. Reference 6.3: "a few oz; simulate about 2 oz".',
+            "Force at which a finger's switch closes. Our notes on the system of 1973 infer " "a few ounces, and suggest 2 oz for a simulation.",
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
             "Position of the lamp in the hand's frame, relative to the drawing that the camera calibration uses.",

@@ -127,9 +127,10 @@ def _fixtures() -> Iterator[Quantity]:
              "roll": Normal(0.1)},
             ("in", "in", "in", "deg", "deg", "deg"),
             "Position, height and tilt of the fixture relative to its drawing, as set up with a rule, a square and a "
-            "spirit level. Sigma is the tolerance of ISO 2768-1, class m, which a third of the fixtures then exceed: "
-            ".5 mm over 120 to 400 mm, .3 mm of height over 30 to 120 mm, 20 minutes of arc over 50 to 120 mm. A "
-            "rule has divisions of 1/64 in; a spirit level is accurate to .5 to 1 mm/m, .03 to .06 deg.",
+            "spirit level. Sigma is the tolerance of ISO 2768-1, class m, so a third of the fixtures exceed this "
+            "tolerance: .5 mm for lengths of 120 to 400 mm, .3 mm for heights of 30 to 120 mm, and 20 minutes of arc "
+            "for angles over 50 to 120 mm. A rule has divisions of 1/64 in; a spirit level is accurate to .5 to "
+            "1 mm/m, .03 to .06 deg.",
         )  # fmt: skip
 
 
