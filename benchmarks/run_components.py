@@ -14,7 +14,8 @@ from benchmarks.tape import physics_through
 from handeye.arm.trajectory import Trajectory
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.simulated import SimulatedCell
-from handeye.execution import camera_calibration, drive, motion_actions, vision_actions
+from handeye.execution import camera_calibration, motion_actions, vision_actions
+from handeye.execution.drive import ArmDrive
 from handeye.runs import advance
 from handeye.runs.runner import Runner
 
@@ -35,7 +36,7 @@ COMPONENTS: Final = {
 """The meaning of each, in the order of the report."""
 _FUNCTIONS: Final[dict[str, tuple[tuple[Any, tuple[str, ...]], ...]]] = {
     "devices": ((SimulatedCell, ("advance",)),),
-    "servo": ((drive, ("run",)),),
+    "servo": ((ArmDrive, ("_pass",)),),
     "motions": (
         (motion_actions, ("_trajectory", "change_samples", "turn_samples", "directions")),
         (Trajectory, ("sample",)),

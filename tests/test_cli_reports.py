@@ -154,7 +154,7 @@ def test_a_run_leaves_its_report(
 ) -> None:
     monkeypatch.setattr(WaterPump, "photographs", ())
     assert job.work(job.Job(start=begin("OPEN 1"), out=tmp_path, report=True)) == 0
-    assert "its report: " in capsys.readouterr().err
+    assert "\nreport: " in capsys.readouterr().err
     assert (tmp_path / "report.html").exists()
 
 

@@ -135,7 +135,7 @@ def test_checkpoints_of_another_plan_end_with_two(command: Command, planned: Pla
     other = planned(SCRIPT.replace("OPEN    3", "OPEN    4"))
     code, _, err = command("run", other, "--stage", "2", "--checkpoints", str(folder))
     assert code == 2
-    assert "is of another plan" in err
+    assert "belongs to another plan" in err
 
 
 # -- stopping and stepping ----------------------------------------------------------------------------
@@ -623,7 +623,7 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
             "same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
         (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as between kinds of "
-            "processors: A"),
+            "processors; the first: A"),
     ],
 )  # fmt: skip
 def test_verify_has_three_answers_and_names_the_processors(
@@ -634,7 +634,7 @@ def test_verify_has_three_answers_and_names_the_processors(
     really, out, told = command("trace", "verify", str(folder))
     assert really == code
     assert said in " ".join(out.replace(str(folder), "it").split())
-    assert "; this is a 6502" in " ".join(told.split())
+    assert "; this processor is a 6502" in " ".join(told.split())
 
 
 def test_a_run_with_experiments_and_an_operator_comes_out_the_same_again(

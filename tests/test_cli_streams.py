@@ -70,6 +70,7 @@ CHEAP = {
     "trials pallet": "trials pallet --n ✓",
     "trials compare": "trials compare ✓ ✓",
     "trials base": "trials base --n ✓",
+    "trials chess": "trials chess --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

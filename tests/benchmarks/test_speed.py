@@ -9,7 +9,7 @@ from short_runs import begin, history, through
 from benchmarks.run_components import COMPONENTS
 from benchmarks.run_cost import RunCost
 from benchmarks.speed import Watching, bare, carry_out
-from handeye.execution import drive
+from handeye.execution.drive import ArmDrive
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -77,7 +77,7 @@ def test_a_run_without_pictures_has_time_in_every_component_but_those(
 
 def test_functions_are_their_own_again(measured: object) -> None:
     assert mujoco.mj_step.__name__ == "mj_step"
-    assert drive.run.__qualname__ == "run"
+    assert ArmDrive._pass.__qualname__ == "ArmDrive._pass"
 
 
 def test_the_physics_alone_ends_every_step_in_the_state_of_the_run(

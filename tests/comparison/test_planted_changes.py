@@ -113,9 +113,9 @@ def test_an_error_of_the_world_is_named_where_it_first_shows(
     first, ours, theirs = first_of(found), columns(base), columns(changed)
     others = {each: np.flatnonzero(ours[each][:100] != theirs[each][:100]) for each in ours}
     row = min(rows[0] for rows in others.values() if len(rows))
-    shown = [each for each, rows in others.items() if len(rows) and rows[0] == row]
-    assert first.differing.name == shown[0]
-    assert (first.differing.a, first.differing.b) == (ours[shown[0]][row], theirs[shown[0]][row])
+    named = first.differing.name
+    assert named in {each for each, rows in others.items() if len(rows) and rows[0] == row}
+    assert (first.differing.a, first.differing.b) == (ours[named][row], theirs[named][row])
     assert (first.place, first.period or 1) == (step_of(base, row), row + 1)
 
 

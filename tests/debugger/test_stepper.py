@@ -685,7 +685,7 @@ def test_help_tells_all_commands_and_of_each_alone(say: Say) -> None:
     ]  # there is no console; a program sets its own
     assert all(c.usage in text and c.help in text for c in others)
     assert "set saved NAME x y z" in text
-    assert say("help bs")[0].said.splitlines()[0].startswith("back [N], b: undo the last step")
+    assert say("help bs")[0].said.splitlines()[0].startswith("back [N], b: go back one step")
     assert say("?")[0].said == say("h")[0].said == say("help")[0].said
 
 

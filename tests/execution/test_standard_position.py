@@ -15,7 +15,7 @@ def pushed(world: PumpWorld | None = None) -> Bench:
     """The base in the hand on the table, .4 in short of both blocks; the pushes are the program's."""
     text = stage("put the base in its standard position")
     grasp = "OPEN 1.85\nMOVE W\nCLOSE .9 1.4\n"
-    script = grasp + text[text.index("STOP    [0 72 0]") :]
+    script = grasp + text[text.index("STOP    [0 72 0]") : text.rindex("FLATNESS")]
     positions = {"W": shifted("S0", z=-0.5)}
     return bench(script, world=world, positions=positions, lay=at_standard(0.4, -0.4)).go()
 

@@ -100,7 +100,8 @@ def test_the_folder_of_a_run_with_another_fault_is_refused(tmp_path: Path) -> No
     folder = open_new(tmp_path, start(STUCK))
     folder.close()
     with pytest.raises(
-        InvalidInput, match=r"of another run \(seed 0, gap_potentiometer.stuck from stage 2 on, camera"
+        InvalidInput,
+        match=r"belongs to another run \(seed 0, gap_potentiometer.stuck from stage 2 on, camera",
     ):
         open_new(tmp_path, start())
 

@@ -183,7 +183,7 @@ def test_the_trace_of_a_run_with_detours_is_that_of_one_without(whole: Path, tmp
 def test_checkpoints_of_another_plan_are_refused(copy: Path) -> None:
     write_plan(copy / "plan.json", plan_of("OPEN 2\n"))
     before = {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()}
-    with pytest.raises(InvalidInput, match="are of another plan"):
+    with pytest.raises(InvalidInput, match="belong to another plan"):
         open_again(copy)
     assert {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()} == before
 

@@ -135,7 +135,7 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path, prepared: Preparat
     (tmp_path / "file").write_text("in the way")
     kept = KeptCalibrations(tmp_path / "file" / "folder")
     assert kept.find(HERE) is None
-    with pytest.raises(InvalidInput, match=r"folder cannot be made: Not a directory$"):
+    with pytest.raises(InvalidInput, match=r"cannot be created: Not a directory$"):
         kept.keep(HERE, prepared)
 
 

@@ -350,7 +350,7 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
 
 
 def test_no_breakpoint_waits_for_an_error_that_a_taught_program_never_raises() -> None:
-    with pytest.raises(InvalidInput, match=r"^steps of this program raise no errors; a stop"):
+    with pytest.raises(InvalidInput, match=r"^the steps of this program raise no errors to break on"):
         breakpoint("error:23", listing(TaughtPlan(job="palletise", script=low_script(1))))
 
 
