@@ -33,9 +33,10 @@ class Trace(recorded.Trace):
     """The recording of a run, read from a file and checked. Values computed from the recording are kept for later
     use.
 
-    Times are in seconds since the program began, as in events, tables, pages and commands. The preparation before
-    that, in which the camera is calibrated, is not recorded; `head.prepared` is its duration, s. In the shapes of
-    arrays, n is the number of servo periods, sixty per second, and m the number of joints. Reading raises
+    Times are in seconds since the program began, as in events, tables, pages and commands. The trace does not
+    record the preparation before the program starts, when the camera is calibrated; `head.prepared` gives the
+    duration of this preparation in seconds. In the shapes of arrays, n is the number of servo periods, sixty per
+    second, and m the number of joints. Reading raises
     `InvalidInput` if a message does not match its channel. A notebook shows the run's report with a 3D replay;
     `frame` returns one picture.
     """
