@@ -76,7 +76,7 @@ _MEANINGS: Final = {
     "stiff) for each axis, or the number of axes and their names: `2 X Y`",
     "SPIN": "let the hand yield to moments about the given table axes during the next CHANGE: give 1 (yield) or 0 "
     "(stay stiff) for each axis, or the number of axes and their names: `2 X Y`",
-    "VIA": "pass these positions on the next MOVE, in this order, without stopping",
+    "VIA": "pass these positions during the next MOVE, in this order, without stopping",
     "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side to which angle O "
     "points, 2 the other finger, 3 either finger; error 25 if the motion ends without a touch",
     "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if it never reaches "
@@ -108,10 +108,10 @@ _MEANINGS: Final = {
     "HERE": "define a position as the present place of the hand; a taught position that belongs to a part stays "
     "relative to that part",
     "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
-    "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 if that is outside the "
-    "range",
+    "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance is "
+    "outside the range",
     "HEIGHT": "check how much higher (in) the last motion ended than the motion before the SAVE of this name; error 9 "
-    "if that is outside the range",
+    "if this height is outside the range",
     "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, 0 is off",
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",
