@@ -47,7 +47,7 @@ NEVER_ONE = {
     ("handeye/cli/sweeps.py", "sweep.kind"),  # a word
     ("handeye/cli/programs.py", "' or more' if errors == LIMIT else ''"),
     ("handeye/systems/sigma/diagnosis/game.py", "len(FAULTS)"),
-    ("handeye/systems/sigma/run/chess_trials.py", "means['commands']"),  # a mean over boards: over a thousand
+    ("handeye/systems/sigma/run/job_trials.py", "means['commands']"),  # a mean over boards: over a thousand
     ("handeye/systems/sigma/table1.py", "len(ROWS)"),
 }
 """Numbers that are not 1 where the message is made, by file."""

@@ -16,13 +16,18 @@ ENTRY = Entry(
     commands="""
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
 trials chess = handeye.systems.sigma.cli.chess:chess_trials: Sort chess pieces in many worlds: success rate, errors of heights and places.
+trials handover = handeye.systems.sigma.cli.handover:handover_trials: Hand pieces from arm to arm in many worlds: success rate, and errors of places.
 """,  # noqa: E501 - a command a line
     tasks={
         "mal": "handeye.systems.sigma.run.task:MAL_TASK",
         "gantries": "handeye.systems.sigma.gantries.task:GANTRIES",
         "chess": "handeye.systems.sigma.chess.task:CHESS",
+        "handover": "handeye.systems.sigma.handover.task:HANDOVER",
     },
     languages={".mal": "handeye.systems.sigma.mal.language:LANGUAGE"},
-    sweeps={"chess": "handeye.systems.sigma.run.chess_trials:CHESS_TRIALS"},
+    sweeps={
+        "chess": "handeye.systems.sigma.run.job_trials:CHESS_TRIALS",
+        "handover": "handeye.systems.sigma.run.job_trials:HANDOVER_TRIALS",
+    },
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

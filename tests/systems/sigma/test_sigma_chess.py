@@ -25,8 +25,8 @@ from handeye.systems.sigma.chess.pieces import BY_HEIGHT, LIMITS, drawn
 from handeye.systems.sigma.chess.task import CHESS, HEIGHT
 from handeye.systems.sigma.gantries.machine import Gantries
 from handeye.systems.sigma.gantries.world import GantryWorld
-from handeye.systems.sigma.run.chess_plan import chess_plan, chess_setup
-from handeye.systems.sigma.run.chess_trials import ChessWork
+from handeye.systems.sigma.run.job_trials import JobWork
+from handeye.systems.sigma.run.jobs import job_plan, job_setup
 from handeye.systems.sigma.run.plan import MOST_PIECES, MalPlan, decode, encode
 from handeye.trials.sweep import Case
 
@@ -38,10 +38,10 @@ FEW: Final = WorldSpec(seed=11)
 
 def begun(text: str | None = None, pieces: int = 1) -> Runner:
     """A board before the first statement."""
-    setup = chess_setup(pieces, FEW)
+    plan = job_plan("chess", pieces)
     if text is not None:
-        setup = replace(setup, plan=replace(chess_plan(pieces), text=text))
-    return Runner(Checkpoint(setup=setup))
+        plan = replace(plan, text=text)
+    return Runner(Checkpoint(setup=job_setup(plan, FEW)))
 
 
 def test_a_drawn_board_has_room_for_a_hand_between_its_pieces_and_no_height_near_a_limit() -> None:
@@ -120,7 +120,7 @@ def test_a_program_that_sorts_wrongly_and_says_that_it_is_done_is_a_silent_failu
 @pytest.mark.slow
 def test_a_beam_that_is_stuck_is_not_mistaken_for_a_piece(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Gantries, "beam", lambda *_: True)
-    row = ChessWork(pieces=1, world=FEW)(Case(trials=(0,), seed=11))[0]
+    row = JobWork(plan=job_plan("chess", 1), world=FEW)(Case(trials=(0,), seed=11))[0]
     assert (row.outcome, "RAIL" in row.detail) == ("stopped", True)
 
 
@@ -170,7 +170,7 @@ def test_the_height_of_a_block_of_45_mm_is_measured_by_the_beam(seed: int | None
 
 
 def test_pieces_belong_to_gantries_and_a_plan_keeps_them() -> None:
-    plan = chess_plan(4)
+    plan = job_plan("chess", 4)
     assert decode(encode(plan), "kept") == plan
     assert plan.task == "chess"
     with pytest.raises(BadFile, match="has pieces on its board, but no gantries"):

@@ -9,15 +9,14 @@ from math import degrees, inf
 from typing import TYPE_CHECKING, Final
 
 from handeye.core.units import MILLIMETRE
-from handeye.core.variation import WorldSpec
 from handeye.judge.finding import Findings, at_most
 from handeye.judge.measured import tilt
 from handeye.systems.sigma.chess.pieces import Piece, drawn, stand
-from handeye.systems.sigma.chess.witness import HEARD, Heard, ToldHeight
+from handeye.systems.sigma.chess.witness import HeardHeights, ToldHeight
+from handeye.systems.sigma.gantries.job import JobTask
 from handeye.systems.sigma.gantries.machine import scene
-from handeye.systems.sigma.gantries.task import GantryTask
+from handeye.systems.sigma.gantries.witness import HEARD, Witness
 from handeye.systems.sigma.gantries.world import GantryWorld
-from handeye.systems.sigma.run.plan import decode
 from handeye.tasks.interface import Words
 
 if TYPE_CHECKING:
@@ -29,25 +28,25 @@ LEAN: Final = 3.0  # deg
 PLACED: Final = 5.0  # mm across from its line
 HEIGHT: Final = 0.6  # mm
 STANDS: Final = 1.0  # mm of a foot over the board
-PIECES: Final = 8
 _NEAR: Final = 10.0  # mm along X from a piece to where the program says that it has measured it
 
 
-class Chess(GantryTask):
+class Chess(JobTask):
     """Find pieces along three lines, measure their heights, and put each on the line for its height."""
 
     name = "chess"
     words = Words(product="the board", done="Each piece stands on the line of its height.")
 
-    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        return board(GantryWorld(spec), PIECES)[0].compile()
+    usual = 8
 
-    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        return board(GantryWorld(spec), decode(plan, "the plan of the run").pieces)[0].compile()
+    def board(self, world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, Witness[HeardHeights]]:
+        spec, pieces = scene(world), drawn(world, count)
+        stand(spec, pieces)
+        return spec, Witness(HeardHeights(pieces=pieces))
 
     def judge(self, truth: Truth) -> Findings:
         heard = truth.states[HEARD]
-        assert isinstance(heard, Heard)
+        assert isinstance(heard, HeardHeights)
         bodies = [(piece, truth.data.body(piece.name)) for piece in heard.pieces]
         lean = max(tilt(body.xmat.reshape(3, 3)) for _, body in bodies)
         lifted = max(abs(float(body.xpos[2])) for _, body in bodies)
@@ -70,13 +69,6 @@ def _error(piece: Piece, told: Sequence[ToldHeight]) -> float:
     Infinite if no height was reported."""
     here = [each for each in told if each.line == piece.line and abs(each.x - piece.x) < _NEAR]
     return max((abs(each.height - piece.height) for each in here), default=inf)
-
-
-def board(world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, tuple[Piece, ...]]:
-    """Return the scene of a world with its pieces. Raises BadArgument if the number of pieces is impossible."""
-    spec, pieces = scene(world), drawn(world, count)
-    stand(spec, pieces)
-    return spec, pieces
 
 
 CHESS: Final = Chess()

@@ -16,7 +16,8 @@ from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 
 ArmName = Literal["none", "wired", "gantries"]
-TaskName = Literal["mal", "gantries", "chess"]
+JobName = Literal["chess", "handover"]
+TaskName = Literal["mal", "gantries", JobName]
 MOST_PIECES: Final = 12
 LONGEST_STATEMENT_US: Final = 1_000_000
 
@@ -32,13 +33,14 @@ class MalPlan(Record, frozen=True, kw_only=True):
     """
     statement_us: Annotated[int, msgspec.Meta(ge=0, le=LONGEST_STATEMENT_US)] = STATEMENT_US
 
-    pieces: Annotated[int, msgspec.Meta(ge=0, le=MOST_PIECES)] = 0  # of chess on the board, with gantries
+    pieces: Annotated[int, msgspec.Meta(ge=0, le=MOST_PIECES)] = 0  # on the board, with gantries
+    job: JobName = "chess"  # whose pieces they are
 
     @property
     def task(self) -> TaskName:
         """Name of the task to which runs of the plan belong."""
         if self.pieces:
-            return "chess"
+            return self.job
         return "gantries" if self.arm == "gantries" else "mal"
 
     @property

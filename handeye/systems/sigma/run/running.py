@@ -39,11 +39,12 @@ from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.protocol import AXES, STEP_MM
 from handeye.systems.sigma.run.plan import MalPlan, encode, listing
 from handeye.systems.sigma.run.state import MalState
+from handeye.tasks import any_task
 
 if TYPE_CHECKING:  # programs run on perfect motors without a simulator
     from handeye.cell.snapshot_cell import SnapshotCell
-    from handeye.systems.sigma.chess.witness import Witness
     from handeye.systems.sigma.gantries.machine import Gantries
+    from handeye.systems.sigma.gantries.witness import Witness
 
 COMMANDS_PER_SECOND: Final = 10_000  # that the bus carries at most
 WATCHED: Final = 50  # periods in a second that a trace keeps of the gantries
@@ -62,7 +63,7 @@ class RunningMal(RunningSystem):
         self._begun = False
         self._machine: PerfectMotors | WiredBus = PerfectMotors()
         self._gantries: Gantries | None = None
-        self._witness: Witness | None = None
+        self._witness: Witness[Any] | None = None
         match setup.plan.arm:
             case "wired":
                 self._machine = WiredBus()
@@ -300,22 +301,20 @@ class RunningMal(RunningSystem):
             raise Refused(f"a flag is set by 1 and cleared by 0, not by {value[0]:g}")
 
 
-def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness | None]":
-    """Return the bus of the simulated machine, the gantries, and the witness, which records what the program
-    prints about its board.
-    """
-    from handeye.systems.sigma.chess.task import board
-    from handeye.systems.sigma.chess.witness import Witness
+def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness[Any] | None]":
+    """Return the bus of the simulated machine, the gantries, and the witness of the job on their board."""
+    from handeye.systems.sigma.gantries.job import JobTask
     from handeye.systems.sigma.gantries.machine import Gantries, scene
     from handeye.systems.sigma.gantries.world import GantryWorld
 
     assert isinstance(setup.plan, MalPlan)
-    world, witness = GantryWorld(setup.world), None
-    if setup.plan.pieces:
-        spec, pieces = board(world, setup.plan.pieces)
-        witness = Witness(pieces)
+    world, witness, task = GantryWorld(setup.world), None, any_task(setup.plan.task)
+    if isinstance(task, JobTask):
+        spec, witness = task.board(world, setup.plan.pieces)
     else:
         spec = scene(world)
     gantries = Gantries(spec, world)
+    if witness is not None:
+        witness.watch(gantries)
     bus = WiredBus(plant=gantries, seed=setup.world.seed, clock_spread=world.clock_spread)
     return bus, gantries, witness

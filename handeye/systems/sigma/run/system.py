@@ -10,7 +10,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, RunCallbacks, StepperWords, System
 from handeye.systems.sigma import ENTRY
-from handeye.systems.sigma.run.chess_plan import chess_plan
+from handeye.systems.sigma.run.jobs import PROGRAMS, job_plan
 from handeye.systems.sigma.run.plan import MalPlan, decode, encode, listing, sound
 from handeye.systems.sigma.run.running import RunningMal
 from handeye.systems.sigma.run.state import MalState
@@ -57,8 +57,9 @@ class SigmaSystem(System):
         return RunningMal(setup, around)
 
     def own_plan(self, task: str) -> MalPlan:
-        if task == "chess":
-            return chess_plan(OWN_PIECES)
+        for job in PROGRAMS:
+            if task == job:
+                return job_plan(job, OWN_PIECES)
         text = read_source(plans() / OWN).text
         return MalPlan(name=OWN, text=text, arm="gantries" if task == "gantries" else "none")
 

@@ -1,4 +1,4 @@
-"""Trials of the chess experiment: the pieces of boards drawn from seeds are sorted, and the results are judged."""
+"""Trials of jobs: a program works on boards drawn from seeds, and the results are judged."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,13 +13,14 @@ from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.sigma.run.chess_plan import chess_setup
+from handeye.systems.sigma.run.jobs import job_setup
+from handeye.systems.sigma.run.plan import JobName, MalPlan
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 _OUTCOMES: Final = {0: "right", 1: "stopped", 3: "silent"}
 
 
-class ChessRow(TrialRow, frozen=True, kw_only=True):
+class JobRow(TrialRow, frozen=True, kw_only=True):
     """The trial of one board."""
 
     pieces: int = 0
@@ -47,22 +48,22 @@ class ChessRow(TrialRow, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ChessWork:
-    """Sorts the pieces of a board."""
+class JobWork:
+    """Works on a board."""
 
-    pieces: int
+    plan: MalPlan
     world: WorldSpec
 
-    def __call__(self, case: Case) -> list[ChessRow]:
+    def __call__(self, case: Case) -> list[JobRow]:
         """Run one trial."""
         world = msgspec.structs.replace(self.world, seed=case.seed)
-        runner = Runner(Checkpoint(setup=chess_setup(self.pieces, world)))
+        runner = Runner(Checkpoint(setup=job_setup(self.plan, world)))
         result = finished(runner, advance(runner), Meter(), judged=True)
         return [
-            ChessRow(
+            JobRow(
                 trial=case.trials[0],
                 seed=case.seed,
-                pieces=self.pieces,
+                pieces=self.plan.pieces,
                 result=_OUTCOMES[result.exit_code],
                 message=result.message if not result.completed else "",
                 checks=result.referee,
@@ -71,7 +72,7 @@ class ChessWork:
         ]
 
 
-def _more(rows: Sequence[ChessRow]) -> dict[str, object]:
+def _more(rows: Sequence[JobRow]) -> dict[str, object]:
     """Return the means of the figures, and the greatest error of each kind."""
     ended = [row for row in rows if row.figures]
     names = ended[0].figures if ended else ()
@@ -83,7 +84,7 @@ def _more(rows: Sequence[ChessRow]) -> dict[str, object]:
     return {"most": most, "means": means}
 
 
-def _summary(rows: Sequence[ChessRow]) -> list[str]:
+def _summary(rows: Sequence[JobRow]) -> list[str]:
     means = _more(rows)["means"]
     assert isinstance(means, dict)
     if not means:
@@ -95,11 +96,17 @@ def _summary(rows: Sequence[ChessRow]) -> list[str]:
     ]
 
 
-CHESS_TRIALS: Final = Sweep(
-    kind="chess",
-    row=ChessRow,
-    outcomes={"right": "right", "silent": "silent", "stopped": "wrong"},
-    success="right",
-    more=_more,
-    summary=_summary,
-)
+def _sweep(job: JobName) -> Sweep[JobRow]:
+    """Return the kind of sweep for the trials of a job."""
+    return Sweep(
+        kind=job,
+        row=JobRow,
+        outcomes={"right": "right", "silent": "silent", "stopped": "wrong"},
+        success="right",
+        more=_more,
+        summary=_summary,
+    )
+
+
+CHESS_TRIALS: Final = _sweep("chess")
+HANDOVER_TRIALS: Final = _sweep("handover")

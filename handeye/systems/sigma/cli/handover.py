@@ -1,0 +1,79 @@
+"""The commands of the hand-over: one board, and many."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.systems.sigma.cli.jobs import (
+    ANY_RUN,
+    JobOptions,
+    JobSeed,
+    NumberOfBoards,
+    carry_out,
+    carry_out_trials,
+)
+
+Program = Annotated[
+    Path | None, Parameter(help="A program in MAL for the same board, `.mal`, instead of the one of handeye.")
+]
+
+
+def handover(
+    file: Program = None,
+    /,
+    *,
+    seed: JobSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: JobOptions = ANY_RUN,
+) -> int:
+    """Hand four pieces from arm to arm: arm 1 brings them, arm 2 presses their pins in and takes them away.
+
+    `plans/handover_pieces.mal` runs on two simulated gantries in a world drawn from a seed. A referee then looks: each
+    piece has to stand at its last place, within 3 mm and 3 degrees, with its pin pressed in to within .5 mm; the
+    program has to have counted the pieces that are finished; and the arms must not have touched each other.
+
+    Exit code 0: right; 1: the program has stopped before its end, for example at a deadlock or because the arms
+    collided; 3: it has ended, and the referee disagrees; 2: bad input; 130: interrupted.
+    """
+    from handeye.core.source import read_source
+    from handeye.systems.sigma.cli.commands import reported
+    from handeye.systems.sigma.handover.pieces import MOST
+    from handeye.systems.sigma.run.jobs import job_plan
+    from handeye.systems.sigma.run.plan import MalPlan, sound
+
+    plan = job_plan("handover", MOST)
+    if file is not None:
+        source = read_source(file)
+        if not reported(source):
+            return 2
+        plan = MalPlan(name=file.name, text=source.text, arm="gantries", job="handover", pieces=MOST)
+        sound(plan)
+    return carry_out(plan, seed, errors, options)
+
+
+def handover_trials(
+    *,
+    n: NumberOfBoards = 10,
+    seed: FirstSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Hand four pieces from arm to arm on many boards: how often all is right, errors of places, and load of the bus.
+
+    Each trial is that of `handeye sigma handover`. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
+    disagrees.
+    """
+    from handeye.systems.sigma.handover.pieces import MOST
+    from handeye.systems.sigma.run.job_trials import HANDOVER_TRIALS
+    from handeye.systems.sigma.run.jobs import job_plan
+
+    return carry_out_trials(
+        HANDOVER_TRIALS, job_plan("handover", MOST), n, seed, errors, options,
+        title="hand-over of four pieces", again="",
+    )  # fmt: skip

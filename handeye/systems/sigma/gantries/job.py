@@ -1,0 +1,35 @@
+"""A job of the gantries: pieces on their board, a program for them, and a referee."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import TYPE_CHECKING, Any
+
+from handeye.core.variation import WorldSpec
+from handeye.systems.sigma.gantries.task import GantryTask
+from handeye.systems.sigma.gantries.world import GantryWorld
+from handeye.systems.sigma.run.plan import decode
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.systems.sigma.gantries.witness import Witness
+
+
+class JobTask(GantryTask):
+    """A job with pieces."""
+
+    usual: int
+    """The number of pieces if none is given."""
+
+    @abstractmethod
+    def board(self, world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, Witness[Any]]:
+        """Return the scene of a world with its pieces, and the witness of a run. Raises BadArgument if the number of
+        pieces is impossible.
+        """
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return self.board(GantryWorld(spec), self.usual)[0].compile()
+
+    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
+        return self.board(GantryWorld(spec), decode(plan, "the plan of the run").pieces)[0].compile()

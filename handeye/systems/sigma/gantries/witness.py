@@ -1,0 +1,55 @@
+"""The witness of a job: what the program prints, and what happens on the board, for the referee only."""
+
+from typing import ClassVar, Final, Generic, TypeVar
+
+from msgspec import field
+from msgspec.structs import replace
+
+from handeye.cell.mechanism import Mechanism
+from handeye.core.errors import BadFile
+from handeye.core.record import Record
+from handeye.systems.sigma.gantries.machine import Gantries
+
+HEARD: Final = "heard"
+_MOST: Final = 200  # lines
+_LONGEST: Final = 2000  # characters
+
+
+class Heard(Record, frozen=True, kw_only=True):
+    """The lines that the program has printed."""
+
+    lines: tuple[str, ...] = field(default=())
+
+
+H = TypeVar("H", bound=Heard)
+
+
+class Witness(Mechanism[H], Generic[H]):
+    """Records the lines that a program prints about a board."""
+
+    name = HEARD
+    growing: ClassVar[tuple[str, ...]] = ("lines",)
+    """The fields of its state that change during a run; the others describe the board at the beginning."""
+
+    def __init__(self, heard: H) -> None:
+        self.heard, self.kind = heard, type(heard)
+
+    def watch(self, gantries: Gantries) -> None:
+        """Begin to watch the machine. By default this does nothing."""
+
+    def hear(self, line: str) -> None:
+        """Record a printed line."""
+        if len(self.heard.lines) < _MOST:
+            self.heard = replace(self.heard, lines=(*self.heard.lines, line[:_LONGEST]))
+
+    def state(self) -> H:
+        return self.heard
+
+    def check(self, state: H) -> None:
+        if replace(state, **{name: getattr(self.heard, name) for name in self.growing}) != self.heard:
+            raise BadFile("other pieces stood on its board")
+        if len(state.lines) > _MOST or any(len(line) > _LONGEST for line in state.lines):
+            raise BadFile("the program cannot have printed so much")
+
+    def restore(self, state: H) -> None:
+        self.heard = state

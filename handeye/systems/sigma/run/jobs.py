@@ -1,0 +1,23 @@
+"""Sets up the runs of jobs: a program, and the pieces on the board of the gantries."""
+
+from typing import Final
+
+from handeye.core.resources import plans
+from handeye.core.source import read_source
+from handeye.core.variation import WorldSpec
+from handeye.runs.setup import Setup
+from handeye.systems.sigma import ENTRY
+from handeye.systems.sigma.run.plan import JobName, MalPlan
+
+PROGRAMS: Final[dict[JobName, str]] = {"chess": "chess.mal", "handover": "handover_pieces.mal"}
+
+
+def job_plan(job: JobName, pieces: int) -> MalPlan:
+    """Return the plan of a job's own program, for a number of pieces."""
+    name = PROGRAMS[job]
+    return MalPlan(name=name, text=read_source(plans() / name).text, arm="gantries", job=job, pieces=pieces)
+
+
+def job_setup(plan: MalPlan, world: WorldSpec) -> Setup:
+    """Return the setup of a run that a referee judges."""
+    return Setup(system=ENTRY.name, plan=plan, world=world, camera="auto", judged=True)
