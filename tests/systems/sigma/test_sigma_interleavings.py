@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from mal_bench import PLANS, TWO_TASKS, mal
@@ -90,6 +91,21 @@ def test_the_bound_is_said_and_ways_to_end_are_counted() -> None:
     result = tried(mal("dead"), most=20)
     assert (result.states, result.complete) == (20, False)
     assert tried(TWO_TASKS.format(left="40 A = 1", right="70 A = 2")).ends == 2
+
+
+def test_lines_that_no_order_reaches_are_named_because_nothing_is_known_about_them(
+    command: Command, tmp_path: Path
+) -> None:
+    """Sensors answer 0, so the deadlock at the end is not seen."""
+    file = tmp_path / "sees.mal"
+    file.write_text("10 IF BEAM(1) = 0 THEN STOP\n20 A = 1\n30 REM\n40 WAIT NEVER\n", encoding="utf-8")
+    code, out, _ = command("sigma", "check", str(file), "--interleavings")
+    assert (code, out.splitlines()[0]) == (
+        0, "not checked: no order reaches lines 20 to 40 (in this check, sensors answer 0 and no motor is aborted)",
+    )  # fmt: skip
+    code, out, _ = command("sigma", "check", str(file), "--interleavings", "--json")
+    assert json.loads(out)["unreached"] == [20, 40]
+    assert tried(mal("dead"), most=20).unreached == ()  # not all orders were tried
 
 
 @pytest.mark.slow

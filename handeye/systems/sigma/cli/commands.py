@@ -40,6 +40,7 @@ from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
 
 if TYPE_CHECKING:
+    from handeye.systems.sigma.mal.compiler import MalProgram
     from handeye.systems.sigma.mal.interleavings import Interleavings
 
 MalFile = Annotated[Path, Parameter(help="A program in MAL, `.mal`.")]
@@ -173,13 +174,14 @@ def check(
     if not program.lines:
         raise BadArgument(f"{file} has no line that can be executed")
     result = tried(program, most)
-    answer(result, told_orders(str(file), result), json=json)
+    answer(result, told_orders(str(file), program, result), json=json)
     return 1 if result.findings else 0
 
 
-def told_orders(name: str, result: "Interleavings") -> Iterator[str]:
-    """Yield the result of trying all orders: each finding, with a schedule for the first finding of each kind."""
-    from handeye.systems.sigma.mal.interleavings import KINDS, schedule_lines
+def told_orders(name: str, program: "MalProgram", result: "Interleavings") -> Iterator[str]:
+    """Yield the result of trying all orders: each finding, with a schedule for the first finding of each kind, and the
+    lines that no order reaches."""
+    from handeye.systems.sigma.mal.interleavings import KINDS, schedule_lines, unreached_lines
 
     shown: set[str] = set()
     for finding in result.findings:
@@ -189,6 +191,8 @@ def told_orders(name: str, result: "Interleavings") -> Iterator[str]:
             yield "  for example in this order of the tasks"
             yield from (f"    {line}" for line in schedule_lines(finding.schedule))
         shown.add(finding.kind)
+    if lines := unreached_lines(program, result):
+        yield f"not checked: no order reaches {lines} (in this check, sensors answer 0 and no motor is aborted)"
     count = counted(result.states, "state")
     orders = (
         "all orders were tried"

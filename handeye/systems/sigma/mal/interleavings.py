@@ -66,6 +66,7 @@ class Interleavings(Record, frozen=True, kw_only=True):
     complete: bool  # all orders were tried
     ends: int  # different memories with which the program ends
     findings: tuple[OrderFinding, ...]
+    unreached: tuple[int, ...] = ()  # lines that no order executes; empty unless all orders were tried
 
 
 class _State(NamedTuple):
@@ -89,6 +90,7 @@ class _Search:
     reached: dict[bytes, _Reached] = field(default_factory=dict)
     found: dict[tuple[str, object], OrderFinding] = field(default_factory=dict)
     ends: set[bytes] = field(default_factory=set)
+    executed: set[int] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.machine = UntimedMachine(self.instant)
@@ -157,8 +159,13 @@ class _Search:
                 self._look(other, after)
                 waiting.append((other, after))
         order = sorted(self.found.values(), key=lambda each: (len(each.schedule), each.told))
+        numbers = [line.number for line in self.program.lines] if complete else []
         return Interleavings(
-            states=len(self.reached), complete=complete, ends=len(self.ends), findings=tuple(order)
+            states=len(self.reached),
+            complete=complete,
+            ends=len(self.ends),
+            findings=tuple(order),
+            unreached=tuple(number for number in numbers if number not in self.executed),
         )
 
     def _expanded(self, key: bytes, state: _State) -> list[tuple[Act, _State]]:
@@ -211,6 +218,7 @@ class _Search:
             ):
                 return None
         else:
+            self.executed.add(line.number)
             self.vm.choose(name)
             self.vm.statement()
         self._see_events(key, state, Act(task=name, line=line.number, goes_on=amid))
@@ -361,3 +369,16 @@ def schedule_lines(schedule: Sequence[Act]) -> list[str]:
             rows.append((act.task, [text]))
     width = max((len(task) for task, _ in rows), default=0)
     return [f"{task:{width}}  {', '.join(texts)}" for task, texts in rows]
+
+
+def unreached_lines(program: MalProgram, result: Interleavings) -> str:
+    """Return the lines that no order executes, such as `lines 40, 70 to 90`; empty if there are none."""
+    numbers, spans = [line.number for line in program.lines], list[list[int]]()
+    for before, number in zip([None, *numbers], numbers, strict=False):
+        if number in result.unreached:
+            if spans and spans[-1][-1] == before:
+                spans[-1].append(number)
+            else:
+                spans.append([number])
+    texts = [f"{span[0]} to {span[-1]}" if len(span) > 1 else str(span[0]) for span in spans]
+    return f"{'line' if len(result.unreached) == 1 else 'lines'} {', '.join(texts)}" if texts else ""
