@@ -122,9 +122,11 @@ class Strobe:
     @property
     def lines(self) -> Sequence[str]:
         if self.misread:
-            often = f"in {self.misread} of {self.tries} tries"
+            often = f"in {self.misread} of {counted(self.tries, 'try')}"
             return [f"{often}, a microcomputer that became free in mid-command obeyed a command never sent"]
-        return [f"in {self.tries} tries, no microcomputer that became free in mid-command misread it"]
+        return [
+            f"in {counted(self.tries, 'try')}, no microcomputer that became free in mid-command misread it"
+        ]
 
 
 def strobe(at: Technician) -> Strobe:
