@@ -62,9 +62,9 @@ MOTIONS, MODIFIER_GROUP, HAND_WORDS, FLOW = "Motions", "Modifiers", "Hand", "Flo
 PLACES, TOOL, VISION, RUN = "Positions", "Tool and load", "Vision", "Order of the work"
 
 _MEANINGS: Final = {
-    "MOVE": "go to a position: up, across and down; with DIRECT, straight there",
-    "CHANGE": "move in a straight line from the present place, in this direction of the table, by this distance (in), "
-    "at this speed (in/s; 0 is the usual speed)",
+    "MOVE": "go to a position: rise, move across and go down; with DIRECT, go straight to the position",
+    "CHANGE": "move in a straight line from the present place, in this direction (in table coordinates), by this "
+    "distance (in), at this speed (in/s; 0 is the usual speed)",
     "PLACE": "lower the hand by at most 3 in, until it meets a force of 50 oz; error 23 if it does not meet this force",
     "PARK": "go to the position called PARK",
     "TURN": "move on a circle about the vertical line through a position, by this angle (degrees, counter-clockwise)",
@@ -94,14 +94,14 @@ _MEANINGS: Final = {
     "number of steps",
     "AOJ": "go to the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
-    "SOJG": "subtract one from a counter, and jump to the label while it is still positive",
+    "SOJG": "subtract one from a counter, and jump to the label while the counter is still positive",
     "JUMP": "continue at the label",
     "WAIT": "set the brakes and show the operator a text; without an operator the run ends here",
     "UNDO": "have the arm undo this stage and start the stage again, once or the given number of times; after that, "
     "continue",
     "TRANS": "define a hand position by x, y, z (in) and the angles O, A, T (degrees), in table coordinates or in "
     "those of a part",
-    "VECT": "define a vector for STOP, FORCE or CHANGE, in the unit of its use: ounces, ounce-inches or none; "
+    "VECT": "define a vector for STOP, FORCE or CHANGE, in ounces, in ounce-inches or without a unit; "
     "X, Y and Z are predefined",
     "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER, save only its component along "
     "the finger line",
@@ -110,8 +110,8 @@ _MEANINGS: Final = {
     "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
     "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance is "
     "outside the range",
-    "HEIGHT": "check how much higher (in) the last motion ended than the motion before the SAVE of this name; error 9 "
-    "if this height is outside the range",
+    "HEIGHT": "check how much higher (in) the hand ended the last motion than the motion before the SAVE of this name; "
+    "error 9 if this height is outside the range",
     "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, 0 is off",
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",
@@ -121,7 +121,8 @@ _MEANINGS: Final = {
     "SPECIFIC": "find the part's holes in the picture; error 31 if the picture does not show them",
     "INSPECT": "compare two pictures and check that the part is in place; error 32 if it is not",
     "MATCH": "compare two pictures and check that the part has not moved; error 33 if it has",
-    "REQUIRE": "read a file of instructions as if its lines were here; the path is relative to this file",
+    "REQUIRE": "read a file of instructions as if its lines were here; the path is relative to the file that contains "
+    "the REQUIRE",
     "STAGE": "begin a stage of the work; reports use this name",
     "DEFINE": "begin a macro, which a blank line ends; each call gives operands for its parameters, if it has any",
 }

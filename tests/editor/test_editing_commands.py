@@ -130,7 +130,7 @@ def test_explain_tells_usage_operands_and_origin_of_an_instruction() -> None:
     assert explanation("move").split("\n") == [
         "MOVE position (DIRECT)",
         "",
-        "go to a position: up, across and down; with DIRECT, straight there",
+        "go to a position: rise, move across and go down; with DIRECT, go straight to the position",
         "",
         "  position  the name of a position (period)",
         "  (DIRECT)  this word (ours)",
