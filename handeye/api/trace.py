@@ -71,8 +71,8 @@ class Trace(recorded.Trace):
             overwrite: replace an existing video.
 
         Raises:
-            InvalidInput: for the reasons given at `frame`; or if there is no such stage, nothing was recorded in
-                it, the length or speed is not possible, or the video cannot be written.
+            InvalidInput: for the reasons given at `frame`; also if the stage does not exist, if nothing was recorded
+                in the stage, if the length or speed is impossible, or if the video cannot be written.
         """
         from handeye.core.arguments import given_file
         from handeye.video.making import make_video
