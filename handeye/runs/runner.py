@@ -194,7 +194,7 @@ class Runner:
 
     @property
     def onward(self) -> int | None:
-        """After a call of the operator, the number of the step that would have come next."""
+        """Number of the step that would have run next if the program had not stopped to call the operator, or None."""
         return self.system.state.onward
 
     @property

@@ -198,17 +198,17 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.MetEarly(fingers=(True, False), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
-        "the +y finger touches an object already at a gap of 1.80 in; when the step was executed, the fingers "
+        "the +y finger touches an object early, at a gap of 1.80 in; when the step was executed, the fingers "
         "held an object at 1.40 in: the object lies 0.20 in off the centre of the hand",
     ),
     (
         c.MetEarly(fingers=(True, True), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
-        "both fingers touch an object already at a gap of 1.80 in; when the step was executed, the fingers held "
+        "both fingers touch an object early, at a gap of 1.80 in; when the step was executed, the fingers held "
         "an object at 1.40 in",
     ),
     (
         c.MetEarly(fingers=(False, True), gap=0.5 * INCH, kept=0.0, holding=False),
-        "the -y finger touches an object already at a gap of 0.50 in; when the step was executed, the fingers stood "
+        "the -y finger touches an object early, at a gap of 0.50 in; when the step was executed, the fingers stood "
         "at 0.00 in",
     ),
     (

@@ -145,5 +145,5 @@ def _undoes(graph: Graph) -> Iterator[AlwaysFails]:
             here = steps[here].next
         if here == number:
             message = "the stage is always undone, even without an error"
-            help = "test an error before it, with `SKIPE` or `SKIPN`"
+            help = "before the `UNDO`, test for an error with `SKIPE` or `SKIPN`"
             yield AlwaysFails("always-undone", number, message, help)

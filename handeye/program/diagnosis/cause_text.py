@@ -147,7 +147,7 @@ def _undo_stopped(cause: c.UndoCause) -> str:
 def _met_early(cause: c.MetEarly) -> str:
     gap, kept = _apart(cause.gap, cause.kept)
     then = "held an object" if cause.holding else "stood"
-    touching = f"{touching_fingers(cause.fingers)} an object already at a gap of {gap} in"
+    touching = f"{touching_fingers(cause.fingers)} an object early, at a gap of {gap} in"
     reach_sentence = f"{touching}; when the step was executed, the fingers {then} at {kept} in"
     if all(cause.fingers) or not cause.holding:
         return reach_sentence
