@@ -201,7 +201,7 @@ def test_a_run_that_goes_on_loses_the_video_of_what_it_was(command: Command, pla
     assert command("run", plan, "--camera", "ray", "--out", "kept", "--to", "one")[0] == 0
     assert command("video", "kept", *SMALL)[0] == 0
     assert refused(command, "kept", "-o", "it.webp", "--from", "two") == (
-        "kept/trace.mcap does not show stage `two`, but `one`"
+        "kept/trace.mcap does not show stage `two`; it shows `one`"
     )
     assert command("resume", "kept")[0] == 0
     assert not Path("kept/video.webp").exists()
@@ -223,7 +223,7 @@ def test_a_run_taken_up_from_a_checkpoint_shows_what_was_recorded(command: Comma
     assert command("run", plan, *ray, "--checkpoints", "kept", "--from", "two", "--out", "it")[0] == 0
     assert command("video", "it", *SMALL)[0] == 0
     assert refused(command, "it", "--from", "one", "-o", "one.webp") == (
-        "it/trace.mcap does not show stage `one`, but `two`"
+        "it/trace.mcap does not show stage `one`; it shows `two`"
     )
 
 

@@ -187,7 +187,7 @@ class _Phrases:
     def too_faint(self, found: TooFaint) -> Diagnostic:
         vector, turning = found.exerted
         what, si, unit = ("moment", OUNCE_INCH, "oz-in") if turning else ("force", OUNCE_FORCE, "oz")
-        there = "about its axis" if turning else "along it"
+        there = "about this axis" if turning else "in this direction"
         stop = f"a stop on a {what} of {math.hypot(*vector) / si:g} {unit}"
         felt = found.felt / si
         return problem(
@@ -195,7 +195,8 @@ class _Phrases:
             f"{stop} is hard to distinguish from joint friction here",
             self.modifier_span(found.step, "STOP"),
             notes=(
-                f"joint friction that the arm cannot measure feels like up to {felt:.2g} {unit} {there} in free air",
+                f"in free air, joint friction that the arm cannot measure can feel like a {what} of up to "
+                f"{felt:.2g} {unit} {there}",
             ),
             help=f"write at least {math.ceil(felt)} {unit}",
         )

@@ -143,7 +143,7 @@ def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
     for each in differing:
         if each.what == "plan":
             yield (
-                "The plans differ, so the runs are compared only in the steps that both do. `handeye diff` compares "
+                "The plans differ, so only the steps that occur in both runs are compared. `handeye diff` compares "
                 "plans."
             )
         else:

@@ -181,7 +181,7 @@ class Checks:
         self._obstacles = Obstacles(self.program)
 
     def forget(self) -> None:
-        """Forget the state of the hand. At a step reached by a jump, the hand may hold another object."""
+        """Forget the state of the hand, because at a step reached by a jump the hand may hold another object."""
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:

@@ -190,7 +190,7 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
     found = [stage for stage in stages if stage.name == name]
     if not found:
         there = ", ".join(map(quoted, dict.fromkeys(stage.name for stage in stages)))
-        raise BadArgument(f"{trace.name} does not show stage {quoted(name)}, but {there or 'none'}")
+        raise BadArgument(f"{trace.name} does not show stage {quoted(name)}; it shows {there or 'no stages'}")
     return found
 
 

@@ -153,7 +153,8 @@ class Scan:
         return np.asarray((nearest > 0) & (nearest < width))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
-        """Return the lengths (points) of rays within the window, backwards and forwards, shape (n,) each."""
+        """Return how far (points) each ray runs within the window, backwards and forwards from its start: two arrays of
+        shape (n,)."""
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
         back, ahead = np.full((2, *heights.shape), np.inf)
         np.divide(heights, -slopes, out=ahead, where=slopes < -1e-9)

@@ -76,12 +76,21 @@ def test_error_the_action_can_raise_may_be_tested(text: str) -> None:
     [
         (
             "CHANGE [0 0 -1] 1\nSKIPE 23\nPARK",
-            "a motion raises error 23 if a `STOP` before it meets no force",
+            "a motion raises error 23 if it follows a `STOP` and does not meet the force",
         ),
-        (f"{DOWN}SKIPE 24\nPARK", "a motion raises error 24 if a `TORQUE` before it meets no torque"),
-        (f"{DOWN}SKIPE 25\nPARK", "a motion raises error 25 if a `TOUCH` before it feels nothing"),
+        (
+            f"{DOWN}SKIPE 24\nPARK",
+            "a motion raises error 24 if it follows a `TORQUE` and does not meet the torque",
+        ),
+        (
+            f"{DOWN}SKIPE 25\nPARK",
+            "a motion raises error 25 if it follows a `TOUCH` and no finger touches anything",
+        ),
         ("CLOSE .1\nSKIPE 7\nPARK", "`CLOSE` raises error 7 if it has a maximum"),
-        ("CLOSE .1\nSKIPE 23\nPARK", "a motion raises error 23 if a `STOP` before it meets no force"),
+        (
+            "CLOSE .1\nSKIPE 23\nPARK",
+            "a motion raises error 23 if it follows a `STOP` and does not meet the force",
+        ),
         ("CLOSE .1\nSKIPE 8\nPARK", "errors that can occur here: 2, 5, 50, 51"),
     ],
 )

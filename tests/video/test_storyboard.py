@@ -68,7 +68,7 @@ def test_it_goes_from_stage_to_stage(
 
 def test_a_stage_that_was_not_come_to_is_told_with_those_that_are_there(trace: Trace) -> None:
     short = replace(trace, events=tuple(event for event in trace.events if event.time < 0.4))
-    with pytest.raises(InvalidInput, match=r"short\.mcap does not show stage `again`, but `open`$"):
+    with pytest.raises(InvalidInput, match=r"short\.mcap does not show stage `again`; it shows `open`$"):
         storyboard(short, VideoRequest(first="again"))
 
 

@@ -20,9 +20,9 @@ from handeye.program.operation import Operation
 from handeye.program.vision_operations import General, Specific
 
 _CURES = {
-    NO_FORCE: "a motion raises error 23 if a `STOP` before it meets no force",
-    NO_TORQUE: "a motion raises error 24 if a `TORQUE` before it meets no torque",
-    NO_TOUCH: "a motion raises error 25 if a `TOUCH` before it feels nothing",
+    NO_FORCE: "a motion raises error 23 if it follows a `STOP` and does not meet the force",
+    NO_TORQUE: "a motion raises error 24 if it follows a `TORQUE` and does not meet the torque",
+    NO_TOUCH: "a motion raises error 25 if it follows a `TOUCH` and no finger touches anything",
     WRONG_THICKNESS: "`CLOSE` raises error 7 if it has a maximum",
 }
 

@@ -89,8 +89,8 @@ def arm() -> Iterator[Quantity]:
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",
             unsourced="the noise is far smaller than a step of the converter (.05 to .08 deg and .009 in), so the "
-                "converter does not show it. Bound: output smoothness of .1 % of the travel (Bourns 6639), four "
-                "steps."),
+                "converter does not show it. Bound: the output smoothness of the Bourns 6639, .1 % of the travel, "
+                "which is four steps of the converter."),
         group("arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
             f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of "
             "1974."),
@@ -165,7 +165,7 @@ def hand() -> Iterator[Quantity]:
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap reading, before the converter.",
             unsourced="the noise is a third of a step of the converter, so the converter hardly shows it. Bound: "
-                "output smoothness of .1 % of the travel (Bourns 6639), four steps."),
+                "the output smoothness of the Bourns 6639, .1 % of the travel, which is four steps of the converter."),
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",

@@ -111,7 +111,8 @@ def _break(word: str) -> dict[str, object]:
     kind, _, after = word.partition(":")
     if kind not in get_args(BreakKind) or not is_count(after):
         raise BadArgument(
-            f"{quoted(word)} is not an interruption; write {', '.join(get_args(BreakKind))}, with :N after it"
+            f"{quoted(word)} is not an interruption; write KIND:N, where N is a whole number and KIND is "
+            f"{' or '.join(get_args(BreakKind))}"
         )
     return {"kind": kind, "after": int(after)}
 

@@ -152,7 +152,10 @@ def test_the_statistics_are_a_command(command: Command) -> None:
 @pytest.mark.parametrize(
     ("fault", "named"),
     [
-        ("dead-interface:2", "segment 2: no microcomputer on it answers: its interface is dead"),
+        (
+            "dead-interface:2",
+            "segment 2: no microcomputer on this segment answers: the interface",
+        ),
         ("dead:Z1", "Z1: it is dead: it does not answer"),
         ("dead:FORCE2", "FORCE2: it is dead: it does not answer"),
         ("stuck-high:1:3", "segment 1: data line 3 is stuck high"),

@@ -140,7 +140,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="P [COUNT]", group=CURSOR, takes=("count",), act=program_commands.previous_step,
-        help="go up COUNT steps, along the steps that were active last",
+        help="go up COUNT steps; where a step has several parents, to the one that was active last",
     ),
     TrigCommand(
         usage="GOTO STEP", group=CURSOR, takes=("step",), needs=1, act=program_commands.goto, help="go to a named step"
