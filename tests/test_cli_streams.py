@@ -71,6 +71,7 @@ CHEAP = {
     "trials compare": "trials compare ✓ ✓",
     "trials base": "trials base --n ✓",
     "trials chess": "trials chess --n ✓",
+    "trials handover": "trials handover --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

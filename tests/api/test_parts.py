@@ -80,7 +80,7 @@ def test_a_run_names_the_code_that_took_the_place_of_a_part(searched: handeye.Ru
     assert isinstance(begun, RunStarted)
     assert searched.trace.head.replaced == begun.replaced == head.replaced == {"search": f"{__name__}.row"}
     assert searched.result.replaced == {"search": f"{__name__}.row"}
-    assert f"search: the calling program&#x27;s own, {__name__}.row" in searched._repr_html_()
+    assert f"search replaced by the calling program: {__name__}.row" in searched._repr_html_()
 
 
 def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:

@@ -144,7 +144,9 @@ def test_fast_moves_in_empty_space_trip_no_reflex_unless_the_accelerometers_are_
     on, off = json.loads(out)
     assert (code, on["tripped"], off["tripped"]) == (0, 0, on["moves"])
     assert on["force"] < 1 < 4 < off["force"]
-    assert "without accelerometers: 8 of 8 moves stopped" in command("sigma", "moves", "--n", "1")[1]
+    assert (
+        "without accelerometers: the reflex stopped 8 of 8 moves" in command("sigma", "moves", "--n", "1")[1]
+    )
 
 
 @pytest.mark.sigma_row(27)
