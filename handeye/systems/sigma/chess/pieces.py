@@ -93,9 +93,15 @@ def stand(spec: mujoco.MjSpec, pieces: tuple[Piece, ...]) -> None:
         body.add_freejoint(name=piece.name)
         style = spec.find_default("piece")
 
-        def turned(radius: float, low: float, high: float, body: mujoco.MjsBody = body) -> None:
+        def turned(
+            radius: float,
+            low: float,
+            high: float,
+            body: mujoco.MjsBody = body,
+            style: mujoco.MjsDefault = style,
+        ) -> None:
             body.add_geom(
-                style,  # noqa: B023 - used at once
+                style,
                 type=mujoco.mjtGeom.mjGEOM_CYLINDER,
                 size=[radius / 1000, (high - low) / 2000, 0],
                 pos=[0, 0, (low + high) / 2000],

@@ -6,6 +6,7 @@ test can decide.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Final, Protocol, TypeVar
 
 from handeye.core.record import Record
@@ -99,7 +100,7 @@ class Strategy:
 
     def _wrists(self) -> None:
         for arm in ARMS:
-            found = self._test(f"force {arm}", lambda arm=arm: means.forces(self._at, arm))  # type: ignore[misc]
+            found = self._test(f"force {arm}", partial(means.forces, self._at, arm))
             part, why = wrong_force(found)
             if part:
                 raise Found(part, why)
