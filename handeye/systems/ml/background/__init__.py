@@ -1,0 +1,1 @@
+"""The background level of MOS: the stored program and its interpreter."""

@@ -1,0 +1,43 @@
+"""Defines the events of ML programs: printed lines, traced statements, and motions that were not executed."""
+
+from typing import ClassVar
+
+from handeye.core.plain_text import printable
+from handeye.core.units import Measures
+from handeye.program.events import Importance, SystemEvent
+
+
+class Printed(SystemEvent, frozen=True, kw_only=True):
+    """A line was printed."""
+
+    text: str
+
+    def sentence(self, measures: Measures) -> str:
+        return f"MOS prints: {printable(self.text)}"
+
+
+class Traced(SystemEvent, frozen=True, kw_only=True):
+    """A statement is about to be executed while TRACE is on. Its parameters have been evaluated."""
+
+    importance: ClassVar[Importance] = "debug"
+    statement: int
+    text: str
+
+    def sentence(self, measures: Measures) -> str:
+        return f"{self.statement} {self.text}"
+
+
+class Nullified(SystemEvent, frozen=True, kw_only=True):
+    """A motion was not executed, because flags of sensors were on."""
+
+    statement: int  # 0: an immediate line
+    text: str
+    sensors: tuple[int, ...]  # whose flags are on
+
+    def sentence(self, measures: Measures) -> str:
+        flags = " and ".join(map(str, self.sensors))
+        where = f"statement {self.statement}" if self.statement else "the line"
+        return f"{where} ({self.text}) moves nothing: the flag of sensor {flags} is on"
+
+
+EVENTS = (Printed, Traced, Nullified)

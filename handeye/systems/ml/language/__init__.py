@@ -1,0 +1,1 @@
+"""The language ML: its table of commands, parser, checks and listing."""

@@ -1,0 +1,167 @@
+"""Defines the interface between the two levels of MOS: the background level interprets statements, and uses the
+real-time level of an arm through `Level`.
+
+All numbers are words of 16 bits in the units of ML: 0.001 inch, 0.01 degree, and the units of each sensor. Time is
+counted in cycles of 10 ms. No method lets time pass except `cycle`.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping, Sequence
+from typing import Literal, NamedTuple, Protocol
+
+from handeye.core.mutable_records import MutableRecord
+
+Post = Literal["", "goal", "force", "emergency"]
+Side = Literal["right", "left"]
+
+
+class Shape(NamedTuple):
+    """The layout of a table."""
+
+    title: str
+    lines: int
+    words: int
+    internal: bool = True  # serves the real-time level
+    names: tuple[str, ...] = ()  # of its words, where they have names
+
+
+class View(Protocol):
+    """Contents of a table that another part of MOS keeps. Lines and words count from 1, and exist."""
+
+    def read(self, line: int, word: int) -> int:
+        """Return a word."""
+
+    def write(self, line: int, word: int, value: int) -> None:
+        """Set a word. Raises MlError if the word cannot be written."""
+
+
+class Level(ABC):
+    """The real-time level of one arm."""
+
+    @property
+    @abstractmethod
+    def now(self) -> int:
+        """Number of cycles since the beginning."""
+
+    @abstractmethod
+    def cycle(self) -> None:
+        """Execute one cycle of 10 ms: sample, check sensors, check goals, output."""
+
+    @property
+    @abstractmethod
+    def posted(self) -> Post:
+        """What ended the last motion; empty while a motion is under way."""
+
+    @property
+    @abstractmethod
+    def memory(self) -> MutableRecord:
+        """The complete state of the level."""
+
+    @abstractmethod
+    def remember(self, memory: MutableRecord) -> None:
+        """Continue from a copy of a state. Raises InvalidInput if the state does not fit."""
+
+    # -- tables ---------------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def shapes(self) -> Mapping[str, Shape]:
+        """Layouts of all tables, by their names of two letters."""
+
+    @abstractmethod
+    def read(self, table: str, line: int, word: int) -> int:
+        """Return a word of a table. Lines and words count from 1. Raises MlError (M11)."""
+
+    @abstractmethod
+    def write(self, table: str, line: int, word: int, value: int) -> None:
+        """Write a word of a table. The real-time level uses it from the next cycle on. Raises MlError (M11)."""
+
+    @abstractmethod
+    def view(self, table: str, contents: View) -> None:
+        """Let a table show contents that the background level keeps."""
+
+    # -- sensors --------------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def flags(self) -> Collection[int]:
+        """Numbers of the logical sensors whose flags are on."""
+
+    @abstractmethod
+    def expect(self, sensor: int, lower: int, upper: int) -> None:
+        """Set the expected limits of a sensor, and clear its flag. Raises MlError (M04, M11)."""
+
+    @abstractmethod
+    def open(self, sensor: int | None = None) -> None:
+        """Open the limits of a sensor and clear its flag; without a number, of all sensors. Raises MlError (M11)."""
+
+    @abstractmethod
+    def reading(self, sensor: int) -> int:
+        """Return the latest reading of a logical sensor. Raises MlError (M11)."""
+
+    @abstractmethod
+    def calibrate(self, sensors: Sequence[int]) -> None:
+        """Take the mean of the last 8 readings of each sensor as its zero; with no numbers, of all analog sensors.
+        Raises MlError (M11)."""
+
+    @abstractmethod
+    def wand(self, sensor: int) -> None:
+        """Assign the wand to a logical sensor, which expects no contact from now on. Raises MlError (M11)."""
+
+    # -- motors ---------------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def motors(self) -> tuple[int, ...]:
+        """Numbers of the installed motors."""
+
+    @abstractmethod
+    def position(self, motor: int) -> int:
+        """Return the latest position of a motor. Raises MlError (M09)."""
+
+    @abstractmethod
+    def goal(self, motor: int) -> int:
+        """Return the strategic goal of a motor. Raises MlError (M09)."""
+
+    @abstractmethod
+    def start(self, goals: Mapping[int, int]) -> bool:
+        """Give motors new strategic goals. Returns False, and changes nothing, if the flag of any sensor is on.
+        Raises MlError (M09, M10, M15), and changes nothing.
+        """
+
+    # -- power and devices ----------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def enabled(self) -> bool:
+        """True if the pump is on."""
+
+    @abstractmethod
+    def enable(self) -> None:
+        """Switch the pump on. No motor moves. Raises MlError (M14) while the cause of an emergency persists."""
+
+    @abstractmethod
+    def disable(self) -> None:
+        """Freeze all motors, then switch the pump off."""
+
+    @abstractmethod
+    def emergency(self, cause: str, statement: int) -> None:
+        """Freeze all motors, switch the pump off, and record cause and statement in the table EM."""
+
+    @property
+    @abstractmethod
+    def stopped(self) -> str:
+        """The emergency that has stopped the program, as a sentence; empty if there was none since ENABLE."""
+
+    @abstractmethod
+    def analog_in(self, point: int) -> int:
+        """Return an analog input. Raises MlError (M11)."""
+
+    @abstractmethod
+    def analog_out(self, point: int, value: int) -> None:
+        """Set an analog output. Raises MlError (M11; M15 while the pump is on)."""
+
+    @abstractmethod
+    def digital_out(self, word: int, value: int, mask: int) -> None:
+        """Set those bits of a digital output word that are 1 in a mask. Raises MlError (M11; M15 while the pump is
+        on)."""

@@ -1,0 +1,1 @@
+"""Runs of ML programs."""
