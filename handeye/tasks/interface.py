@@ -94,6 +94,8 @@ class AnyTask(ABC):
     """Number of the stage of the task's own program after which a finding must already hold, by the beginning
     of the finding's name.
     """
+    judges_stopped = False
+    """True if the referee also measures the work of a program that has stopped before its end."""
 
     def __repr__(self) -> str:
         return f"<Task {self.name}>"

@@ -33,9 +33,10 @@ def test_the_demonstration_has_a_late_riser_that_does_no_harm(command: Command) 
 def test_with_a_long_strobe_the_late_riser_takes_a_command_that_was_never_sent(command: Command) -> None:
     code, out, _ = command("sigma", "bus", "demo", "--late-riser", "--fault", "long-strobe", "--json")
     found = json.loads(out)
-    assert (code, found["right"], found["count"], found["expected"]) == (1, False, 767, 4668)
+    figures = found["figures"]
+    assert (code, found["completed"], figures["count"], figures["expected"]) == (1, False, 767, 4668)
     assert "Y1 takes 01 07 01 02 FF, which was never sent, and acts: SET_POSITION Y1 767" in found["message"]
-    assert {event["kind"] for event in found["events"]} >= {
+    assert {event["kind"] for event in figures["events"]} >= {
         "sent",
         "taken",
         "spoken",
@@ -144,7 +145,7 @@ def test_errors_begin_at_five_percent() -> None:
 
 def test_the_statistics_are_a_command(command: Command) -> None:
     code, out, _ = command("sigma", "bus", "errors", "--commands", "300", "--clock", "2", "--json")
-    (rate,) = json.loads(out)["rates"]
+    (rate,) = json.loads(out)["figures"]["rates"]
     assert (code, rate["commands"], rate["misread"]) == (0, 300, 0)
 
 

@@ -2,13 +2,13 @@
 
 import json
 from collections.abc import Callable
-from importlib.util import module_from_spec, spec_from_file_location
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from gantry_bench import LONG, Machine
 from mal_bench import ROOT, mal
+from table_pages import maker
 
 from handeye.core.variation import WorldSpec
 from handeye.execution.servo import ServoPeriod
@@ -141,7 +141,7 @@ def test_a_raised_limit_lets_z_press_on_the_board_and_the_standard_one_stops_it(
 @pytest.mark.slow
 def test_fast_moves_in_empty_space_trip_no_reflex_unless_the_accelerometers_are_off(command: Command) -> None:
     code, out, _ = command("sigma", "moves", "--n", "1", "--seed", "7", "--json")
-    on, off = json.loads(out)
+    on, off = json.loads(out)["figures"]["moves"]
     assert (code, on["tripped"], off["tripped"]) == (0, 0, on["moves"])
     assert on["force"] < 1 < 4 < off["force"]
     assert (
@@ -277,10 +277,8 @@ def test_a_crash_is_a_command_whose_page_shows_it(command: Command) -> None:
 
 
 @pytest.mark.slow
-def test_the_table_of_the_safety_study_is_made_by_the_program(request: pytest.FixtureRequest) -> None:
-    spec = spec_from_file_location("make_safety_study", ROOT / "docs/make_safety_study.py")
-    assert spec is not None
-    assert spec.loader is not None
-    made = module_from_spec(spec)
-    spec.loader.exec_module(made)
-    assert made.page(made.page_table()) == made.PAGE.read_text(encoding="utf-8")
+def test_the_table_of_the_safety_study_is_made_by_the_program() -> None:
+    made = maker()
+    assert made.page("safety_study", made.TABLES["safety_study"]()) == made.place("safety_study").read_text(
+        "utf-8"
+    )

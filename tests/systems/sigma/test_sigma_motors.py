@@ -306,7 +306,7 @@ def test_the_study_is_a_command_with_a_drawing(command: Command) -> None:
 
 def test_a_study_that_loses_steps_has_exit_code_1(command: Command) -> None:
     code, out, _ = command("sigma", "axis", "--curve", "1", "--load", "30", "--json")
-    found = json.loads(out)
+    found = json.loads(out)["figures"]
     assert (code, found["lost"] > 10, found["lost_by_balance"] > 10) == (1, True, True)
 
 

@@ -87,7 +87,7 @@ def test_the_bus_of_a_program_is_a_command_with_a_drawing(command: Command) -> N
     root = ElementTree.fromstring(Path("run.svg").read_text("utf-8"))  # noqa: S314 - our own
     assert "handover.mal" in [element.text for element in root.iter()]
     code, out, _ = command("sigma", "bus", "run", where, "--json")
-    found = json.loads(out)
+    found = json.loads(out)["figures"]
     assert (code, found["completed"], found["commands"], found["misread"]) == (0, True, 87, 0)
     assert found["saturation"] == pytest.approx(found["per_second"] / 10_000)
 

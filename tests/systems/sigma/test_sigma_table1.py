@@ -2,10 +2,10 @@
 
 import json
 from collections.abc import Callable
-from importlib.util import module_from_spec, spec_from_file_location
 
 import pytest
-from mal_bench import ROOT, codes
+from mal_bench import codes
+from table_pages import maker
 
 from handeye.systems.sigma.table1 import ROWS, Table1, calculating, load, page_tables, real, table1, uniform
 
@@ -51,12 +51,8 @@ def test_arithmetic_takes_idle_time_and_commands_away(measured: Table1) -> None:
 
 @pytest.mark.slow
 def test_the_page_has_the_tables_that_the_program_makes(measured: Table1) -> None:
-    spec = spec_from_file_location("make_table1", ROOT / "docs/make_table1.py")
-    assert spec is not None
-    assert spec.loader is not None
-    made = module_from_spec(spec)
-    spec.loader.exec_module(made)
-    assert made.PAGE.read_text(encoding="utf-8") == made.page(page_tables(measured))
+    made = maker()
+    assert made.page("table1", page_tables(measured)) == made.place("table1").read_text("utf-8")
 
 
 @pytest.mark.slow

@@ -4,8 +4,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, WholeNumber, put_json, say, screen
+from handeye.cli.common import Json, WholeNumber, say, screen
 from handeye.systems.sigma.cli.bus import NO_DRAWING, DrawingOptions
+from handeye.systems.sigma.cli.studies import put_study
 
 
 def axis(
@@ -40,7 +41,7 @@ def axis(
     Exit code 0: no step was lost; 1: steps were lost; 2: bad input.
     """
     from handeye.systems.sigma.motors.drawing import as_svg, as_text
-    from handeye.systems.sigma.motors.study import lines, study
+    from handeye.systems.sigma.motors.study import lines, study, verdict
 
     drawing.check()
     found = study(
@@ -54,7 +55,7 @@ def axis(
     )
     drawing.write(as_svg(found))
     if json:
-        put_json(found)
+        put_study("axis", found, completed=found.kept, message="; ".join(verdict(found)))
     else:
         for line in (*as_text(found, screen.width), "", *lines(found)):
             say(line, whole=True)

@@ -10,6 +10,7 @@ from handeye.cli.common import Json, Overwrite, WholeNumber, positive, put_json,
 from handeye.core.errors import BadArgument
 from handeye.core.files import Kind, check_place, write_over
 from handeye.core.plain_text import counted
+from handeye.systems.sigma.cli.studies import put_study
 
 DRAWING: Final = Kind("SVG drawing", rb"<\?xml|<svg ", ending=".svg")
 _PERCENTS: Final = (1.0, 2.0, 4.0, 5.0, 6.0, 10.0, 15.0)
@@ -91,16 +92,13 @@ def demo(
     )
     drawing.write(as_svg(*shown.diagrams))
     if json:
-        put_json(
-            {
-                "right": shown.right,
-                "message": "; ".join(verdict(shown)),
-                "count": shown.found,
-                "expected": shown.wanted,
-                "log": told(shown),
-                "events": sorted(shown.log, key=lambda event: event.at),
-            }
-        )
+        figures = {
+            "count": shown.found,
+            "expected": shown.wanted,
+            "log": told(shown),
+            "events": sorted(shown.log, key=lambda event: event.at),
+        }
+        put_study("bus demo", figures, completed=shown.right, message="; ".join(verdict(shown)), seed=seed)
     else:
         for number, each in enumerate(shown.diagrams):
             if number:
@@ -144,7 +142,7 @@ def run(
     from handeye.execution.servo import Halted
     from handeye.systems.sigma.bus.diagram import as_svg, diagram
     from handeye.systems.sigma.bus.faults import defect
-    from handeye.systems.sigma.run.over_wires import lines, over_wires
+    from handeye.systems.sigma.run.over_wires import ENDED, lines, over_wires
     from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, MalPlan
 
     drawing.check()
@@ -173,7 +171,9 @@ def run(
         drawn = diagram(file.name, log, *span, wired.timing, all_lines=all_lines)
         drawing.write(as_svg(drawn))
     if json:
-        put_json(found)
+        stopped = None if found.completed else file.name
+        message = found.message or ENDED
+        put_study("bus run", found, completed=found.completed, message=message, seed=seed, stopped_at=stopped)
     else:
         for line in lines(found, log):
             say(line)
@@ -212,7 +212,8 @@ def errors(
             )
     rates = [error_rate(percent / 100, commands, seed) for percent in percents]
     if json:
-        put_json({"seed": seed, "rates": rates})
+        misread = counted(sum(rate.misread for rate in rates), "command")
+        put_study("bus errors", {"rates": rates}, completed=True, message=f"{misread} misread", seed=seed)
         return 0
     say(
         f"{counted(commands, 'command')} for each clock error, to a receiver that becomes free before or in the "
@@ -269,12 +270,13 @@ def self_test(
     layout = LINE if line else SUPERSIGMA
     wired = WiredBus(layout, defects=[defect(text) for text in fault or ()], seed=seed)
     found = power_on(wired, layout)
+    well = not any(each.fault for each in found)
     if json:
-        put_json({"well": not any(each.fault for each in found), "tests": found})
+        put_study("bus test", {"tests": found}, completed=well, message="; ".join(told(found)), seed=seed)
     else:
         for sentence in told(found):
             say(sentence)
-    return 1 if any(each.fault for each in found) else 0
+    return 0 if well else 1
 
 
 def _no_bars(encoding: str) -> bool:

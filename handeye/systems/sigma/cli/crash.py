@@ -4,7 +4,8 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, put_json, say
+from handeye.cli.common import Json, say
+from handeye.systems.sigma.cli.studies import put_study
 
 
 def crash(
@@ -37,7 +38,7 @@ def crash(
 
     found = collide(speed, reflex=reflex == "on", endless_loop=endless_loop)
     if json:
-        put_json(found)
+        put_study("crash", found, completed=True, message=found.message)
     else:
         for line in lines(found):
             say(line, whole=True)

@@ -5,8 +5,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, WholeNumber, put_json, say
+from handeye.cli.common import Json, WholeNumber, say
 from handeye.core.errors import BadArgument, InvalidInput
+from handeye.systems.sigma.cli.studies import put_study
 
 
 def diagnose(
@@ -57,16 +58,9 @@ def diagnose(
     if every:
         found = report.all_diagnosed(seed)
         if json:
-            right = sum(each.right for each in found)
-            put_json(
-                {
-                    "task": "diagnose",
-                    "seed": seed,
-                    "completed": report.good(found),
-                    "message": report.told(found),
-                    "figures": {"found": right, "faults": found},
-                }
-            )
+            figures = {"found": sum(each.right for each in found), "faults": found}
+            good, told = report.good(found), report.told(found)
+            put_study("diagnose", figures, completed=good, message=told, seed=seed)
         else:
             for line in report.lines(found):
                 say(line, whole=True)
@@ -82,22 +76,16 @@ def diagnose(
                 say(line)
 
     verdict = Strategy(Bench(there, seed or 0), tell).diagnose()
+    right = verdict.part == ("" if there is None else there.part)
     if json:
-        put_json(
-            {
-                "task": "diagnose",
-                "seed": seed,
-                "completed": verdict.part == ("" if there is None else there.part),
-                "message": verdict.why,
-                "figures": {"planted": there, "verdict": verdict, "tests": steps},
-            }
-        )
+        figures = {"planted": there, "verdict": verdict, "tests": steps}
+        put_study("diagnose", figures, completed=right, message=verdict.why, seed=seed)
     else:
         say("")
         if there is not None:
             say(f"Planted: {there.told}.")
         say(f"Found: {verdict.part}: {verdict.why}." if verdict.part else f"No part is found: {verdict.why}.")
-    return 0 if verdict.part == ("" if there is None else there.part) else 1
+    return 0 if right else 1
 
 
 def _play(seed: int, *, demo: bool) -> int:

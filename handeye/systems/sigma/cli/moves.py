@@ -4,8 +4,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, WholeNumber, positive, put_json, say
+from handeye.cli.common import Json, WholeNumber, positive, say
 from handeye.cli.sweeps import FirstSeed
+from handeye.systems.sigma.cli.studies import put_study
 
 
 def moves(
@@ -28,9 +29,10 @@ def moves(
         for each in range(seed, seed + n)
         for compensated in (True, False)
     ]
+    right = not any(each.tripped for each in found if each.compensated)
     if json:
-        put_json(found)
+        put_study("moves", {"moves": found}, completed=right, message="; ".join(lines(found)), seed=seed)
     else:
         for line in lines(found):
             say(line, whole=True)
-    return 1 if any(each.tripped for each in found if each.compensated) else 0
+    return 0 if right else 1

@@ -1,6 +1,7 @@
 """The command that reproduces table 1 of the paper."""
 
-from handeye.cli.common import Json, put_json, say
+from handeye.cli.common import Json, say
+from handeye.systems.sigma.cli.studies import put_study
 
 
 def table1(*, json: Json = False) -> int:
@@ -17,15 +18,8 @@ def table1(*, json: Json = False) -> int:
     found = measured()
     if json:
         failed = [f"{claim.claim}: {claim.found}" for claim in found.claims if not claim.holds]
-        put_json(
-            {
-                "task": "table1",
-                "seed": None,
-                "completed": found.holds,
-                "message": "; ".join(failed) or "all claims of the paper hold",
-                "figures": found,
-            }
-        )
+        message = "; ".join(failed) or "all claims of the paper hold"
+        put_study("table1", found, completed=found.holds, message=message)
     else:
         for line in lines(found):
             say(line, whole=True)

@@ -21,6 +21,7 @@ class JobTask(GantryTask):
 
     usual: int
     """The number of pieces if none is given."""
+    judges_stopped = True
 
     @abstractmethod
     def board(self, world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, Witness[Any]]:

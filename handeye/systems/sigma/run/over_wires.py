@@ -14,6 +14,7 @@ from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 
 _MICROSECONDS: Final = 1_000_000
 _LONGEST: Final = 3_600  # s by the clock of the machine
+ENDED: Final = "all tasks have ended"
 
 
 class BusRun(Record, frozen=True, kw_only=True):
@@ -67,7 +68,7 @@ def over_wires(
 def lines(found: BusRun, log: Sequence[AnyBusEvent]) -> list[str]:
     """Describe the results of a run in sentences."""
     out = [
-        found.message or "all tasks have ended",
+        found.message or ENDED,
         f"{counted(found.commands, 'command')} in {found.seconds:.3f} s: {found.per_second:.2f} a second, "
         f"{found.saturation:.3%} of what the bus carries",
         f"the computer is idle for {found.idle:.1%} of the time",

@@ -1,0 +1,27 @@
+"""The JSON output of the studies of SUPERSIGMA, which no referee judges."""
+
+from handeye.cli.common import put_json
+
+
+def put_study(
+    task: str,
+    figures: object,
+    *,
+    completed: bool,
+    message: str,
+    seed: int | None = None,
+    stopped_at: str | None = None,
+) -> None:
+    """Print the result of a study with the fields of `assemble --json`, and its own results under `figures`."""
+    put_json(
+        {
+            "assembled": None,
+            "completed": completed,
+            "stopped_at": stopped_at,
+            "message": message,
+            "referee": {},
+            "task": task,
+            "seed": seed,
+            "figures": figures,
+        }
+    )
