@@ -145,6 +145,10 @@ class Level(ABC):
         """Freeze all motors, then switch the pump off."""
 
     @abstractmethod
+    def statement(self, number: int) -> None:
+        """Say which statement is executed from now on; 0 for a line that is not stored."""
+
+    @abstractmethod
     def emergency(self, cause: str, statement: int) -> None:
         """Freeze all motors, switch the pump off, and record cause and statement in the table EM."""
 

@@ -1,0 +1,152 @@
+"""The guarded move of ML, as an executable specification.
+
+This module says what a program of SENSOR, motions, DELAY and BRANCH does, on motors that are at their set-points
+when the next cycle begins. It is pure: a state and what the sensors read determine the next state. It shares no
+code with the machine; a property test drives both with the same programs and compares them after every statement.
+
+1. A sensor is *in range* while its reading is strictly between its expected limits.
+2. The *flag* of a sensor comes on in the first cycle in which the sensor is out of range. It stays on until a SENSOR
+   statement clears it, although the reading may return (the latch).
+3. In the cycle in which any flag comes on, every motor *freezes*: its goal becomes its present position.
+4. While any flag is on, every motion is *nullified*: it changes no goal and takes no time.
+5. A motion ends when all motors are at their goals, or when a flag comes on. Then the next statement is executed.
+6. BRANCH reads flags and clears none, so that several may ask one after the other what happened.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Final, Literal
+
+Limits = tuple[int, int]
+Readings = Mapping[int, int]  # of sensors
+Senses = Callable[[int, Mapping[int, int]], Readings]
+"""What the sensors read in a cycle, with the motors at their positions."""
+
+FINE: Final = 100  # a set-point is counted in hundredths of a unit, as 20 cm/s are 78.74 units a cycle
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensor:
+    """`SENSOR`: set the limits of a sensor, open them, or open those of all sensors; clear the flags."""
+
+    sensor: int | None = None  # None: all
+    limits: Limits | None = None  # None: open
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Motion:
+    """`MOVE` and `MOTOR`, or `DMOVE` and `DMOTOR`, whose numbers are relative to the goals."""
+
+    by_motor: Mapping[int, int]
+    relative: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Delay:
+    """`DELAY`: let cycles pass, with all guards active."""
+
+    cycles: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Branch:
+    """`BRANCH`: go to `then` if the flag of any sensor is on that is listed, or is off that is listed negative."""
+
+    then: int
+    other: int | None = None  # None: always to `then`
+    sensors: tuple[int, ...] = ()  # empty: any sensor
+
+
+Statement = Sensor | Motion | Delay | Branch
+Ending = Literal["", "goal", "force", "nullified"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class State:
+    """The arm and its guards between two statements."""
+
+    cycle: int = 0
+    positions: Mapping[int, int]  # by motor
+    goals: Mapping[int, int]
+    set_points: Mapping[int, int]  # hundredths of a unit
+    limits: Mapping[int, Limits]  # of the sensors whose limits are not open
+    flags: frozenset[int] = frozenset()
+
+    @staticmethod
+    def at(positions: Mapping[int, int]) -> "State":
+        """Return the state of an arm that stands still, without guards."""
+        fine = {motor: FINE * position for motor, position in positions.items()}
+        return State(positions=positions, goals=positions, set_points=fine, limits={})
+
+
+def in_range(reading: int, limits: Limits) -> bool:
+    lower, upper = limits
+    return lower < reading < upper
+
+
+def crossed(state: State, readings: Readings) -> frozenset[int]:
+    """Return the sensors whose flags come on."""
+    return frozenset(
+        sensor
+        for sensor, limits in state.limits.items()
+        if sensor not in state.flags and not in_range(readings[sensor], limits)
+    )
+
+
+def arrived(state: State) -> bool:
+    return state.positions == state.goals and all(
+        state.set_points[motor] == FINE * goal for motor, goal in state.goals.items()
+    )
+
+
+def one_cycle(state: State, senses: Senses, speeds: Mapping[int, int]) -> tuple[State, Ending]:
+    """Let a cycle pass; say whether a motion ends in it. `speeds` are in hundredths of a unit a cycle."""
+    new = crossed(state, senses(state.cycle, state.positions))
+    ending: Ending = "force" if new else "goal" if arrived(state) else ""
+    goals = state.positions if new else state.goals
+    set_points = {
+        motor: point + max(-speeds[motor], min(speeds[motor], FINE * goals[motor] - point))
+        for motor, point in state.set_points.items()
+    }
+    positions = {motor: round(point / FINE) for motor, point in set_points.items()}
+    flags = state.flags | new
+    return (
+        replace(
+            state, cycle=state.cycle + 1, positions=positions, goals=goals, set_points=set_points, flags=flags
+        ),
+        ending,
+    )
+
+
+def execute(
+    statement: Statement, state: State, senses: Senses, speeds: Mapping[int, int]
+) -> tuple[State, Ending]:
+    """Execute a statement other than BRANCH; say how its motion ended, if it is one."""
+    ending: Ending = ""
+    match statement:
+        case Sensor(sensor=None):
+            state = replace(state, limits={}, flags=frozenset())
+        case Sensor(sensor=int(sensor), limits=limits):
+            kept = {other: pair for other, pair in state.limits.items() if other != sensor}
+            limited = kept if limits is None else {**kept, sensor: limits}
+            state = replace(state, limits=limited, flags=state.flags - {sensor})
+        case Motion() if state.flags:
+            ending = "nullified"
+        case Motion(by_motor=asked, relative=relative):
+            start = state.goals if relative else dict.fromkeys(asked, 0)
+            state = replace(state, goals={**state.goals, **{m: start[m] + x for m, x in asked.items()}})
+            while not ending:
+                state, ending = one_cycle(state, senses, speeds)
+        case Delay(cycles=cycles):
+            for _ in range(cycles):
+                state, _ = one_cycle(state, senses, speeds)
+    return state, ending
+
+
+def branch(statement: Branch, flags: frozenset[int]) -> int:
+    """Return the number of the statement to which BRANCH goes."""
+    if statement.other is None:
+        return statement.then
+    asked = statement.sensors
+    holds = any((abs(sensor) in flags) == (sensor > 0) for sensor in asked) if asked else bool(flags)
+    return statement.then if holds else statement.other

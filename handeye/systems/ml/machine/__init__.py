@@ -1,0 +1,1 @@
+"""Arms as the real-time level sees them, and perfect motors."""

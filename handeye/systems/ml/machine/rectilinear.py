@@ -1,0 +1,108 @@
+"""The right arm: the rectilinear arm of 1975, with its sensors and the tools of its work station."""
+
+from typing import Final
+
+from handeye.core.units import MILLIMETRE
+from handeye.ports.axes import AxisSpec
+from handeye.systems.ml.machine.spec import (
+    CYCLE,
+    GRAM_FORCE,
+    HUNDREDTHS,
+    LINEAR,
+    RANGE_COUNT,
+    ROTARY,
+    AnalogInput,
+    ArmSpec,
+    MotorSpec,
+    analog,
+    count,
+    digital,
+)
+
+_SLIDE: Final = {"lower": -10_039, "upper": 10_039, "peak": 7874}  # 51 cm, 20 cm/s
+_TURN: Final = {"unit": ROTARY, "peak": 9000}  # 90 deg/s
+
+_MOTORS: Final = (
+    MotorSpec(number=1, axis="base", lower=-16_500, upper=16_500, **_TURN, detent=250, output=-16),  # type: ignore[arg-type]
+    MotorSpec(number=2, axis="z", **_SLIDE, output=1),
+    MotorSpec(number=3, axis="y", **_SLIDE, output=2),
+    MotorSpec(number=4, axis="x", **_SLIDE, output=3),
+    MotorSpec(number=8, axis="roll", lower=-17_500, upper=17_500, **_TURN, output=4),  # type: ignore[arg-type]
+    MotorSpec(number=9, axis="yaw", lower=-10_000, upper=10_000, **_TURN, output=5),  # type: ignore[arg-type]
+    MotorSpec(number=10, axis="pitch", lower=-10_000, upper=10_000, **_TURN, output=6),  # type: ignore[arg-type]
+    MotorSpec(number=11, axis="separation", lower=0, upper=4000, peak=7874, output=7),
+    MotorSpec(number=12, axis="angle", lower=-2500, upper=2500, **_TURN, output=8),  # type: ignore[arg-type]
+)
+"""The eight analog outputs of the System/7 suffice for all motors but the base, whose detents a digital word sets."""
+
+STRAINS: Final = tuple(f"{finger}_strain_{part}" for finger in ("left", "right") for part in "xyz")
+INTERLOCKS: Final = ("panic", "door", "table_1", "table_2", "program_check", "machine_check", "power")
+TOOLS: Final = ("screwdriver", "vacuum", "feeder")
+_STRAIN_POINT: Final = 17
+_RANGE_POINT: Final = 23
+
+RIGHT: Final = ArmSpec(
+    side="right",
+    motors=_MOTORS,
+    analog={
+        **{_STRAIN_POINT + n: AnalogInput(channel=name, count=GRAM_FORCE) for n, name in enumerate(STRAINS)},
+        _RANGE_POINT: AnalogInput(channel="range", count=RANGE_COUNT),
+    },
+    digital={1: ("wand",), 2: ("inside_left", "inside_right")},
+    interlocks=INTERLOCKS,
+    tools=TOOLS,
+    sensors={
+        1: digital(1, 1),
+        **{2 + n: analog(_STRAIN_POINT + n) for n in range(len(STRAINS))},
+        8: analog(_RANGE_POINT),
+        9: digital(2, 1),
+        10: digital(2, 2),
+        11: count(2, 3),
+    },
+    wand=(1, 1),
+)
+
+_HOLDING: Final = ("yaw", "pitch", "separation", "angle")  # electric motors; the pump drives all others
+
+
+def axes_of(arm: ArmSpec, holding: tuple[str, ...] = _HOLDING) -> tuple[AxisSpec, ...]:
+    """Return the axes of an arm, as the manual of its machine describes them."""
+    return tuple(
+        AxisSpec(
+            name=motor.axis,
+            kind="revolute" if motor.unit == ROTARY else "prismatic",
+            lower=motor.lower * motor.unit,
+            upper=motor.upper * motor.unit,
+            speed=motor.peak / HUNDREDTHS * motor.unit / (CYCLE * arm.every),
+            holds=motor.axis in holding,
+        )
+        for motor in arm.motors
+    )
+
+
+LEFT: Final = ArmSpec(
+    side="left",
+    motors=(
+        MotorSpec(number=2, axis="z", lower=-6000, upper=6000, peak=1200, output=1),
+        MotorSpec(number=3, axis="y", lower=-16_000, upper=16_000, peak=2400, output=2),
+        MotorSpec(number=4, axis="x", lower=-8000, upper=8000, peak=2400, output=3),
+        MotorSpec(number=8, axis="roll", unit=ROTARY, lower=-18_000, upper=18_000, peak=4500, output=4),
+        MotorSpec(number=9, axis="yaw", unit=ROTARY, lower=-9000, upper=9000, peak=4500, output=5),
+        MotorSpec(number=10, axis="pitch", unit=ROTARY, lower=-9000, upper=9000, peak=4500, output=6),
+        MotorSpec(
+            number=11,
+            axis="opening",
+            unit=LINEAR,
+            lower=0,
+            upper=round(50 * MILLIMETRE / LINEAR),
+            peak=1000,
+            output=7,
+        ),
+    ),
+    digital={1: ("touch",)},
+    interlocks=INTERLOCKS,
+    sensors={1: digital(1, 1)},
+    wand=(1, 1),
+    every=2,
+)
+"""A left arm of very dissimilar design: fewer motors, other travels, half the speed, and a period of two cycles."""

@@ -1,0 +1,40 @@
+"""What the sensors of perfect motors sense: stimuli that are told beforehand, and outlines that the wand touches."""
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal
+
+import msgspec
+
+from handeye.core.record import Record
+
+Point = tuple[float, float]
+
+
+class Stimulus(Record, frozen=True, kw_only=True):
+    """A value that a channel has during some cycles, or while a motor is beyond a place."""
+
+    channel: str
+    value: float  # SI
+    since: Annotated[int, msgspec.Meta(ge=0)] = 0  # first cycle
+    until: int | None = None  # first cycle after it
+    motor: int = 0  # 0: wherever the motors are
+    beyond: int = 0  # ML units
+    side: Literal["above", "below"] = "above"
+
+    def acts(self, cycle: int, positions: Mapping[int, int]) -> bool:
+        """Return True if the channel has the value in a cycle, with the motors at these positions."""
+        if cycle < self.since or (self.until is not None and cycle >= self.until):
+            return False
+        if not self.motor:
+            return True
+        position = positions.get(self.motor, 0)
+        return position >= self.beyond if self.side == "above" else position <= self.beyond
+
+
+def inside(outline: Sequence[Point], at: Point) -> bool:
+    """Return True if a point is inside an outline, which is closed and does not cross itself."""
+    (y, x), within = at, False
+    for (y1, x1), (y2, x2) in zip(outline, [*outline[1:], outline[0]], strict=True):
+        if (x1 > x) != (x2 > x) and y < y1 + (x - x1) * (y2 - y1) / (x2 - x1):
+            within = not within
+    return within

@@ -1,0 +1,118 @@
+"""Defines the events of the real-time level. Positions, goals and limits are in the units of ML."""
+
+from typing import ClassVar
+
+from handeye.core.units import Measures
+from handeye.program.events import Importance, SystemEvent
+
+
+class LevelEvent(SystemEvent, frozen=True, kw_only=True):
+    """Base of the events of an arm's real-time level."""
+
+    arm: str  # right or left
+    cycle: int  # of 10 ms
+
+
+class LimitCrossed(LevelEvent, frozen=True, kw_only=True):
+    """The reading of a sensor left its expected limits, and the sensor's flag came on."""
+
+    sensor: int
+    reading: int
+    lower: int | None  # None: open
+    upper: int | None
+
+    def sentence(self, measures: Measures) -> str:
+        return f"sensor {self.sensor} reads {self.reading}, which is not {_between(self.lower, self.upper)}"
+
+
+class Froze(LevelEvent, frozen=True, kw_only=True):
+    """All motors were commanded to stay where they are."""
+
+    positions: dict[int, int]  # by motor
+
+    def sentence(self, measures: Measures) -> str:
+        places = ", ".join(f"{motor} at {position}" for motor, position in self.positions.items())
+        return f"all motors of the {self.arm} arm freeze: {places}"
+
+
+class Posted(LevelEvent, frozen=True, kw_only=True):
+    """The real-time level posted the background level: a motion has ended."""
+
+    importance: ClassVar[Importance] = "debug"
+    what: str  # goal, force or emergency
+    cycles: int  # that the motion took
+
+    def sentence(self, measures: Measures) -> str:
+        ends = {"goal": "at its goal", "force": "by a sensor", "emergency": "by an emergency"}[self.what]
+        return f"the motion of the {self.arm} arm has ended {ends} after {self.cycles * 10} ms"
+
+
+class EmergencyStopped(LevelEvent, frozen=True, kw_only=True):
+    """All motors were frozen, the pump and all tools were switched off, and the program was stopped."""
+
+    importance: ClassVar[Importance] = "error"
+    cause: str
+    statement: int  # that was being executed; 0: none
+    text: str
+
+    def sentence(self, measures: Measures) -> str:
+        where = f" at statement {self.statement}" if self.statement else ""
+        return (
+            f"emergency of the {self.arm} arm{where}: {self.text}; all motors are frozen and the pump is off"
+        )
+
+
+class PumpSwitched(LevelEvent, frozen=True, kw_only=True):
+    """ENABLE or DISABLE switched the pump."""
+
+    on: bool
+
+    def sentence(self, measures: Measures) -> str:
+        return f"the pump of the {self.arm} arm is {'on' if self.on else 'off'}"
+
+
+class TableWritten(LevelEvent, frozen=True, kw_only=True):
+    """A word of a table was written."""
+
+    importance: ClassVar[Importance] = "debug"
+    table: str
+    line: int
+    word: int
+    was: int
+    value: int
+
+    def sentence(self, measures: Measures) -> str:
+        return f"word {self.word} of line {self.line} of {self.table} becomes {self.value}; it was {self.was}"
+
+
+class GoalRounded(LevelEvent, frozen=True, kw_only=True):
+    """A goal was rounded to the nearest detent of its motor."""
+
+    importance: ClassVar[Importance] = "warning"
+    motor: int
+    asked: int
+    goal: int
+
+    def sentence(self, measures: Measures) -> str:
+        return f"motor {self.motor} stops at detents only: it goes to {self.goal} instead of {self.asked}"
+
+
+class ToolSwitched(LevelEvent, frozen=True, kw_only=True):
+    """An output switched a tool."""
+
+    tool: str
+    on: bool
+
+    def sentence(self, measures: Measures) -> str:
+        return f"the {self.tool} is switched {'on' if self.on else 'off'}"
+
+
+def _between(lower: int | None, upper: int | None) -> str:
+    if lower is None:
+        return f"below {upper}"
+    return f"above {lower}" if upper is None else f"between {lower} and {upper}"
+
+
+REALTIME_EVENTS = (
+    LimitCrossed, Froze, Posted, EmergencyStopped, PumpSwitched, TableWritten, GoalRounded, ToolSwitched
+)  # fmt: skip

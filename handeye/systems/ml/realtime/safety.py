@@ -1,0 +1,53 @@
+"""The rules of safety: it is always safe for an arm to stand still, and every emergency freezes it and switches the
+pump off.
+"""
+
+from collections.abc import Mapping
+from typing import Final, NamedTuple
+
+from handeye.systems.ml.machine.spec import ArmSpec
+from handeye.systems.ml.realtime.sampling import outside
+from handeye.systems.ml.tables.store import ArmMemory
+
+CAUSES: Final = ("", "PROGRAM", "SENSOR", "PANIC", "INTERLOCK", "CLASS", "STUCK")
+"""Causes of emergencies, by their number in EM: an error of the program, a reading outside its emergency limits, the
+panic button, an interlock of the room or a table, a class interrupt of the System/7, and a motion that does not end.
+"""
+_INTERLOCKS: Final[Mapping[str, tuple[str, str]]] = {
+    "panic": ("PANIC", "the panic button is pressed"),
+    "door": ("INTERLOCK", "the door of the room is open"),
+    "table_1": ("INTERLOCK", "the fuse of work table 1 has opened"),
+    "table_2": ("INTERLOCK", "the fuse of work table 2 has opened"),
+    "program_check": ("CLASS", "the System/7 reports a program check"),
+    "machine_check": ("CLASS", "the System/7 reports a machine check"),
+    "power": ("CLASS", "the System/7 warns of its power or its temperature"),
+}
+
+
+class Danger(NamedTuple):
+    """A cause of an emergency."""
+
+    cause: str
+    number: int = 0  # of the sensor, or of the line of SF
+
+
+def danger(memory: ArmMemory, spec: ArmSpec) -> Danger | None:
+    """Return the cause for an emergency that the tables show, or None."""
+    for number, (lock, name) in enumerate(zip(memory.SF, spec.interlocks, strict=False), 1):
+        if lock.now:
+            return Danger(_INTERLOCKS[name][0], number)
+    for number, sensor in enumerate(memory.ST, 1):
+        if outside(sensor.reading, sensor.lower_emergency, sensor.upper_emergency, sensor.emergency_open):
+            return Danger("SENSOR", number)
+    return None
+
+
+def emergency_text(found: Danger, spec: ArmSpec) -> str:
+    """Say what caused an emergency."""
+    if found.cause in ("PANIC", "INTERLOCK", "CLASS") and 1 <= found.number <= len(spec.interlocks):
+        return _INTERLOCKS[spec.interlocks[found.number - 1]][1]
+    return {
+        "SENSOR": f"sensor {found.number} is outside its emergency limits",
+        "STUCK": "the motors do not reach their goals",
+        "PROGRAM": "an error of the program",
+    }.get(found.cause, found.cause.lower())

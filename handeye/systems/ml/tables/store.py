@@ -1,0 +1,165 @@
+"""Stores the tables of an arm, and those that both arms have in common."""
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+from msgspec import field
+
+from handeye.core.mutable_records import MutableRecord
+from handeye.systems.ml.arithmetic import fits, wrap
+from handeye.systems.ml.errors import MlError
+from handeye.systems.ml.level import Shape, View
+from handeye.systems.ml.tables.layout import (
+    ANALOG_INPUTS,
+    ANALOG_OUTPUTS,
+    DIGITAL_INPUTS,
+    DIGITAL_OUTPUTS,
+    EVENTS_KEPT,
+    FRAMES,
+    INTERLOCKS,
+    INTERRUPTS,
+    MOTORS,
+    RECENT,
+    SENSORS,
+    SHAPES,
+    TIMERS,
+)
+from handeye.systems.ml.tables.records import (
+    ArmLine,
+    CycleLine,
+    EmergencyLine,
+    ForceLine,
+    FrameLine,
+    GoalLine,
+    InterlockLine,
+    MotorLine,
+    SensorLine,
+    SpaceLine,
+    Word,
+)
+
+PAGE: Final = 16  # lines of an external table in a page
+_BY_PROGRAMS: Final[Mapping[str, tuple[str, ...]]] = {
+    "AR": ("coordinate",), "CY": ("used", "share"), "EM": (), "FE": (), "GO": (), "PF": (), "PI": (), "SF": ()
+}  # fmt: skip
+"""Words of a table that a program can write; in other tables, all. Nothing written stops an emergency."""
+
+
+def _zeros(count: int) -> Any:
+    return field(default_factory=lambda: [0] * count)
+
+
+def _lines(kind: type[MutableRecord], count: int) -> Any:
+    return field(default_factory=lambda: [kind() for _ in range(count)])
+
+
+class SharedMemory(MutableRecord, kw_only=True):
+    """The tables that both arms have in common. A list has the words of a table, one line after the other."""
+
+    TM: list[Word] = _zeros(TIMERS)
+    JY: list[Word] = _zeros(MOTORS * 2)
+    FK: list[Word] = _zeros(16)
+    VR: list[Word] = _zeros(256)
+    PF: list[FrameLine] = _lines(FrameLine, FRAMES)
+    HL: list[Word] = _zeros(3)
+    MX: list[Word] = _zeros(16)
+    US: dict[int, Word] = field(default_factory=dict)  # words that are not 0
+
+
+class ArmMemory(MutableRecord, kw_only=True):
+    """The complete state of the real-time level of an arm: its tables, and what no table shows."""
+
+    now: int = 0  # cycles since the beginning
+    MT: list[MotorLine] = _lines(MotorLine, MOTORS)
+    ST: list[SensorLine] = _lines(SensorLine, SENSORS)
+    AI: list[Word] = _zeros(ANALOG_INPUTS)
+    AO: list[Word] = _zeros(ANALOG_OUTPUTS)
+    DI: list[Word] = _zeros(DIGITAL_INPUTS)
+    DO: list[Word] = _zeros(DIGITAL_OUTPUTS)
+    PI: list[Word] = _zeros(INTERRUPTS)
+    EM: list[EmergencyLine] = _lines(EmergencyLine, 1)
+    FE: list[ForceLine] = _lines(ForceLine, EVENTS_KEPT)
+    GO: list[GoalLine] = _lines(GoalLine, EVENTS_KEPT)
+    CY: list[CycleLine] = _lines(CycleLine, 1)
+    RG: list[Word] = _zeros(15)
+    AR: list[ArmLine] = _lines(ArmLine, 1)
+    SF: list[InterlockLine] = _lines(InterlockLine, INTERLOCKS)
+    WS: list[SpaceLine] = _lines(SpaceLine, MOTORS)
+    CA: list[Word] = _zeros(SENSORS * RECENT)
+    fine: list[int] = _zeros(MOTORS)  # set-points, hundredths of a unit
+    pace: list[int] = _zeros(MOTORS)
+    """Greatest advances of the set-points in the motion under way, hundredths of a unit a cycle; 0: the motor's."""
+    tools: Word = 0  # the outputs of tools as they are
+
+
+def word_of(name: str) -> int:
+    """Return the name of a table as a word, which holds two characters."""
+    return ord(name[0]) << 8 | ord(name[1])
+
+
+class Tables:
+    """Access to all tables of an arm by name, line and word."""
+
+    def __init__(self, arm: ArmMemory, shared: SharedMemory) -> None:
+        self._arm, self._shared = arm, shared
+        self.views: dict[str, View] = {}  # contents that the background level keeps
+
+    def read(self, table: str, line: int, word: int) -> int:
+        """Return a word. Raises MlError (M11)."""
+        shape = self._shape(table, line, word)
+        if table in self.views:
+            return self.views[table].read(line, word)
+        store = self._store(table)
+        if isinstance(store, dict):
+            return int(store.get((line - 1) * shape.words + word - 1, 0))
+        if store is None:
+            return 0
+        if store and isinstance(store[0], MutableRecord):
+            return int(getattr(store[line - 1], shape.names[word - 1]))
+        return int(store[(line - 1) * shape.words + word - 1])
+
+    def write(self, table: str, line: int, word: int, value: int) -> None:
+        """Write a word. Raises MlError (M04, M11)."""
+        shape = self._shape(table, line, word)
+        if not fits(value):
+            raise MlError("M04", f"{value} does not fit into a word of {table}")
+        if table in self.views:
+            self.views[table].write(line, word, value)
+            return
+        name = shape.names[word - 1] if len(shape.names) == shape.words else ""
+        store = self._store(table)
+        if store is None or name not in _BY_PROGRAMS.get(table, (name,)):
+            raise MlError("M11", f"word {word} of {table} cannot be written")
+        if store and not isinstance(store, dict) and isinstance(store[0], MutableRecord):
+            setattr(store[line - 1], name, value)
+        else:
+            store[(line - 1) * shape.words + word - 1] = value
+
+    def _shape(self, table: str, line: int, word: int) -> Shape:
+        shape = SHAPES.get(table)
+        if shape is None:
+            raise MlError("M11", f"there is no table {table}; there are {', '.join(SHAPES)}")
+        if not 1 <= line <= shape.lines:
+            raise MlError("M11", f"{table} has lines 1 to {shape.lines}, and no line {line}")
+        if not 1 <= word <= shape.words:
+            raise MlError("M11", f"a line of {table} has words 1 to {shape.words}, and no word {word}")
+        if not shape.internal:
+            self._page_in(table, (line - 1) // PAGE)
+        return shape
+
+    def _store(self, table: str) -> Any:
+        return (
+            getattr(self._arm, table, None)
+            if hasattr(self._arm, table)
+            else getattr(self._shared, table, None)
+        )
+
+    def _page_in(self, table: str, page: int) -> None:
+        """Have a page of an external table in a frame, in place of the page that was used least recently."""
+        frames, name = self._shared.PF, word_of(table)
+        found = next((frame for frame in frames if (frame.table, frame.page) == (name, page)), None)
+        if found is None:
+            free = [frame for frame in frames if not frame.table]
+            found = free[0] if free else max(frames, key=lambda frame: wrap(self._arm.now - frame.used))
+            found.table, found.page = name, page
+        found.used = wrap(self._arm.now)
