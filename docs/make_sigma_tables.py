@@ -19,7 +19,7 @@ from handeye.systems.sigma.gantries import crash  # noqa: E402
 
 BEGIN, END = "<!-- Below: docs/make_sigma_tables.py -->\n", "<!-- Above: docs/make_sigma_tables.py -->\n"
 TABLES: Final[dict[str, Callable[[], str]]] = {
-    "safety_study": crash.page_table,
+    "safety_study": crash.page_tables,
     "table1": lambda: table1.page_tables(table1.table1()),
 }
 """What makes the tables of each page."""

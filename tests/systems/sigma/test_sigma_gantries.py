@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import pairwise, permutations
 
 import numpy as np
 import pytest
@@ -84,6 +84,31 @@ def test_at_full_speed_both_arms_lose_steps_and_both_are_doubted() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.sigma_row(44)
+def test_an_arm_that_is_hit_above_its_wrist_is_doubted_though_it_feels_nothing() -> None:
+    found = crash(None, reflex=True, lower=2)
+    assert found.axes[1].lost > 50
+    assert found.axes[1].force < DOUBT_N
+    assert all(axis.doubted for axis in found.axes)
+
+
+@pytest.mark.slow
+def test_steps_that_no_wrist_has_felt_are_found_by_origin() -> None:
+    found = crash(50.0, reflex=True, lower=1)
+    assert all(axis.lost > 50 and not axis.doubted for axis in found.axes)
+    assert "LOSTSTEPS: the count of X1 was wrong by" in found.origin
+    assert "and the count of X2 was wrong by" in found.origin
+
+
+@pytest.mark.sigma_row(22)
+def test_origin_lets_the_rotor_rest_before_it_turns_round_so_that_no_pole_is_lost() -> None:
+    machine = Machine(25)  # whose motor of X1 is weak
+    machine.bus.send(protocol.origin("X1"))
+    assert machine.bus.wait_free(0, LONG) is Status.FREE
+    assert machine.gantries.memory.slipped[0] == 0
+
+
+@pytest.mark.slow
 def test_origin_ends_the_doubt() -> None:
     text = "10 ORIGIN Z1\n20 LIMIT Z1, 30\n30 ON ABORT GOTO 50\n40 MOVE Z1 TO 195 SLOW 30\n50 ORIGIN Z1\n"
     ran = Machine().run(text)
@@ -109,6 +134,41 @@ def test_two_moves_overlap_and_a_line_is_straight_in_truth() -> None:
         ways[option] = np.abs(way @ (20, -50)).max() / np.hypot(20, 50)
     assert ways[""] > 2
     assert ways[" LINE"] < 0.5
+
+
+@pytest.mark.slow
+@pytest.mark.sigma_row(24)
+def test_a_force_microcomputer_takes_commands_while_it_scans_and_an_arm_moves() -> None:
+    machine = Machine()
+    bus, number = machine.bus, NUMBERS["FORCE1"]
+    bus.send(protocol.move("X1", 4000))
+    seen = set[Status]()
+    for newtons in (25.0, 4.0) * 5:
+        seen.add(bus.status(number))
+        bus.send(protocol.threshold(1, "X", newtons))
+        assert abs(protocol.signed(bus.ask(protocol.force(1, "X"), 2)) * protocol.FORCE_STEP_N) < 4
+    assert bus.status(NUMBERS["X1"]) is Status.BUSY
+    assert seen == {Status.BUSY}
+    bus.send(protocol.threshold(1, "X", 0.1))  # which the inertia of the hand exceeds
+    assert bus.wait_free(NUMBERS["X1"], LONG) is Status.FORCE
+
+
+@pytest.mark.slow
+@pytest.mark.sigma_row(46)
+def test_all_orders_of_three_moves_and_all_at_once_end_at_the_same_place() -> None:
+    ends, goals = list[tuple[float, ...]](), {"X1": 30, "Y1": 25, "Z1": 20}
+    orders = [*permutations(goals), ()]
+    for order in orders:
+        machine = Machine(25)
+        lines = [f"MOVE {axis} TO {goals[axis]}" for axis in order] or ["MOVE X1 TO 30, Y1 TO 25, Z1 TO 20"]
+        ran = machine.run(
+            "10 ORIGIN X1, Y1, Z1\n" + "".join(f"{20 + n} {line}\n" for n, line in enumerate(lines))
+        )
+        machine.rest()
+        assert not ran.fault
+        assert [machine.count(axis) for axis in goals] == [800, 667, 533]
+        ends.append(tuple(machine.place(axis) for axis in goals))
+    assert np.ptp(np.array(ends), axis=0).max() < 1
 
 
 @pytest.mark.slow

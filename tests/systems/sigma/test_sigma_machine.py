@@ -8,7 +8,7 @@ from mal_bench import TWO_TASKS, begun, carried_out, go_on, mal
 from handeye.core.mutable_records import copied
 from handeye.systems.sigma.machine.perfect import PerfectMotors
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
-from handeye.systems.sigma.protocol import NUMBERS
+from handeye.systems.sigma.protocol import NUMBERS, STEP_MM
 
 
 @pytest.mark.sigma_row(32)
@@ -108,6 +108,25 @@ def test_an_abort_with_a_handler_goes_there_and_resume_goes_on_behind_the_move()
 def test_a_handler_of_one_axis_leaves_the_others_alone() -> None:
     text = "5 ON ABORT Z1 GOTO 100\n10 ORIGIN X1\n20 MOVE X1 BY 700\n30 END\n100 PRINT 1"
     assert carried_out(text).fault.startswith("ABORT X1 RAIL")
+
+
+TWICE = "10 ORIGIN X1, Y1\n20 MOVE X1 TO 50\n30 ORIGIN X1, Y1\n40 PRINT POS(X1)"
+
+
+@pytest.mark.parametrize(("lost", "told"), [(0, ""), (2, ""), (16, "the count of X1 was wrong by 0.60 mm")])
+def test_origin_finds_out_whether_a_motor_has_lost_steps(lost: int, told: str) -> None:
+    ran = begun(TWICE)
+    machine = ran.vm.machine
+    assert isinstance(machine, PerfectMotors)
+    while ran.vm.memory.counts.get("X1") != round(50 / STEP_MM):
+        go_on(ran, 1)
+    machine.memory.motors[NUMBERS["X1"]].place -= lost
+    go_on(ran)
+    assert ran.fault == (f"line 30: LOSTSTEPS: {told}" if told else "")
+    if told:
+        ran.vm.retry()
+        go_on(ran)
+    assert ran.printed == ["0"]
 
 
 def test_a_motor_at_its_rail_moves_away_from_it_and_not_towards_it() -> None:

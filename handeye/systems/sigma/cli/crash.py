@@ -24,11 +24,18 @@ def crash(
             help="After sending the move, the central computer hangs and no longer reads the status of the motors.",
         ),
     ] = False,
+    lower: Annotated[
+        Literal["none", "1", "2"],
+        Parameter(
+            help="The arm whose hand is 100 mm lower than the other's. `2`: arm 1 hits arm 2 above its wrist; `1`: "
+            "the column of arm 1, above its wrist, hits the hand of arm 2; `none`: the hands meet."
+        ),
+    ] = "none",
     json: Json = False,
 ) -> int:
     """Let arm 1 run into the stationary hand of arm 2: force, steps lost, what the program believes, and what is true.
 
-    The collision is a study, so no outcome is right or wrong. The page `docs/safety_study.md` compares ten
+    The collision is a study, so no outcome is right or wrong. The page `docs/safety_study.md` compares fourteen
     collisions.
 
     Exit code 0: simulated; 2: bad input.
@@ -36,7 +43,9 @@ def crash(
     from handeye.systems.sigma.gantries.crash import crash as collide
     from handeye.systems.sigma.gantries.crash import lines
 
-    found = collide(speed, reflex=reflex == "on", endless_loop=endless_loop)
+    found = collide(
+        speed, reflex=reflex == "on", endless_loop=endless_loop, lower=0 if lower == "none" else int(lower)
+    )
     if json:
         put_study("crash", found, completed=True, message=found.message)
     else:

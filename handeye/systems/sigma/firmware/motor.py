@@ -26,6 +26,7 @@ State = Literal["still", "moving", "stopping", "seeking", "turning", "releasing"
 switch.
 """
 _BITS: Final = 16
+REST: Final = 20_000  # microseconds in which a rotor comes to rest before ORIGIN turns it round
 
 
 class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
@@ -38,7 +39,7 @@ class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
     sense: int = 1  # of the train, 1 or -1
     pulses: int = 0  # sent to the driver before the train, forward less backward
     zero: int = 0  # of them where the count is 0
-    at_abort: int = 0  # count when the last abort began
+    at_abort: int = 0  # count when the last abort began, or where ORIGIN ended, before it became 0
     cause: Status = Status.FREE  # of the stop under way
     pressed: int = 0  # the sense of the motion that has met the force there is
     curve: int = 0
@@ -182,7 +183,7 @@ class Motor(Device):
             case "stopping":
                 memory.status = memory.cause
             case "turning":
-                self._release(at)
+                self._release(at + self.crystal.micros(REST))
             case "seeking" | "releasing":  # as far as can be counted, and no switch has acted
                 self._refuse(Status.RAIL, at)
 
@@ -201,6 +202,7 @@ class Motor(Device):
                 self._brake("turning", at)
             case ("releasing", "low") if not level:
                 self._halt(at)
+                memory.at_abort = self.count(at)
                 memory.zero, memory.status = memory.pulses, Status.FREE
         if pin == "force" and not level:
             memory.pressed = 0

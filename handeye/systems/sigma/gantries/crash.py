@@ -24,12 +24,16 @@ STANDS: Final = 400.0  # mm, where X2 stands: the hands meet at X1 = 160
 SLOWEST, FASTEST = 2.0, 254.0  # mm/s, of a move at constant speed
 _LONGEST: Final = 120_000_000  # microseconds
 _REST: Final = 300_000  # microseconds until all stands still
-_PROGRAM: Final = """10 REM ARM 1 RUNS INTO THE STANDING HAND OF ARM 2
+LOWERED: Final = 100.0  # mm: the fingers of the other arm are then at the height of this arm's column
+_PROGRAM: Final = """10 REM ARM 1 RUNS INTO ARM 2, WHICH STANDS
 20 ORIGIN X1, X2
 30 MOVE X2 TO {stands:g}
 40 MOVE X1 TO {goal:g}{slow}
 50 PRINT "ARRIVED AT", POS(X1)
 """
+_LOWER: Final = "22 ORIGIN Z{arm}\n24 MOVE Z{arm} TO {lowered:g}\n"
+_LAST: Final = 60
+_ORIGIN: Final = f"{_LAST} ORIGIN X1, X2\n"
 
 
 class CrashedAxis(Record, frozen=True, kw_only=True):
@@ -53,21 +57,26 @@ class Crash(Record, frozen=True, kw_only=True):
     endless_loop: bool
     axes: tuple[CrashedAxis, ...]
     message: str  # what the program reports
+    lower: int = 0  # arm whose hand is lower than the other's; 0: the hands meet
+    origin: str = ""  # what ORIGIN reports after the program has ended; empty: ORIGIN was not executed
 
 
-def program_text(speed: float | None) -> str:
-    """Return the program of the study."""
+def program_text(speed: float | None, lower: int = 0) -> str:
+    """Return the program of the study. If an arm is lower, the program ends with an ORIGIN of both arms."""
     slow = "" if speed is None else f" SLOW {speed:g}"
-    return _PROGRAM.format(stands=STANDS, goal=GOAL, slow=slow)
+    text = _PROGRAM.format(stands=STANDS, goal=GOAL, slow=slow)
+    return text + _LOWER.format(arm=lower, lowered=LOWERED) + _ORIGIN if lower else text
 
 
-def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> Crash:
+def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lower: int = 0) -> Crash:
     """Simulate the collision.
 
     Args:
         speed: speed of arm 1 (mm/s), or None for the greatest speed that a motor reaches over the distance.
         reflex: True if the wires from the wrists to the motors are connected.
         endless_loop: True if the central computer hangs after it has sent the move, and reads no status.
+        lower: the arm whose hand is lower, so that the other one is hit above its wrist, or hits with what is above
+            it; 0: the hands meet.
     """
     if speed is not None and not SLOWEST <= speed <= FASTEST:
         raise BadArgument(f"a constant speed is from {SLOWEST:g} to {FASTEST:g} mm/s, not {speed:g}")
@@ -87,9 +96,9 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> C
 
     gantries.bench.after_step.append(look)
     bus.tell.append(hear)
-    vm = VirtualMachine(program_of("crash.mal", program_text(speed)), bus)
+    vm = VirtualMachine(program_of("crash.mal", program_text(speed, lower)), bus)
     vm.begin()
-    while vm.turn and not (endless_loop and _sent(vm)):
+    while vm.turn and not (endless_loop and _sent(vm)) and not _arrived(vm):
         vm.statement()
         if not (endless_loop and _sent(vm)):
             vm.settle()
@@ -98,13 +107,26 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False) -> C
         message = "nothing: the central computer hangs, and believes that its command is carried out"
     else:
         message = vm.memory.fault.told if vm.memory.fault else f"ARRIVED AT {GOAL:g}"
+    axes = tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS)
+    origin = ""
+    if vm.turn and _arrived(vm):
+        vm.statement()
+        vm.settle()
+        origin = vm.memory.fault.told if vm.memory.fault else "no step was lost"
     return Crash(
         speed=speed,
         reflex=reflex,
         endless_loop=endless_loop,
-        axes=tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS),
+        axes=axes,
         message=message,
+        lower=lower,
+        origin=origin,
     )
+
+
+def _arrived(vm: VirtualMachine) -> bool:
+    """Return True if only the last ORIGIN is left."""
+    return vm.program.line_of(vm.memory.tasks[vm.turn].pc).number == _LAST
 
 
 def _sent(vm: VirtualMachine) -> bool:
@@ -153,12 +175,22 @@ def lines(found: Crash) -> list[str]:
         f"{'  doubted' if a.doubted else ''}"
         for a in found.axes
     ]
+    origin = [f"ORIGIN then reports: {found.origin}"] if found.origin else []
     return [
-        f"arm 1 runs into the stationary hand of arm 2, at {speed}, reflex {'on' if found.reflex else 'off'}{loop}",
+        f"arm 1 runs {_MEETS[found.lower]}, at {speed}, reflex {'on' if found.reflex else 'off'}{loop}",
         "      force  status      believed         true   steps lost",
         *rows,
         f"the program reports: {found.message}",
+        *origin,
     ]
+
+
+_MEETS: Final = (
+    "into the stationary hand of arm 2",
+    "with its column, above its wrist, into the stationary hand of arm 2",
+    "into the stationary column of arm 2, above the wrist",
+)
+_HITS: Final = {1: "the hand of arm 2, with its own column", 2: "the column of arm 2"}
 
 
 STUDY: Final = (
@@ -169,8 +201,48 @@ STUDY: Final = (
 """Speed, reflex and endless loop of each collision on the page."""
 
 
-def page_table() -> str:
-    """Return the table of docs/safety_study.md."""
+ABOVE: Final = tuple((lower, speed) for lower in (2, 1) for speed in (50.0, None))
+"""Lower arm and speed of each collision above a wrist."""
+
+
+def page_tables() -> str:
+    """Return the tables of docs/safety_study.md."""
+    return f"{_page_table()}\n## Above the wrist\n\n{_above_table()}"
+
+
+def _above_table() -> str:
+    heads = [
+        "arm 1 hits",
+        "speed",
+        "axis",
+        "greatest force",
+        "status",
+        "steps lost",
+        "doubted",
+        "found by ORIGIN",
+    ]
+    rows = [f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}\n"]
+    for lower, speed in ABOVE:
+        found = crash(speed, reflex=True, lower=lower)
+        what = (_HITS[lower], "full" if speed is None else f"{speed:g} mm/s")
+        for axis in found.axes:
+            named = (
+                "yes"
+                if axis.axis in found.origin
+                else "no"
+                if found.origin
+                else "the program has stopped before"
+            )
+            cells = (
+                *what, axis.axis, f"{axis.force:.1f} N", axis.status, str(axis.lost),
+                "yes" if axis.doubted else "no", named,
+            )  # fmt: skip
+            rows.append(f"| {' | '.join(cells)} |\n")
+            what = ("", "")
+    return "".join(rows)
+
+
+def _page_table() -> str:
     heads = ["speed", "reflex", "central computer", "axis", "greatest force", "status"]
     heads += ["believed", "true", "steps lost", "doubted"]
     head = f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}\n"

@@ -37,7 +37,7 @@ class MotorMemory(MutableRecord, kw_only=True):
     begun: int = 0  # microseconds when it began
     steps: int = 0  # of the command, signed
     ends: int = Status.FREE  # its status then
-    aborted_at: int = 0  # count at the last abort
+    aborted_at: int = 0  # count at the last abort, or where ORIGIN ended, before it became 0
 
 
 class PerfectMemory(MutableRecord, kw_only=True):
@@ -173,6 +173,7 @@ class PerfectMotors(MicrobusPort):
         elif op == Op.ORIGIN:
             time = motor.place * 1_000_000 // BACK + RELEASE * 1_000_000 // FORWARD
             self._begin(motor, -motor.place, time)
+            motor.aborted_at = motor.count - motor.place
             motor.count = motor.place  # it counts from the end of the rail
         elif op in (Op.MOVE, Op.MOVE_SLOW):
             self._move(motor, axis, command, steps, Status(was))

@@ -9,13 +9,14 @@ from handeye.program.events import SystemEvent
 from handeye.systems.sigma import protocol
 from handeye.systems.sigma.mal.arithmetic import Trap, checked
 from handeye.systems.sigma.mal.compiler import Instruction, MalProgram
-from handeye.systems.sigma.mal.happenings import Answered, CommandSent
+from handeye.systems.sigma.mal.happenings import Answered, CommandSent, CountWrong
 from handeye.systems.sigma.mal.line_moves import line_moves
 from handeye.systems.sigma.mal.memory import MalMemory, Motors, Outgoing, Owner, TaskMemory
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 from handeye.systems.sigma.protocol import AXES, STEP_MM, Op
 
 _LARGEST_STEPS: Final = 0x7FFF  # of a count, which has 16 bits with its sign
+ORIGIN_STEPS: Final = 2  # by which the same switch may be found elsewhere; a rotor slips by four
 
 
 class BusOperations:
@@ -97,6 +98,20 @@ class BusOperations:
         task.outgoing += [Outgoing(to=axis, command=protocol.origin(axis)) for axis in names]
         task.pc += 1
 
+    def _do_found(self, name: str, task: TaskMemory, instruction: Instruction) -> None:
+        """Compare the counts that axes had at the ends of their rails with 0. Any other count shows that steps
+        were lost since the last ORIGIN."""
+        lost = []
+        for axis in names_of(instruction):
+            if axis in self.memory.certain:
+                count = protocol.signed(self.ask(name, protocol.position(axis, at_abort=True)))
+                if abs(count) > ORIGIN_STEPS:
+                    self._tell(CountWrong(time=self.time, axis=axis, off=round(count * STEP_MM, 4)))
+                    lost.append(f"the count of {axis} was wrong by {count * STEP_MM:.2f} mm")
+        if lost:
+            raise Trap(f"LOSTSTEPS: {' and '.join(lost)}")
+        task.pc += 1
+
     def _do_act(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         name, value = text_of(instruction), task.stack.pop()
         if not 0 <= value <= 0xFFFF or value != int(value):
@@ -169,6 +184,9 @@ class BusOperations:
             self.memory.owners[what.to] = Owner(task=name, address=began)
             self.memory.stopped.pop(what.to, None)
         if command.op == Op.ORIGIN:
+            sure = what.to in self.memory.originated and what.to not in self.memory.doubtful
+            others = {*self.memory.certain} - {what.to}
+            self.memory.certain = tuple(sorted(others | {what.to} if sure else others))
             self.memory.counts[what.to] = 0
             self.memory.originated = tuple(sorted({*self.memory.originated, what.to}))
             self.memory.doubtful = tuple(axis for axis in self.memory.doubtful if axis != what.to)
@@ -222,7 +240,7 @@ def _meaning(command: Command) -> str:
         Op.ORIGIN: "search the end of the rail",
         Op.LIMIT_SPEED: f"limit the speed to {counted(command.value, 'step')}/s",
         Op.POSITION: "where are you?",
-        Op.ABORT_POSITION: "where were you when you were aborted?",
+        Op.ABORT_POSITION: "where were you when you were aborted, or at the end of your rail?",
         Op.FORCE: f"what is the force along {protocol.COMPONENTS[command.detail % 3]}?",
         Op.PEAK_FORCE: f"what was the greatest force along {protocol.COMPONENTS[command.detail % 3]}?",
         Op.THRESHOLD: f"threshold along {protocol.COMPONENTS[command.detail % 3]}: "

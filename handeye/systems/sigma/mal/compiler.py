@@ -28,7 +28,7 @@ Op = Literal[
     "NOT", "ABS", "INT", "SGN", "SQR", "POS", "STAT", "FORCE", "CRASHPOS", "BEAM", "TIME",
     "JMP", "JZ", "NEXTLINE", "GO", "CALL", "RET", "FOR", "NEXT", "END", "HALT",
     "START", "KILL", "SETF", "CLRF", "WAITF", "TAKEF", "SLEEP",
-    "GOAL", "SPEEDS", "CMD", "BUSYWAIT", "ORIG", "LIMSPEED", "CURVE", "THRESHOLD", "ACT",
+    "GOAL", "SPEEDS", "CMD", "BUSYWAIT", "ORIG", "FOUND", "LIMSPEED", "CURVE", "THRESHOLD", "ACT",
     "OUT", "TAB", "EOL", "IN", "TRAP", "RESUME",
 ]  # fmt: skip
 ARITHMETIC: Final = {
@@ -219,6 +219,7 @@ class _Compiler:
                 self._emit("ORIG", names)
                 self._emit("CMD")
                 self._emit("BUSYWAIT", names)
+                self._emit("FOUND", names)
             case "ACTUATE":
                 self._value(statement.values[0])
                 self._emit("ACT", names[0])

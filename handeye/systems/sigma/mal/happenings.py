@@ -90,16 +90,42 @@ class MotorAborted(SystemEvent, frozen=True, kw_only=True):
 
 class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
     """A wrist sensed a greater force than a standing or stopping motor is certain to hold, so the motor's count
-    may be wrong.
+    may be wrong. With `above`, it was the wrist of the other arm, which may have hit this arm above its wrist.
     """
 
     importance: ClassVar[Importance] = "warning"
     axis: str
     force: float | None  # N; None: the wrist gave no answer
+    above: bool = False
 
     def sentence(self, measures: Measures) -> str:
         why = "its wrist does not answer" if self.force is None else f"its wrist has felt {self.force:.1f} N"
+        if self.above:
+            why = f"the wrist of the other arm has felt {self.force:.1f} N, and the arms may have met"
         return f"the count of {self.axis} is doubtful: {why}; ORIGIN {self.axis} makes it sure"
 
 
-EVENTS = (TaskStarted, TaskEnded, CommandSent, Answered, FlagChanged, Printed, MotorAborted, CountDoubtful)
+class CountWrong(SystemEvent, frozen=True, kw_only=True):
+    """ORIGIN has shown that the count of an axis was wrong, although no force had made it doubtful."""
+
+    importance: ClassVar[Importance] = "warning"
+    axis: str
+    off: float  # mm
+
+    def sentence(self, measures: Measures) -> str:
+        return (
+            f"{self.axis} has lost steps: at the end of its rail, its count was {self.off:.2f} mm and not 0"
+        )
+
+
+EVENTS = (
+    TaskStarted,
+    TaskEnded,
+    CommandSent,
+    Answered,
+    FlagChanged,
+    Printed,
+    MotorAborted,
+    CountDoubtful,
+    CountWrong,
+)

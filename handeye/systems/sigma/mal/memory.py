@@ -100,6 +100,7 @@ class MalMemory(MutableRecord, kw_only=True):
     variables: dict[str, float] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=dict)  # steps, by axis
     originated: tuple[str, ...] = ()
+    certain: tuple[str, ...] = ()  # axes that ORIGIN moves, whose counts nothing had made doubtful
     curves: dict[str, int] = field(default_factory=dict)
     owners: dict[str, Owner] = field(default_factory=dict)
     stopped: dict[str, int] = field(

@@ -32,6 +32,7 @@ from handeye.systems.sigma.protocol import AXES, STEP_MM
 STATEMENT_US: Final = 2000  # the central computer needs this for a statement
 ARITHMETIC_SHARE: Final = 4  # an instruction that calculates takes this part of it
 DOUBT_N: Final = 20.0  # force on a wrist above which the count of its axis is doubted
+NEAR_MM: Final = 500.0  # X1 + X2 from which on an arm may have hit the other arm; their hands meet at 560
 
 
 class VirtualMachine:
@@ -302,17 +303,36 @@ class VirtualMachine:
             self._after_abort(axis, owner, f"ABORT {axis} {cause} {at:.2f}")
 
     def _doubt(self, name: str) -> None:
-        """Query the greatest forces on both wrists, because a standing motor that was hit does not report it."""
-        for axis in AXES:
-            try:
-                answer = self._operations.ask(name, protocol.force(int(axis[1]), axis[0], peak=True))
-            except BusFault:
-                peak = None
-            else:
-                peak = protocol.signed(answer) * protocol.FORCE_STEP_N
-            if axis not in self.memory.doubtful and (peak is None or peak > DOUBT_N):
+        """Query the greatest forces on both wrists, because a standing motor that was hit does not report it.
+
+        The wrist of an arm that was hit above it feels nothing. Therefore, while the arms are near each other, a
+        great force on one wrist makes the count of the same axis of the other arm doubtful, too.
+        """
+        peaks = {axis: self._peak(name, axis) for axis in AXES}
+        near = self._near()
+        for axis, own in peaks.items():
+            other = peaks[f"{axis[0]}{3 - int(axis[1])}"]
+            felt = own is None or own > DOUBT_N
+            met = near and axis in self.memory.originated and other is not None and other > DOUBT_N
+            if axis not in self.memory.doubtful and (felt or met):
                 self.memory.doubtful = tuple(sorted({*self.memory.doubtful, axis}))
-                self._tell(CountDoubtful(time=self.time, axis=axis, force=peak))
+                force = own if felt else other
+                self._tell(CountDoubtful(time=self.time, axis=axis, force=force, above=not felt))
+
+    def _peak(self, name: str, axis: str) -> float | None:
+        """Query the greatest force on a wrist along an axis (N); None if it does not answer."""
+        try:
+            answer = self._operations.ask(name, protocol.force(int(axis[1]), axis[0], peak=True))
+        except BusFault:
+            return None
+        return protocol.signed(answer) * protocol.FORCE_STEP_N
+
+    def _near(self) -> bool:
+        """Return True if the arms may have met, according to the counts."""
+        memory, arms = self.memory, ("X1", "X2")
+        if not {*arms} <= {*memory.originated}:
+            return True
+        return sum(memory.counts[axis] for axis in arms) * STEP_MM >= NEAR_MM
 
     def _after_abort(self, axis: str, owner: Owner | None, told: str) -> None:
         task = None if owner is None else self.memory.tasks.get(owner.task)
@@ -342,5 +362,9 @@ class VirtualMachine:
         axes = self.memory.doubtful
         if not axes:
             return ""
-        counts = f"the count of {axes[0]} is" if len(axes) == 1 else f"the counts of {' and '.join(axes)} are"
+        counts = (
+            f"the count of {axes[0]} is"
+            if len(axes) == 1
+            else f"the counts of {', '.join(axes[:-1])} and {axes[-1]} are"
+        )
         return f"; {counts} doubtful until ORIGIN"

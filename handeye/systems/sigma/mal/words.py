@@ -76,7 +76,9 @@ WORDS: Final[dict[str, Word]] = {
         "10 MOVE X1 TO 300, Y1 TO 150",
     ),
     "ORIGIN": Word(
-        "statement", "ORIGIN axis {, axis}", "Move axes to the ends of their rails, all at once, and count from there.",
+        "statement", "ORIGIN axis {, axis}",
+        "Move axes to the ends of their rails, all at once, and count from there. If an axis has lost steps since its "
+        "last ORIGIN, the program stops.",
         "20 ORIGIN X1, Y1, Z1",
     ),
     "SPEED": Word("statement", "SPEED axis, expression", "Limit the speed of an axis, mm/s; 0 means no limit.",
