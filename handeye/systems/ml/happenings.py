@@ -30,14 +30,18 @@ class Traced(SystemEvent, frozen=True, kw_only=True):
 class Nullified(SystemEvent, frozen=True, kw_only=True):
     """A motion was not executed, because flags of sensors were on."""
 
-    statement: int  # 0: an immediate line
-    text: str
+    statement: int  # 0: a typed line
     sensors: tuple[int, ...]  # whose flags are on
 
     def sentence(self, measures: Measures) -> str:
+        where = f"statement {self.statement}" if self.statement else "the typed line"
         flags = " and ".join(map(str, self.sensors))
-        where = f"statement {self.statement}" if self.statement else "the line"
-        return f"{where} ({self.text}) moves nothing: the flag of sensor {flags} is on"
+        which = (
+            f"the flag of sensor {flags} is"
+            if len(self.sensors) == 1
+            else f"the flags of sensors {flags} are"
+        )
+        return f"{where} moves nothing, because {which} on"
 
 
 EVENTS = (Printed, Traced, Nullified)

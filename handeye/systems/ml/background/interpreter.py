@@ -1,0 +1,226 @@
+"""The interpreter of ML: it executes the statements of one arm, typed or stored. A statement that must wait leaves
+its wait in the memory; the caller then lets cycles pass until `ready`.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Final
+
+from handeye.core.errors import BadArgument, BadFile
+from handeye.core.mutable_records import MutableRecord, put_back
+from handeye.program.events import SystemEvent
+from handeye.systems.ml.arithmetic import fits
+from handeye.systems.ml.background.behaviour import BEHAVIOUR
+from handeye.systems.ml.background.host import Host
+from handeye.systems.ml.background.memory import BackgroundMemory
+from handeye.systems.ml.background.motion import jog
+from handeye.systems.ml.background.program import CommandCodes, RecentPoints, StoredProgram, TaskTable
+from handeye.systems.ml.errors import MlError
+from handeye.systems.ml.happenings import Printed, Traced
+from handeye.systems.ml.language.parser import statement_of
+from handeye.systems.ml.language.syntax import VARIABLES, Parameter, Reference, Statement, statement_text
+from handeye.systems.ml.level import Level, Side
+
+CYCLE_S: Final = 0.01
+Value = int | str
+
+
+class Interpreter:
+    """The background level of one arm."""
+
+    def __init__(
+        self,
+        side: Side,
+        levels: Mapping[Side, Level],
+        program: StoredProgram,
+        tell: Callable[[SystemEvent], None],
+        host: Host | None = None,
+        *,
+        joystick: bool = False,
+    ) -> None:
+        """Begin with no program running. `levels` are those of all installed arms; `host` is None if there is no
+        host, and then ML works without its commands.
+        """
+        self.levels, self.program, self.host = levels, program, host
+        self.memory = BackgroundMemory(side=side)
+        self.joystick = joystick
+        self._tell = tell
+        for level in levels.values():
+            level.view("TK", TaskTable(program))
+            level.view("PT", RecentPoints(program))
+            level.view("CC", CommandCodes())
+
+    @property
+    def level(self) -> Level:
+        """The real-time level to which commands refer."""
+        return self.levels[self.memory.side]
+
+    @property
+    def running(self) -> bool:
+        """True while a program runs or a statement waits."""
+        return bool(self.memory.at or self.memory.waits)
+
+    def remember(self, memory: MutableRecord) -> None:
+        """Continue from a copy of a state. Raises BadFile if it does not fit."""
+        if not isinstance(memory, BackgroundMemory) or memory.side not in self.levels:
+            raise BadFile("the state of the program does not fit this machine")
+        put_back(self.memory, memory)
+
+    # -- execution ------------------------------------------------------------------------------------
+
+    def run(self, first: int | None = None) -> None:
+        """Start the stored program at a statement, or at its first one. Raises MlError (M07, M14)."""
+        if self.level.stopped:
+            raise MlError("M14", f"{self.level.stopped}; ENABLE the arm first")
+        if first is None and not self.program.numbers:
+            raise MlError("M07", "no program is stored")
+        first = self.program.numbers[0] if first is None else first
+        self.program.statement(first)
+        memory = self.memory
+        for line in (1, 2, 3):
+            for word in range(1, 6):
+                self.level.write("RG", line, word, 0)
+        memory.at, memory.stopped, memory.onward, memory.trying = first, "", 0, False
+
+    def end(self) -> None:
+        """End the program."""
+        self.memory.at, self.memory.waits, self.memory.trying = 0, "", False
+
+    def ready(self) -> bool:
+        """Return True, and end the wait, if no statement waits any longer. Stops the program in an emergency."""
+        memory, level = self.memory, self.level
+        if level.stopped and self.running:
+            self._stop(level.stopped)
+            return True
+        if memory.waits == "joy" and not jog(self):
+            return False
+        over = {"": True, "joy": True, "post": bool(level.posted), "until": level.now >= memory.until}
+        if not over[memory.waits]:
+            return False
+        memory.waits = ""
+        return True
+
+    def statement(self) -> None:
+        """Execute the next stored statement. An error in it is an emergency, which stops the program."""
+        memory = self.memory
+        number = memory.at
+        if not number:
+            return
+        memory.executing, memory.at = number, self.program.after(number)
+        self.level.statement(number)
+        try:
+            self._execute(self.program.statement(number))
+        except MlError as error:
+            self.level.emergency("PROGRAM", number)
+            self._stop(f"{error} (statement {number})")
+        if not memory.waits:
+            self._count()
+
+    def type_line(self, text: str) -> None:
+        """Store a line that has a sequence number; execute any other line. Raises MlError or BadArgument, and then
+        nothing has changed.
+        """
+        line = statement_of(text)
+        if line is None:
+            return
+        if line.number is not None:
+            self.program.store(line.number, line.statement)
+            return
+        if self.memory.waits:
+            raise BadArgument("a statement is still being executed")
+        executing, self.memory.executing = self.memory.executing, 0
+        self.level.statement(0)
+        try:
+            self._execute(line.statement)
+        except MlError:
+            self.memory.executing = executing
+            raise
+
+    def again(self, *, onward: bool) -> None:
+        """After a stop, enable the arm and continue: with the next statement, or with the one that was stopped.
+        Raises MlError (M14) while the cause of an emergency persists.
+        """
+        memory = self.memory
+        if self.level.stopped:
+            self.level.enable()
+        memory.at = memory.onward if onward else memory.executing
+        memory.stopped, memory.onward = "", 0
+
+    def _execute(self, statement: Statement) -> None:
+        memory, code = self.memory, statement.code
+        values: list[Value] = [self._value(each) for each in statement.parameters]
+        if memory.tracing or memory.trying:
+            text = statement_text(code, tuple(values))
+            self._tell(Traced(time=self.time, statement=memory.executing, text=text))
+        BEHAVIOUR[code](self, *values)
+
+    def _stop(self, why: str) -> None:
+        memory = self.memory
+        memory.onward = memory.at
+        self.end()
+        memory.stopped = why
+
+    def _count(self) -> None:
+        """Count the statement, and wait for the next cycle if the computer has no more time in this one."""
+        memory, level = self.memory, self.level
+        if memory.cycle != level.now:
+            memory.cycle, memory.share = level.now, 0
+        memory.share += 1
+        if memory.share >= max(1, level.read("CY", 1, 5)):
+            self.wait_until(level.now + 1)
+
+    # -- for the commands -----------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """Seconds since the beginning."""
+        return self.level.now * CYCLE_S
+
+    def tell(self, event: SystemEvent) -> None:
+        self._tell(event)
+
+    def print(self, text: str) -> None:
+        """Print a line on the terminal."""
+        self._tell(Printed(time=self.time, text=text))
+
+    def go(self, number: int) -> None:
+        """Continue at a statement. A typed branch starts the program there. Raises MlError (M07)."""
+        self.program.statement(number)
+        if self.memory.executing:
+            self.memory.at = number
+        else:
+            self.run(number)
+
+    def wait_until(self, cycle: int) -> None:
+        self.memory.waits, self.memory.until = "until", cycle
+
+    def variable(self, number: int) -> int:
+        """Return the value of a variable. Raises MlError (M05)."""
+        return self.level.read("VR", _variable(number), 1)
+
+    def set_variable(self, number: int, value: int) -> None:
+        """Set a variable. Raises MlError (M05)."""
+        self.level.write("VR", _variable(number), 1, value)
+
+    def register(self, line: int, word: int) -> int:
+        return self.level.read("RG", line, word)
+
+    def set_register(self, line: int, word: int, value: int) -> None:
+        self.level.write("RG", line, word, value)
+
+    def _value(self, parameter: Parameter) -> Value:
+        if not isinstance(parameter, Reference):
+            return parameter
+        value = parameter.index
+        for _ in range(parameter.depth):
+            value = self.variable(value)
+        if parameter.negative:
+            value = -value
+            if not fits(value):
+                raise MlError("M04", f"{value} does not fit into 16 bits")
+        return value
+
+
+def _variable(number: int) -> int:
+    if not 1 <= number <= VARIABLES:
+        raise MlError("M05", f"there is no variable {number}; they are numbered from 1 to {VARIABLES}")
+    return number

@@ -1,0 +1,31 @@
+"""The state of the background level of one arm."""
+
+from typing import Annotated, Literal
+
+import msgspec
+
+from handeye.core.mutable_records import MutableRecord
+from handeye.systems.ml.language.syntax import LAST
+from handeye.systems.ml.level import Side
+
+Wait = Literal["", "post", "until", "joy"]  # for the end of a motion, for a cycle, for a function key
+Number = Annotated[int, msgspec.Meta(ge=0, le=LAST)]
+
+
+class BackgroundMemory(MutableRecord, kw_only=True):
+    """Where the program is, and what it waits for. Its registers are in the table RG."""
+
+    at: Number = 0  # the statement to be executed next; 0: no program runs
+    executing: Number = 0  # the statement that is executed, or was executed last; 0: a typed line
+    waits: Wait = ""
+    until: int = 0  # cycle in which a wait ends
+    joy: Number = 0  # POINT that the joystick fills
+    side: Side = "right"  # the arm that commands refer to
+    tracing: bool = False
+    trying: bool = False  # each statement waits for a key
+    cycle: int = 0  # in which statements were counted
+    share: int = 0  # statements executed in that cycle
+    stopped: str = ""  # why the program was stopped, as a sentence; empty: it was not
+    onward: Number = 0  # after a stop: the statement that would have been next
+    closed: bool = False  # the session with the host
+    left: bool = False  # by EXIT

@@ -1,0 +1,155 @@
+"""Checks a program: sequence numbers, jumps, points, motors, sensors, tables and loops, and how it uses its
+sensors."""
+
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+from handeye.core.diagnostics import Diagnostic, Label, arranged, has_errors
+from handeye.core.source import Source
+from handeye.systems.ml.language.codes import mistake
+from handeye.systems.ml.language.commands import COMMANDS, TABLE_NAMES
+from handeye.systems.ml.language.lint import lint
+from handeye.systems.ml.language.parser import parsed
+from handeye.systems.ml.language.syntax import FINGERS, VARIABLES, Line, Parameter, Statement
+from handeye.systems.ml.machine.rectilinear import RIGHT
+from handeye.systems.ml.tables.layout import SENSORS, SHAPES
+
+_TRAVEL: Final = {motor.number: (motor.lower, motor.upper) for motor in RIGHT.motors}
+_PAIRS: Final = {"NEXTI": "LOOPI", "NEXTJ": "LOOPJ", "RETURN": "GOSUB"}
+_AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN": 2}
+"""Numbers of POINTs that commands take."""
+
+
+def checked(source: Source) -> tuple[dict[int, Line], list[Diagnostic]]:
+    """Return the stored lines of a program by their numbers, in ascending order, and the mistakes."""
+    lines, found = parsed(source)
+    complete = not has_errors(found)
+    stored: dict[int, Line] = {}
+    for line in lines:
+        if line.number is None:
+            told = f"{line.statement.code} has no sequence number, so it cannot be stored"
+            found.append(mistake("not-stored", told, line.span))
+            continue
+        if line.number in stored:
+            first = Label(span=stored[line.number].span, text="the first")
+            told = f"there are two statements {line.number}; the second replaces the first"
+            found.append(mistake("line-replaced", told, line.span, first))
+        stored[line.number] = line
+    stored = dict(sorted(stored.items()))
+    check = _Check(stored)
+    for line in stored.values():
+        found += check.parameters(line)
+        found += check.motors(line)
+        if complete:
+            found += check.places(line)
+            found += check.pairs(line)
+    if complete:
+        found += lint(stored)
+    return stored, arranged(found)
+
+
+class _Check:
+    """The checks of single lines, which know the whole program."""
+
+    def __init__(self, lines: Mapping[int, Line]) -> None:
+        self._lines = lines
+        self._statements = {number: line.statement for number, line in lines.items()}
+        self._codes = {each.code for each in self._statements.values()}
+        self._loads = "CMSLOAD" in self._codes
+
+    def parameters(self, line: Line) -> Iterator[Diagnostic]:
+        """Check the numbers of variables and sensors, and the places in tables."""
+        command, shape = COMMANDS[line.statement.code], SHAPES.get(line.statement.code)
+        for at, value in enumerate(line.statement.parameters):
+            if not isinstance(value, int):
+                continue
+            kind, span = command.kind(at), line.place(at)
+            if kind == "variable" and not 1 <= value <= VARIABLES:
+                yield mistake("M05", f"there is no variable {value}; the last one is {VARIABLES}", span)
+            elif kind == "sensor" and not 1 <= abs(value) <= SENSORS:
+                yield mistake("M11", f"there is no sensor {value}; the last one is {SENSORS}", span)
+            elif kind == "sensor" and value < 0 and command.code != "BRANCH":
+                yield mistake("M11", f"there is no sensor {value}", span)
+            elif kind == "table":
+                name = TABLE_NAMES.get(value, "")
+                shape = SHAPES.get(name)
+                if not name:
+                    yield mistake("M11", f"{value} is not the name of a table", span)
+            elif kind in ("line", "word") and shape is not None:
+                last = shape.lines if kind == "line" else shape.words
+                if not 1 <= value <= last:
+                    told = f"there is no {kind} {value} in this table; the last one is {last}"
+                    yield mistake("M11", told, span)
+        match line.statement.code, line.statement.parameters:
+            case "SENSOR", (_, int(lower), int(upper)) if upper - lower < 2:
+                told = f"no reading is above {lower} and below {upper}, so the flag comes on at once"
+                yield mistake("limits-empty", told, line.place(1))
+
+    def motors(self, line: Line) -> Iterator[Diagnostic]:
+        """Check the motors of a line, and constant goals, for the right arm."""
+        if "LEFT" in self._codes:
+            return
+        code, values = line.statement.code, line.statement.parameters
+        for at, value in enumerate(values):
+            if COMMANDS[code].kind(at) == "motor" and isinstance(value, int) and value not in _TRAVEL:
+                yield mistake("M09", f"motor {value} is not installed", line.place(at))
+            elif code in ("MOVE", "DMOVE") and at + 1 not in _TRAVEL and value != 0:
+                yield mistake(
+                    "M09", f"motor {at + 1} is not installed, so it cannot be moved", line.place(at)
+                )
+        goals: list[tuple[int, Parameter, Parameter]] = []
+        match code, values:
+            case "MOTOR", (number, value):
+                goals = [(1, number, value)]
+            case (("MOVE" | "HAND"), _):
+                first = 1 if code == "MOVE" else FINGERS
+                goals = [(at, first + at, value) for at, value in enumerate(values)]
+        for at, motor, goal in goals:
+            lower, upper = _TRAVEL.get(motor, (0, 0))  # type: ignore[arg-type]  # a reference is not in it
+            if motor in _TRAVEL and isinstance(goal, int) and not lower <= goal <= upper:
+                told = f"motor {motor} cannot go to {goal}; it goes from {lower} to {upper}"
+                yield mistake("M10", told, line.place(at))
+
+    def places(self, line: Line) -> Iterator[Diagnostic]:
+        """Check that the statements and POINTs exist to which a line refers."""
+        if self._loads:  # the program may be replaced
+            return
+        code, values = line.statement.code, line.statement.parameters
+        points = _AT_POINTS.get(code, 0)
+        for at, value in enumerate(values):
+            if COMMANDS[code].kind(at) != "statement" or not isinstance(value, int):
+                continue
+            stored = self._statements.get(value)
+            if at < points:
+                yield from self._point(line, at, value, stored)
+            elif stored is None and COMMANDS[code].category != "edit":
+                yield mistake("M07", f"there is no statement {value}", line.place(at))
+
+    def _point(self, line: Line, at: int, number: int, stored: Statement | None) -> Iterator[Diagnostic]:
+        if stored is None or stored.code != "POINT":
+            what = "there is no statement" if stored is None else f"statement {number} is {stored.code}:"
+            told = f"{what} {number}" if stored is None else f"{what} it is not a POINT"
+            yield mistake("M08", told, line.place(at))
+        elif line.statement.code not in ("DEFPOINT", "JOY") and not stored.point and not self._filled(number):
+            yield mistake("point-not-filled", f"nothing fills POINT {number}", line.place(at))
+
+    def _filled(self, number: int) -> bool:
+        filling = [each for each in self._statements.values() if each.code in ("DEFPOINT", "JOY")]
+        filling += [each for each in self._statements.values() if each.code in ("PUT", "FILE")]
+        return any(
+            not isinstance(first := each.parameters[0], int)
+            or first == number
+            or each.code in ("PUT", "FILE")
+            for each in filling
+        )
+
+    def pairs(self, line: Line) -> Iterator[Diagnostic]:
+        """Check the ends of loops and subroutines."""
+        code = line.statement.code
+        if code in _PAIRS and _PAIRS[code] not in self._codes:
+            yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])
+        if code in ("LOOPI", "LOOPJ"):
+            end = code.replace("LOOP", "NEXT")
+            after = (number for number, each in self._statements.items() if each.code == end)
+            if not any(number > (line.number or 0) for number in after):
+                yield mistake("loop-without-end", f"{code} has no {end} after it", line.spans[0])

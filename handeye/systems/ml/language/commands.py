@@ -1,0 +1,217 @@
+"""The table of the 106 commands of ML: 76 commands, and the names of 30 tables. Parser, checks, completion,
+`explain` and the page of commands are derived from it.
+"""
+
+import re
+from functools import cache
+from typing import Final, Literal
+
+from handeye.core.record import Record
+from handeye.systems.ml.tables.layout import SHAPES
+from handeye.systems.ml.tables.store import word_of
+
+Category = Literal["control", "flow", "motion", "sense", "data", "arithmetic", "edit", "test", "host"]
+Kind = Literal["value", "variable", "statement", "motor", "sensor", "table", "line", "word", "text"]
+MOST_PARAMETERS: Final = 15
+_KINDS: Final[dict[str, Kind]] = {
+    "v": "variable", "w": "variable", "n": "statement", "m": "motor", "s": "sensor", "t": "table", "f": "text",
+    "line": "line", "word": "word",
+}  # fmt: skip
+
+
+class Command(Record, frozen=True, kw_only=True):
+    """A command. `usage` gives its parameters: those in `[ ]` may be left out, and `...` repeats the
+    one before."""
+
+    code: str
+    category: Category
+    usage: str = ""
+    help: str
+    example: str
+
+    @property
+    def form(self) -> str:
+        """The command with its parameters."""
+        return f"{self.code} {self.usage}".rstrip()
+
+    @property
+    def counts(self) -> frozenset[int]:
+        """The numbers of parameters that are allowed."""
+        return _counts(self.usage)
+
+    def kind(self, number: int) -> Kind:
+        """The kind of a parameter, counted from 0."""
+        names = _names(self.usage)
+        name = names[min(number, len(names) - 1)]
+        return _KINDS.get(name) or _KINDS.get(name.rstrip("0123456789"), "value")
+
+
+@cache
+def _counts(usage: str) -> frozenset[int]:
+    counts, number = set(), 0
+    for word in usage.replace("[", " [ ").replace("]", " ").split():
+        if word == "...":
+            counts |= set(range(number, (12 if usage.endswith("x12") else MOST_PARAMETERS) + 1))
+        elif word == "[":
+            counts.add(number)
+        elif word != "x12" or "..." not in usage:
+            number += 1
+    return frozenset(counts | {number})
+
+
+@cache
+def _names(usage: str) -> tuple[str, ...]:
+    return tuple(re.findall(r"[a-z][a-z0-9]*", usage))
+
+
+_ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
+    "control": (
+        ("ENABLE", "", "Switch the pump on. No motor moves; each holds the position where it is.", "ENABLE"),
+        ("DISABLE", "", "Freeze all motors, then switch the pump off.", "DISABLE"),
+        ("EXIT", "", "Switch the pump off and leave MOS.", "EXIT"),
+        ("LEFT", "", "The commands that follow are for the left arm.", "LEFT"),
+        ("RIGHT", "", "The commands that follow are for the right arm, as at the start.", "RIGHT"),
+        ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
+        ("RUN", "[n]", "Run the stored program from a statement, or from the first.", "RUN 100"),
+        ("TRY", "[n]", "Run the stored program one statement at a time: each waits for a key.", "TRY"),
+        ("TRACE", "[x]", "Print each statement with its values before it runs; `TRACE 0` ends this.", "TRACE"),
+    ),
+    "flow": (
+        ("BAL", "v n", "Put the number of the next statement into a variable and go to a statement; "
+                       "`BRANCH &v` returns.", "100 BAL 9 400"),
+        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. With n2, go to n1 if the flag of any of the sensors is on, otherwise "
+                                      "to n2; -s means that the flag is off; no sensors mean all sensors.",
+         "400 BRANCH 500 410 5 14"),
+        ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or to the next statement.",
+         "40 BRCOMP 100"),
+        ("BROVFL", "n1 [n2]", "Go to n1 if the overflow indicator is on, otherwise to n2 or to the next statement. "
+                              "The indicator stays on.", "40 BROVFL 100 200"),
+        ("DELAY", "x", "Wait x hundredths of a second. The sensors stay guarded.", "50 DELAY 100"),
+        ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another one by GOSUB.", "60 GOSUB 900"),
+        ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
+         "70 IF &1 100 200 300"),
+        ("LOOPI", "x [v]", "Run the statements up to NEXTI x times; variable v counts from 1.", "10 LOOPI 3 20"),
+        ("LOOPJ", "x [v]", "Run the statements up to NEXTJ x times; it may stand inside LOOPI, and LOOPI inside it.",
+         "20 LOOPJ 4"),
+        ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),
+        ("NEXTJ", "", "The end of the statements that LOOPJ repeats.", "70 NEXTJ"),
+        ("RETURN", "", "Go back to the statement after the last GOSUB.", "950 RETURN"),
+        ("STOP", "", "End the program. The arm holds its position.", "99 STOP"),
+    ),
+    "motion": (
+        ("DEFPOINT", "n", "Store the positions of all motors in the POINT with this number.", "10 DEFPOINT 5"),
+        ("DMOTOR", "m x", "Move one motor by a distance from its goal.", "295 DMOTOR 2 -100"),
+        ("DMOVE", "x1 ... x12", "Move each motor by a distance from its goal. Motors that are left out do not move.",
+         "4 DMOVE 0 0 &1 &2"),
+        ("GOPOINT", "n [x]", "Go to the positions of a POINT. With x = 1, do not wait for the end of the motion.",
+         "280 GOPOINT 5"),
+        ("HAND", "x11 [x12]", "Move the fingers only: their separation and the angle between them.", "30 HAND 650 900"),
+        ("JOY", "n", "Guide the arm by the joystick, and store its positions in a POINT by the record key.", "JOY 5"),
+        ("MOTOR", "m x", "Move one motor to a position.", "288 MOTOR 3 4000"),
+        ("MOVE", "x1 ... x12", "Move each motor to a position. Motors that are left out keep their goals.",
+         "285 MOVE 0 0 2000 0 0 0 0 0 4000 -9000 650 1900"),
+    ),
+    "sense": (
+        ("CALIB", "[s ...]", "Take the mean of the last eight readings as the new zero of these sensors, or of all "
+                             "analog sensors.", "20 CALIB 5 6 7"),
+        ("SENSOR", "[s [lo hi]]", "Expect the readings of a sensor to be above lo and below hi, and clear its flag. "
+                                  "Without limits, expect any reading; without s, do so for all sensors.",
+         "200 SENSOR 5 -178 450"),
+        ("WAND", "[s]", "Assign the wand to a sensor, or to sensor 1, and expect no contact.", "10 WAND"),
+    ),
+    "data": (
+        ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. It does nothing when it "
+                      "runs.", "5 POINT"),
+    ),
+    "arithmetic": (
+        ("ADD", "v x", "Add to a variable.", "50 ADD 1 -1"),
+        ("COMPOFF", "", "Set the comparison indicator off.", "10 COMPOFF"),
+        ("COMPON", "", "Set the comparison indicator on.", "10 COMPON"),
+        ("DADD", "v x [y]", "Add to a pair of variables, v high and v+1 low: x, or the pair x y.", "20 DADD 1 500"),
+        ("DIVD", "v x [w]", "Divide a variable and round toward zero; variable w gets the rest.", "30 DIVD 1 10 2"),
+        ("DLOAD", "v x [y]", "Set a pair of variables, v high and v+1 low, to x, or to x y.", "10 DLOAD 1 500"),
+        ("EQ?", "x y", "Set the comparison indicator on if x equals y, or else off.", "30 EQ? &1 0"),
+        ("GE?", "x y", "Set the comparison indicator on if x is at least y, or else off.", "30 GE? &1 0"),
+        ("GET", "v t line word", "Set a variable to a word of a table.", "40 GET 1 MT 3 5"),
+        ("GETGOL", "v m", "Set a variable to the goal of a motor.", "40 GETGOL 1 3"),
+        ("GETPOS", "v m", "Set a variable to the position of a motor.", "40 GETPOS 1 3"),
+        ("GETSEN", "v s", "Set a variable to the reading of a sensor.", "40 GETSEN 1 8"),
+        ("GT?", "x y", "Set the comparison indicator on if x is greater than y, or else off.", "30 GT? &1 &2"),
+        ("LE?", "x y", "Set the comparison indicator on if x is at most y, or else off.", "30 LE? &1 0"),
+        ("LOAD", "v x", "Set a variable.", "11 LOAD 1 -&3"),
+        ("LT?", "x y", "Set the comparison indicator on if x is less than y, or else off.", "30 LT? &1 0"),
+        ("MULT", "v x [w]", "Multiply a variable; variable w gets the high word of the product.", "20 MULT 1 25"),
+        ("NE?", "x y", "Set the comparison indicator on if x differs from y, or else off.", "30 NE? &1 0"),
+        ("OVFLOFF", "", "Set the overflow indicator off. Nothing else in a running program does.", "10 OVFLOFF"),
+        ("OVFLON", "", "Set the overflow indicator on.", "10 OVFLON"),
+        ("PUT", "t line word x", "Write a word of a table. The real-time level uses it from the next cycle on.",
+         "50 PUT MT 2 8 10"),
+    ),
+    "edit": (
+        ("ERASE", "n1 [n2]", "Erase a statement, or all from n1 to n2.", "ERASE 500 550"),
+        ("FILE", "t line word x ...", "Write consecutive words of a table.", "FILE MT 2 8 10"),
+        ("LIST", "[n1 [n2]]", "List the stored program, a statement, or all from n1 to n2.", "LIST 100 200"),
+        ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the last one first.", "QPOINT"),
+        ("QUERY", "t [line [word]]", "Show a table, a line of it, or a word.", "QUERY ST 5"),
+    ),
+    "test": (
+        ("TESTAI", "x", "Print an analog input.", "TESTAI 3"),
+        ("TESTAO", "x y", "Set analog output x to y. No limit is checked, so the pump must be off.", "TESTAO 3 100"),
+        ("TESTDO", "x y [mask]", "Set digital output word x to y, or only the bits of a mask. The pump must be off.",
+         "TESTDO 1 1"),
+    ),
+    "host": (
+        ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),
+        ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored one.", "CMSLOAD FOLLOW"),
+        ("DHAND", "x11 [x12]", "Move the fingers by distances from their goals.", "30 DHAND -50"),
+        ("GOLINE", "n1 n2", "Go to the nearest position on the line through two POINTs.", "40 GOLINE 5 10"),
+        ("GOMEAN", "n1 n2", "Go to the position halfway between two POINTs.", "40 GOMEAN 5 10"),
+        ("GROT", "x [y [z]]", "Rotate the gripper about its own axes: yaw, pitch, roll, in .01 degree.", "40 GROT 500"),
+        ("GTRANS", "x [y [z]]", "Move the gripper along its own axes, in .001 inch.", "40 GTRANS 0 0 250"),
+        ("QUIT", "", "Close the session with the host.", "QUIT"),
+        *((f"UPROC{letter}", "[x ...]", "Call a procedure of the user's on the host.", f"50 UPROC{letter} 1")
+          for letter in "ABCD"),
+        ("VMCNTL", "", "Start the interpreter of the arm language on the host.", "VMCNTL"),
+    ),
+}  # fmt: skip
+
+COMMANDS: Final[dict[str, Command]] = {
+    code: Command(code=code, category=category, usage=usage, help=help, example=example)
+    for category, rows in _ROWS.items()
+    for code, usage, help, example in rows
+} | {
+    name: Command(
+        code=name, category="control", usage="[line [word]]", example=name,
+        help=f"Show the table of {shape.title}, a line of it, or a word.",
+    )
+    for name, shape in SHAPES.items()
+}  # fmt: skip
+MOTIONS: Final = frozenset(
+    (
+        "MOVE",
+        "DMOVE",
+        "MOTOR",
+        "DMOTOR",
+        "HAND",
+        "GOPOINT",
+        "JOY",
+        "GROT",
+        "GTRANS",
+        "GOLINE",
+        "GOMEAN",
+        "DHAND",
+    )
+)
+"""Commands that move the arm, and that do nothing while the flag of a sensor is on."""
+
+
+TABLE_NAMES: Final = {word_of(name): name for name in SHAPES}
+"""Tables by the words that stand for their names, of 8 bits a letter."""
+
+
+def explained(word: str) -> str | None:
+    """Return the help of a command, or None."""
+    command = COMMANDS.get(word.upper())
+    if command is None:
+        return None
+    return f"{command.form}\n\n{command.help}\n\nfor example: {command.example}\n{command.category} command of ML"

@@ -1,0 +1,87 @@
+"""The language service for ML: diagnostics, explanations, completion and the standard listing."""
+
+from typing import Final
+
+from handeye.core.diagnostics import Diagnostic, render
+from handeye.core.source import Source
+from handeye.program.language import OwnLanguage
+from handeye.systems.ml.errors import MEANINGS
+from handeye.systems.ml.language.check import checked
+from handeye.systems.ml.language.codes import CODES
+from handeye.systems.ml.language.commands import COMMANDS, Kind, explained
+from handeye.systems.ml.language.parser import parsed, parsed_line
+from handeye.systems.ml.machine.rectilinear import RIGHT
+from handeye.systems.ml.tables.layout import SENSORS, SHAPES
+
+
+class MlLanguage(OwnLanguage):
+    """ML as editors and commands use it."""
+
+    system = "ml"
+
+    def check(self, source: Source) -> list[Diagnostic]:
+        return checked(source)[1]
+
+    def explanation(self, word: str) -> str | None:
+        """Return the meaning of a code or of a command, or None. `handeye ml words` explains those commands whose
+        names the arm language also has.
+        """
+        return code_explained(word) or explained(word)
+
+    def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
+        """Return completions: after a sequence number, the commands; after a command, what its next parameter may
+        be.
+        """
+        row, column = source.position(offset)
+        written = source.line(row)[: column - 1].upper().split()
+        typing = bool(written) and source.line(row)[column - 2 : column - 1].strip() != ""
+        before = written[:-1] if typing else written
+        before = before[1:] if before and before[0].isdigit() else before
+        if not before:
+            return [(code, command.help) for code, command in COMMANDS.items()]
+        command = COMMANDS.get(before[0])
+        if command is None or len(before) > max(command.counts):
+            return []
+        return self._values(command.kind(len(before) - 1), source)
+
+    def _values(self, kind: Kind, source: Source) -> list[tuple[str, str]]:
+        """Return the constants that a parameter may be."""
+        match kind:
+            case "table":
+                return [(name, shape.title) for name, shape in SHAPES.items()]
+            case "motor":
+                return [(str(motor.number), motor.axis) for motor in RIGHT.motors]
+            case "sensor":
+                return [(str(number), f"sensor {number}") for number in range(1, SENSORS + 1)]
+            case "statement":
+                lines, _ = parsed(source)
+                return [(str(line.number), str(line.statement)) for line in lines if line.number is not None]
+        return []
+
+    def formatted(self, text: str) -> str:
+        """Return the lines in their standard form, as LIST prints them. Remarks, and lines that cannot be read, are
+        unchanged.
+        """
+        out = []
+        for row in text.splitlines():
+            line, _ = parsed_line(row)
+            number = "" if line is None or line.number is None else f"{line.number} "
+            out.append(row.rstrip() if line is None else f"{number}{line.statement}")
+        return "".join(f"{row}\n" for row in out)
+
+
+def code_explained(code: str) -> str | None:
+    """Return the meaning of a code, with an example and the cure, or None if the code is unknown."""
+    code = code.upper() if code.upper() in MEANINGS else code.casefold()
+    known = CODES.get(code)
+    if known is None:
+        more = "Programs are not checked for this; it stops a running program."
+        return f"error[{code}]: {MEANINGS[code]}\n{more}" if code in MEANINGS else None
+    source = Source(name="example.ml", text=known.example)
+    shown = next(each for each in checked(source)[1] if each.code == code)
+    lines = (*known.example.split("\n"), "", *render(shown, source).split("\n"))
+    text = "\n".join(f"    {line}"[:100].rstrip() for line in lines)
+    return f"{known.severity}[{code}]: {known.meaning}\ncure: {known.cure}\n\nfor example\n\n{text}"
+
+
+LANGUAGE: Final = MlLanguage()

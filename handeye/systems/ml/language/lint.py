@@ -1,0 +1,174 @@
+"""Warnings on how a program uses its sensors: motions without guards, flags that stay on, and speeds that trip a
+limit by themselves.
+
+All paths through the program are followed, with the sensors that are guarded on every path, and the flags that may
+be on.
+"""
+
+from collections.abc import Iterator, Mapping
+from math import sqrt
+from typing import Final, NamedTuple
+
+from handeye.core.diagnostics import Diagnostic
+from handeye.systems.ml.language.codes import mistake
+from handeye.systems.ml.language.commands import MOTIONS
+from handeye.systems.ml.language.flow import Flow
+from handeye.systems.ml.language.syntax import Line, Parameter, Statement
+from handeye.systems.ml.tables.store import word_of
+
+STRAIN: Final = range(2, 8)  # sensors of the fingers, gram-force
+SLIDES: Final = (2, 3, 4)
+UNIT_M: Final = 25.4e-6  # of a slide
+CYCLE_S: Final = 0.01
+GRAM_N: Final = 9.80665e-3
+STIFFNESS: Final = 20_000.0  # of both fingers, N/m
+FINGERS_KG: Final = 0.15  # beyond the strain gauges, with nothing held
+FASTEST: Final = 79  # of a slide, units a cycle
+ANY: Final = 0  # stands for a sensor whose number is computed
+_SPEED: Final = 8  # word of MT
+
+
+class Watch(NamedTuple):
+    """What is known before a statement."""
+
+    guarded: frozenset[int] = frozenset()  # sensors with limits, on every path
+    on: frozenset[int] = frozenset()  # sensors whose flag a branch has found on, on some path
+    limits: tuple[tuple[int, int], ...] = ()  # the tighter limit of sensors of strain
+    speeds: tuple[tuple[int, int], ...] = ()  # of slides, units a cycle, where the program has set them
+
+    def joined(self, other: "Watch") -> "Watch":
+        """What is known where two paths meet."""
+        limits, speeds, others = dict(self.limits), dict(self.speeds), dict(other.speeds)
+        both = {sensor: min(limit, limits[sensor]) for sensor, limit in other.limits if sensor in limits}
+        faster = {
+            motor: max(speeds.get(motor, FASTEST), others.get(motor, FASTEST)) for motor in {*speeds, *others}
+        }
+        return Watch(
+            self.guarded & other.guarded, self.on | other.on, tuple(sorted(both.items())),
+            tuple(sorted(faster.items())),
+        )  # fmt: skip
+
+
+def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
+    """Yield the warnings for a program."""
+    flow = Flow({number: line.statement for number, line in lines.items()})
+    known = watched(flow)
+    motions = [number for number in known if lines[number].statement.code in MOTIONS - {"JOY"}]
+    guarding = any(each.statement.code in ("SENSOR", "WAND") for each in lines.values())
+    for number in sorted(motions):
+        line, watch = lines[number], known[number]
+        if not watch.guarded:
+            told = "no sensor is guarded during this motion"
+            yield mistake(
+                "unguarded-motion", told if guarding else f"{told}, nor during any other", line.spans[0]
+            )
+            if not guarding:
+                return
+        if watch.on:
+            names = " or ".join(map(str, sorted(watch.on - {ANY}))) or "a sensor"
+            which = f"sensor {names}" if watch.on - {ANY} else names
+            told = f"the flag of {which} may still be on here, and then this motion moves nothing"
+            yield mistake("flag-left-on", told, line.spans[0])
+        yield from _too_fast(line, watch)
+
+
+def watched(flow: Flow) -> dict[int, Watch]:
+    """Return what is known before each statement that can be reached."""
+    known: dict[int, Watch] = {}
+    todo = [(flow.numbers[0], Watch())] if flow.numbers else []
+    while todo:
+        number, watch = todo.pop()
+        joined = watch if number not in known else known[number].joined(watch)
+        if known.get(number) == joined:
+            continue
+        known[number] = joined
+        statement = flow.statements[number]
+        left = _passed(statement, joined)
+        for way in flow.ways(number, likely=True):
+            if way is not None:
+                todo.append((way, _branched(statement, left, way)))
+    return known
+
+
+def _passed(statement: Statement, watch: Watch) -> Watch:
+    """What is known after a statement."""
+    limits, speeds = dict(watch.limits), dict(watch.speeds)
+    match statement.code, statement.parameters:
+        case "SENSOR", ():
+            return Watch(speeds=watch.speeds)
+        case "SENSOR", (sensor,):
+            limits.pop(_number(sensor), None)
+            guarded = watch.guarded - {_number(sensor)}
+        case ("SENSOR", (sensor, *_)) | ("WAND", (sensor,)):
+            guarded = watch.guarded | {_number(sensor)}
+            limits.pop(_number(sensor), None)
+            match statement.parameters:
+                case (int(), int(lower), int(upper)) if sensor in STRAIN:
+                    limits[_number(sensor)] = min(abs(lower), abs(upper))
+        case "WAND", ():
+            sensor, guarded = 1, watch.guarded | {1}
+        case (("PUT" | "FILE"), (table, motor, word, value, *_)) if table == word_of("MT") and word == _SPEED:
+            for each in [motor] if isinstance(motor, int) else SLIDES:
+                speeds[each] = value if isinstance(value, int) else 0
+            return watch._replace(speeds=tuple(sorted(speeds.items())))
+        case _:
+            return watch
+    on = watch.on - {sensor} if isinstance(sensor, int) else frozenset()
+    return Watch(guarded, on, tuple(sorted(limits.items())), watch.speeds)
+
+
+def _branched(statement: Statement, watch: Watch, way: int) -> Watch:
+    """What is known where a BRANCH on flags has led."""
+    if statement.code != "BRANCH" or len(statement.parameters) < 2:
+        return watch
+    yes, no, *sensors = statement.parameters
+    if yes == no or not all(isinstance(each, int) for each in sensors):
+        return watch
+    listed = {each for each in sensors if isinstance(each, int)}
+    off = {-each for each in listed if each < 0}
+    if way == yes:
+        return watch if off else watch._replace(on=watch.on | (listed or {ANY}))
+    return watch._replace(on=(watch.on - listed if listed else frozenset()) | off)
+
+
+def _number(sensor: Parameter) -> int:
+    return sensor if isinstance(sensor, int) else ANY
+
+
+def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
+    """Warn if the jolt at the start of a motion is beyond the limit of a finger's strain. A mass m on springs of
+    stiffness k that starts with speed v pulls with v sqrt(k m).
+    """
+    if not watch.limits:
+        return
+    speeds = dict(watch.speeds)
+    speed, motor = max(
+        ((speeds.get(each, FASTEST), -each) for each in moving(line.statement)), default=(0, 0)
+    )
+    a_unit = UNIT_M / CYCLE_S * sqrt(STIFFNESS * FINGERS_KG) / GRAM_N  # g for a speed of one unit a cycle
+    limit, sensor = min((limit, sensor) for sensor, limit in watch.limits)
+    if speed * a_unit > limit:
+        told = (
+            f"motor {-motor} starts with {speed} units a cycle, whose jolt of {speed * a_unit:.0f} g trips the limit "
+            f"of sensor {sensor}, {limit} g"
+        )
+        most = int(limit / a_unit)
+        cure = (
+            f"write `PUT MT {-motor} {_SPEED} {most}` before the motion" if most
+            else "widen the limit: even the slowest motion trips it"
+        )  # fmt: skip
+        yield mistake("too-fast", told, line.spans[0], help=cure)
+
+
+def moving(statement: Statement) -> tuple[int, ...]:
+    """Return the slides that a motion may move."""
+    match statement.code, statement.parameters:
+        case (("MOTOR" | "DMOTOR"), (motor, *_)):
+            return tuple(each for each in SLIDES if motor == each or not isinstance(motor, int))
+        case "MOVE", goals:
+            return tuple(each for each in SLIDES if each <= len(goals))
+        case "DMOVE", distances:
+            return tuple(each for each in SLIDES if each <= len(distances) and distances[each - 1] != 0)
+        case (("HAND" | "DHAND"), _):
+            return ()
+    return SLIDES

@@ -1,0 +1,67 @@
+"""Statements of ML, and their standard text, which the parser reads back."""
+
+from typing import Final
+
+from handeye.core.record import Record
+from handeye.core.source import Span
+from handeye.systems.ml.language.commands import COMMANDS, TABLE_NAMES
+
+LAST: Final = 5000  # greatest sequence number
+VARIABLES: Final = 256
+DEEPEST: Final = 6  # ampersands of a reference
+MOTORS: Final = 12
+FINGERS: Final = 11  # the first of the two motors of the fingers
+
+Point = tuple[int, ...]  # positions of the 12 motors
+
+
+class Reference(Record, frozen=True):
+    """A reference to a variable: `&17` is its value, `&&17` the value of the variable whose number it holds."""
+
+    index: int
+    depth: int = 1
+    negative: bool = False
+
+    def __str__(self) -> str:
+        return f"{'-' * self.negative}{'&' * self.depth}{self.index}"
+
+
+Parameter = int | Reference | str  # a text names a file
+
+
+class Statement(Record, frozen=True):
+    """A command with its parameters. `point` has the positions that a listing gives for a POINT."""
+
+    code: str
+    parameters: tuple[Parameter, ...] = ()
+    point: Point = ()
+
+    def __str__(self) -> str:
+        return statement_text(self.code, self.parameters, self.point)
+
+
+class Line(Record, frozen=True, kw_only=True):
+    """A line of a text. `spans` are the places of the command and of each parameter."""
+
+    number: int | None  # None: the line is executed at once
+    statement: Statement
+    row: int
+    span: Span  # of the sequence number, or else of the command
+    spans: tuple[Span, ...]
+
+    def place(self, parameter: int) -> Span:
+        """The place of a parameter, counted from 0; that of the command if there is no such parameter."""
+        return self.spans[parameter + 1] if parameter + 1 < len(self.spans) else self.spans[0]
+
+
+def statement_text(code: str, parameters: tuple[Parameter, ...], point: Point = ()) -> str:
+    """Write a statement. Tables are written by their names where a table is expected."""
+    words = [code]
+    for number, each in enumerate(parameters):
+        if isinstance(each, int) and COMMANDS[code].kind(number) == "table":
+            words.append(TABLE_NAMES.get(each, str(each)))
+        else:
+            words.append(str(each))
+    if point:
+        words += ["*", *map(str, point)]
+    return " ".join(words)

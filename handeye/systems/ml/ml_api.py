@@ -1,0 +1,131 @@
+"""ML from Python. The paper's host has a higher language that can invoke any of the ML functions; here it is
+Python."""
+
+from collections.abc import Mapping, Sequence
+
+from handeye.core.errors import BadArgument
+from handeye.program.events import SystemEvent
+from handeye.systems.ml.background.host import Host, Procedure
+from handeye.systems.ml.background.interpreter import Interpreter
+from handeye.systems.ml.background.program import StoredProgram
+from handeye.systems.ml.happenings import Printed
+from handeye.systems.ml.language.syntax import Point
+from handeye.systems.ml.machine.perfect import perfect_machine
+from handeye.systems.ml.machine.surroundings import Stimulus
+
+
+class Ml:
+    """A terminal of MOS, with the right arm enabled. Its motors are perfect: each is at its set-point after every
+    cycle of 10 ms.
+
+    >>> ml = handeye.Ml()
+    >>> ml.do("MOTOR 3 2000")
+    >>> ml.do("GETPOS 1 3")
+    >>> ml.do("PRINT &1"), ml.time
+    (['2000'], 0.27)
+    """
+
+    def __init__(
+        self,
+        text: str = "",
+        *,
+        outline: Sequence[tuple[int, int]] = (),
+        stimuli: Sequence[Stimulus] = (),
+        procedures: Mapping[str, Procedure] | None = None,
+    ) -> None:
+        """Switch MOS and the pump on.
+
+        Args:
+            text: a program to be stored.
+            outline: corners of an object that the wand can touch, each as (y, x) in .001 inch.
+            stimuli: values of sensors at certain times or places.
+            procedures: functions for UPROCA to UPROCD. Each gets this terminal's interpreter and the values of the
+                statement.
+        """
+        self.events: list[SystemEvent] = []
+        self._machine, _ = perfect_machine(self.events.append, stimuli=stimuli, outline=outline)
+        self._program = StoredProgram()
+        self._mos = Interpreter(
+            "right", self._machine.levels, self._program, self.events.append, Host(procedures), joystick=True
+        )
+        self.do("ENABLE")
+        self.load(text)
+
+    @property
+    def time(self) -> float:
+        """Seconds since the beginning."""
+        return self._mos.time
+
+    @property
+    def running(self) -> bool:
+        """True if a program has begun and not ended."""
+        return self._mos.running
+
+    @property
+    def stopped(self) -> str:
+        """The error or emergency that has stopped the program; empty if there was none."""
+        return self._mos.memory.stopped
+
+    @property
+    def listing(self) -> list[str]:
+        """The stored program, a statement a line."""
+        return self._program.listing()
+
+    def load(self, text: str) -> None:
+        """Store the numbered lines of a program, and execute the others. Raises MlError or BadArgument."""
+        for line in text.splitlines():
+            self.do(line)
+
+    def do(self, line: str) -> list[str]:
+        """Type a line, and wait for its end. While a program is running, the line is executed between two of its
+        statements. A line that starts the program waits for the end of the program.
+
+        Returns:
+            The lines that were printed.
+
+        Raises:
+            MlError: the line cannot be executed.
+            BadArgument: the line cannot be read.
+        """
+        first, was_running = len(self.events), self.running
+        self._mos.type_line(line)
+        self._settle()
+        while self.running and not was_running:
+            self.step()
+        return [event.text for event in self.events[first:] if isinstance(event, Printed)]
+
+    def begin(self, first: int | None = None) -> None:
+        """Start the stored program at a statement, or at the first one, without executing a statement."""
+        self._mos.run(first)
+
+    def step(self, statements: int = 1) -> bool:
+        """Execute statements, each to its end. Returns False if the program has ended."""
+        if statements < 1:
+            raise BadArgument(f"there must be at least one statement, not {statements}")
+        for _ in range(statements):
+            if not self.running:
+                break
+            self._mos.statement()
+            self._settle()
+        return self.running
+
+    def _settle(self) -> None:
+        """Let cycles pass until no statement waits."""
+        while not self._mos.ready():
+            self._machine.cycle()
+
+    def read(self, table: str, line: int, word: int = 1) -> int:
+        """Return a word of a table, such as `read("MT", 3, 1)`. Raises MlError if there is none."""
+        return self._mos.level.read(table.upper(), line, word)
+
+    def variable(self, number: int) -> int:
+        """Return the value of a variable. Raises MlError if there is none."""
+        return self._mos.variable(number)
+
+    def position(self, motor: int) -> int:
+        """Return the position of a motor. Raises MlError if it is not installed."""
+        return self._mos.level.position(motor)
+
+    def point(self, number: int) -> Point:
+        """Return the positions of a POINT. Raises MlError if it is not filled."""
+        return self._program.point(number)

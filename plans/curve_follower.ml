@@ -1,0 +1,35 @@
+* CURVE FOLLOWER, FIGURE 5 OF THE PAPER OF 1975
+*
+* The wand hangs beside an object. &1 and &2 are the forward step in y (motor 3) and in x (motor 4), one inch in all.
+* The arm keeps the object ahead and travels to its right, without end. Statement 14 moves without a guard: the wand
+* still touches there.
+*
+1 LOAD 1 -1000
+2 LOAD 2 0
+*
+* GUARDED MOVE IN FORWARD DIRECTION UNTIL FIRST HIT
+3 SENSOR 1 -1 1
+4 DMOVE 0 0 &1 & 2
+5 BRANCH 13 4 1
+* GUARDED MOVE DIFFERENTIAL STEP IN FORWARD DIRECTION
+6 SENSOR 1 -1 1
+7 DMOVE 0 0 &1 &2
+8 BRANCH 13 9 1
+* IF NO HIT THEN TURN LEFT FOR NEW FORWARD DIRECTION
+9 LOAD 3 &2
+10 LOAD 2 &1
+11 LOAD 1 -&3
+12 BRANCH 6
+* IF HIT THEN BACK OFF ONE DIFFERENTIAL STEP
+13 SENSOR
+14 DMOVE 0 0 - & 1 - & 2
+*
+* GUARDED MOVE DIFFERENTIALLY ONE STEP TO THE RIGHT
+15 SENSOR 1 -1 1
+16 DMOVE 0 0 & 2 -&1
+17 BRANCH 18 6 1
+* IF HIT THEN TURN RIGHT FOR NEW FORWARD DIRECTION
+18 LOAD 3 &2
+19 LOAD 2 -&1
+20 LOAD 1 &3
+21 BRANCH 13
