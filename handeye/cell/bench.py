@@ -95,7 +95,7 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     @property
     def now(self) -> float:
-        return float(self._steps * self.tick)
+        return self._steps * self._tick.numerator / self._tick.denominator
 
     def set_to_zero(self) -> None:
         """Set the clock to 0 now, because the program begins. The time until each pending event stays the same."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from handeye.cell.bench import Bench
 from handeye.cell.mechanism import Mechanism, scene_for
-from handeye.cell.physics_stepper import allow, wake
+from handeye.cell.physics_stepper import allow, wake_all
 from handeye.core.errors import BadArgument, BadFile, NoSuchName, PhysicsFailed, Refused
 from handeye.core.plain_text import counted
 from handeye.core.pose import Array
@@ -83,7 +83,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._gradual = np.array([spec.name not in at_once for spec in specs])
         self._powered, self._latched = True, dict[str, tuple[float, ...]]()
         self._steps, self._left = whole_steps(period, float(bench.tick)), 0
-        self._way = np.zeros(len(specs))
+        self._way = self._set_points = np.zeros(len(specs))
         self.bind(bench.model, bench.data)
         q = self.read().q
         bench.data.ctrl[self._servos] = self._goal = q + self._bent(q)
@@ -106,9 +106,11 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._gains = model.actuator_gainprm[self._servos].copy(), model.actuator_biasprm[self._servos].copy()
         self._sleeps = bool(model.opt.enableflags & int(mujoco.mjtEnableBit.mjENBL_SLEEP))
         starts, counts = data.moment_rowadr[self._servos], data.moment_rownnz[self._servos]
-        self._dofs = [
-            int(dof) for at, n in zip(starts, counts, strict=True) for dof in data.moment_colind[at : at + n]
-        ]
+        self._dofs = np.array(
+            [dof for at, n in zip(starts, counts, strict=True) for dof in data.moment_colind[at : at + n]],
+            dtype=int,
+        )
+        self._trees = {*map(int, model.dof_treeid[self._dofs])}
         self._allow_sleep(allowed=True)
         if not self._powered:
             self._switch(on=False)
@@ -161,6 +163,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         here = self._set_point
         self._goal, self._left = goal + self._bent(goal), self._steps
         self._way = np.where(self._gradual, (self._goal - here) / self._steps, 0.0)
+        self._plan()
         self._allow_sleep(allowed=bool((self._goal == here).all()))
 
     def power(self, on: bool) -> None:
@@ -197,9 +200,13 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         """
         if self._left:
             self._left -= 1
-            self._bench.data.ctrl[self._servos] = self._set_point
+            self._bench.data.ctrl[self._servos] = self._set_points[self._left]
             if not self._left:
                 self._allow_sleep(allowed=True)
+
+    def _plan(self) -> None:
+        """Compute the set-points for the rest of the period, by the physics steps that are left after each."""
+        self._set_points = self._goal - np.arange(self._left)[:, np.newaxis] * self._way
 
     @property
     def _set_point(self) -> Array:
@@ -226,10 +233,10 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         """Allow the bodies of the machine to sleep when they are at rest, or keep them awake."""
         if not self._sleeps:
             return
-        for dof in self._dofs:
-            allow(self._bench.model, int(self._bench.model.dof_treeid[dof]), allowed=allowed)
-            if not allowed:
-                wake(self._bench.data, dof)
+        for tree in self._trees:
+            allow(self._bench.model, tree, allowed=allowed)
+        if not allowed:
+            wake_all(self._bench.data, self._dofs)
 
     # -- state ----------------------------------------------------------------------------------------
 
@@ -250,6 +257,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     def restore(self, state: AxesState) -> None:
         self._goal, self._way, self._left = np.array(state.goal), np.array(state.way), state.left
+        self._plan()
         self._powered, self._latched = state.powered, dict(state.latched)
 
 

@@ -15,6 +15,7 @@ from typing import Final
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.core.errors import PhysicsFailed
 
@@ -102,6 +103,11 @@ def wake(data: mujoco.MjData, dof: int) -> None:
     """Wake the tree of bodies to which a degree of freedom belongs, if it sleeps."""
     if data.qvel[dof] == 0.0:
         data.qvel[dof] = _NUDGE
+
+
+def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
+    """Wake the trees of bodies to which degrees of freedom belong, if they sleep."""
+    data.qvel[dofs[data.qvel[dofs] == 0.0]] = _NUDGE
 
 
 def asleep(data: mujoco.MjData) -> bool:

@@ -236,9 +236,11 @@ class Cycles:
         self._told(LimitCrossed, sensor=number, reading=sensor.reading, lower=lower, upper=upper)
 
     def _hold(self) -> None:
-        """Replace the strategic goal of every motor by its position."""
-        for _, _, line in self._motors:
-            line.strategic = nearest_detent(line.position, line.detent)
+        """Replace the strategic goal of every motor by its position, or by the end of its travel if a potentiometer
+        shows a position beyond it.
+        """
+        for _, motor, line in self._motors:
+            line.strategic = min(max(nearest_detent(line.position, line.detent), motor.lower), motor.upper)
             line.status |= FROZEN
 
     def _post(self, what: Post) -> None:

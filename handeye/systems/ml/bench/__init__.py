@@ -1,0 +1,1 @@
+"""The rectilinear arm with physics, behind the ports of the real-time level."""

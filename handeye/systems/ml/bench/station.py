@@ -1,0 +1,85 @@
+"""A work station: the rectilinear arm in a scene, with its tools and all that a job adds."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Final
+
+import mujoco
+
+from handeye.cell.bench import Bench
+from handeye.cell.bench_axes import BenchOutputs
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.snapshot_cell import SnapshotCell
+from handeye.core.resources import scenes
+from handeye.program.events import SystemEvent
+from handeye.systems.ml.bench.arm import RectilinearArm
+from handeye.systems.ml.bench.world import ArmWorld
+from handeye.systems.ml.machine.rectilinear import RIGHT
+from handeye.systems.ml.realtime.machine import Machine
+
+SCENE: Final = "rectilinear_arm/rectilinear_arm.xml"
+CAMERA: Final = "people"
+WAND: Final = "wand"
+HAND: Final = ("separation", "angle")  # axes that two fingers share
+
+
+def scene(world: ArmWorld, *, wand: bool = True) -> mujoco.MjSpec:
+    """Return the scene of the arm over an empty table, with or without the wand in its left finger."""
+    spec = mujoco.MjSpec.from_file(str(scenes() / SCENE))
+    if not wand:
+        for joint in ("wand_x", "wand_y"):
+            spec.delete(spec.sensor(joint))
+        spec.delete(spec.body(WAND))
+        return spec
+    for joint in ("wand_x", "wand_y"):
+        spec.joint(joint).stiffness[0] *= world.wand_stiffness
+    return spec
+
+
+class Station:
+    """The arm on a bench."""
+
+    def __init__(
+        self,
+        spec: mujoco.MjSpec,
+        world: ArmWorld,
+        *,
+        at: Mapping[int, float] | None = None,
+        tools: Mapping[str, Callable[[float], None]] | None = None,
+        others: Sequence[Mechanism[Any]] = (),
+    ) -> None:
+        """Put the arm in a scene. Its pump is off.
+
+        Args:
+            at: where motors stand, by their numbers, in ML units; others stand at 0.
+            tools: functions that switch the tools of the station, by name; other tools do nothing.
+            others: mechanisms of a job that do not act as time passes.
+        """
+        self.bench = Bench(spec.compile())
+        _stand(self.bench, at or {})
+        self.arm = RectilinearArm(self.bench, world)
+        switched = dict.fromkeys(RIGHT.tools, _nothing) | dict(tools or {})
+        self.outputs = BenchOutputs(self.bench, "outputs", switched)
+        self.others = tuple(others)
+
+    def machine(self, tell: Callable[[SystemEvent], None] = lambda _: None) -> Machine:
+        """Return the machine of the station, with a new real-time level."""
+        return Machine({"right": (RIGHT, self.arm, self.outputs)}, self.bench, tell)
+
+    def cell(self) -> SnapshotCell:
+        """Return the station as a cell whose state can be captured, restored and judged."""
+        return self.bench.cell(*self.others)
+
+
+def _nothing(value: float) -> None:
+    """Switch a tool that is not there."""
+
+
+def _stand(bench: Bench, at: Mapping[int, float]) -> None:
+    """Let motors stand at places (ML units)."""
+    motors = {motor.number: motor for motor in RIGHT.motors}
+    for number, place in at.items():
+        axis, value = motors[number].axis, place * motors[number].unit
+        fingers = [f"{side}_{axis}" for side in ("left", "right")] if axis in HAND else []
+        for joint in fingers or [axis]:
+            bench.data.joint(joint).qpos[0] = value / max(1, len(fingers))
+    mujoco.mj_forward(bench.model, bench.data)
