@@ -35,8 +35,9 @@ def test_a_file_of_another_kind_is_left_alone(command: Command, planned: Planned
     kept.write_text(OURS, encoding="utf-8")
     code, out, err = command(*WRITERS[what])
     kind = what.removesuffix(" of a run")
+    article = "an" if kind == "SVG drawing" else "a"
     assert (code, out) == (2, "")
-    assert err == f"handeye: {kept} exists and is no {kind}; nothing was written\n"
+    assert err == f"handeye: {kept} exists and is not {article} {kind}; nothing was written\n"
     assert kept.read_text(encoding="utf-8") == OURS
 
 

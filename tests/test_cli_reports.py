@@ -98,7 +98,7 @@ def test_what_is_no_trace(command: Command) -> None:
 def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
     Path("page.html").write_text("<p>mine</p>", encoding="utf-8")
     assert refused(command, "kept", "-o", "page.html") == (
-        "page.html exists and is no report of handeye; nothing was written"
+        "page.html exists and is not a report of handeye; nothing was written"
     )
 
 

@@ -612,7 +612,7 @@ def test_a_folder_of_which_nothing_was_carried_out_says_so(command: Command, fol
 
 def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
     code, out, _ = command("trace", "verify", str(folder))
-    assert (code, "to the byte" in out) == (0, True)
+    assert (code, "byte for byte" in out) == (0, True)
 
 
 @pytest.mark.parametrize(
@@ -622,7 +622,7 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
         (Repetition(rounded="A"), 0, "it repeats except for rounding, on another kind of processor: the "
             "same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
-        (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as between kinds of "
+        (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as they do between kinds of "
             "processors; the first: A"),
     ],
 )  # fmt: skip
@@ -646,4 +646,4 @@ def test_a_run_with_experiments_and_an_operator_comes_out_the_same_again(
     typed = "step 2\nset saved D 0 0 -1\ncontinue\nproceed\ncontinue\nquit\n"
     assert command("run", plan, "--step", "--out", "it", typed=typed)[0] == 0
     code, out, _ = command("trace", "verify", "it")
-    assert (code, "to the byte" in out) == (0, True)
+    assert (code, "byte for byte" in out) == (0, True)

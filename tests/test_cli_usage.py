@@ -17,9 +17,10 @@ WRONG = {
     "trace photograph run -o": "-o needs a value (see `handeye trace photograph --help`)",
     "plan a.al --output b": "`plan` has no option `--output` any more: --out, or -o, names every file or folder that "
     "is written (see `handeye plan --help`)",
-    "faults --workers 3": "`faults` has no option `--workers` any more: --jobs says how many processes work at a time "
+    "faults --workers 3": "`faults` has no option `--workers` any more: --jobs sets the number of processes "
     "(see `handeye faults --help`)",
-    "render -o it.png --width 64": "`render` has no option `--width` any more: --size gives both, as 1280x960 "
+    "render -o it.png --width 64": "`render` has no option `--width` any more: --size sets width and height, as in "
+    "1280x960 "
     "(see `handeye render --help`)",
     "trials base 100": "`trials base` takes the number of trials as --n 100 (see `handeye trials base --help`)",
     "check a b": "`check` does not take `b` (see `handeye check --help`)",

@@ -138,10 +138,13 @@ def test_a_wrong_argument_is_told_in_a_sentence(kept: Path, wrong: dict[str, Any
 
 
 REFUSALS = {
-    ("--size", "480"): "`480` is not a size; write it as 480x360",
+    ("--size", "480"): "`480` is not a size; write it like 480x360",
     ("--size", "4x4"): "a video of 4 x 4 cannot be made; each side must have 8 to 2048 pixels",
     ("--seconds", "0"): "the length of a video must be more than 0 and at most 600 s, not 0.0 s",
-    ("--speed", "nan"): "the speed of a video must be more than 0 times the speed of the run, not nan",
+    (
+        "--speed",
+        "nan",
+    ): "the speed of a video, as a multiple of the speed of the run, must be above 0, not nan",
     (
         "--speed",
         "2",
@@ -184,7 +187,7 @@ def test_a_video_in_the_folder_of_its_run_is_renewed_and_one_elsewhere_only_on_r
 def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
     Path("it.webm").write_text("mine", encoding="utf-8")
     assert refused(command, "kept", "-o", "it.webm", "--overwrite") == (
-        "it.webm exists and is no WebM video; nothing was written"
+        "it.webm exists and is not a WebM video; nothing was written"
     )
 
 

@@ -233,7 +233,7 @@ def test_a_run_records_its_world_and_goes_on_in_it(command: Command, half_run: P
     begun = json.loads((half_run / "events.jsonl").read_text().splitlines()[0])
     assert (result["seed"], result["world"], begun["world"]) == (3, SPEC, SPEC)
     code, out, _ = command("trace", "verify", str(half_run))
-    assert (code, "to the byte" in out) == (0, True)
+    assert (code, "byte for byte" in out) == (0, True)
     assert (
         "the world of seed 3, level high, without base.x, camera, part_mass set, unsourced scaled by 0.5"
         in command("trace", "show", str(half_run))[1]

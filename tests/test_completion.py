@@ -44,7 +44,7 @@ def test_a_start_up_file_keeps_its_lines_and_is_told_only_once(command: Command,
     command("--install-completion", "--shell", "bash")
     once = (home / ".bashrc").read_text()
     _, out, _ = command("--install-completion", "--shell", "bash")
-    assert f"{home}/.bashrc: already loads it" in out
+    assert f"{home}/.bashrc: already loads this file" in out
     assert (home / ".bashrc").read_text() == once
     assert once.startswith("export EDITOR=ed\n")
 

@@ -13,7 +13,7 @@ from handeye.core.record import Record
 from handeye.ports import camera
 
 MAX_NUMBER: Final = 1e6  # keeps squares of numbers finite
-ANY: Final = "numbers in a program are at most one million"
+ANY: Final = "a number in a program can be at most one million"
 MIN_POSITIVE: Final = 0.001
 
 AXES: Final = ("X", "Y", "Z")  # unit vectors where a vector stands; counted by `FREE` and `SPIN`
@@ -154,7 +154,7 @@ def count(name: str, low: float, high: float, why: str, *, word: str = "") -> Op
 
 def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
     """Define an operand that is an opening of the hand, in inches."""
-    why = f"the hand opens from 0 to {MAX_GAP_IN:g} in"
+    why = f"a gap must be between 0 and {MAX_GAP_IN:g} in"
     return replace(number(name, IN, 0.0, optional=optional, ours=ours), high=MAX_GAP_IN, why=why)
 
 
@@ -182,7 +182,7 @@ def word(word: str, *, optional: bool = True, ours: bool = True) -> Operand:
 MOMENT: Final = Operand(
     name="moment", takes=(Vector, Name), units=(OZ_IN,) * 3, optional=True, nil=True, refers=Refers.VECTOR
 )
-ERROR: Final = count("error", 1, 63, "errors have numbers from 1 to 63")
+ERROR: Final = count("error", 1, 63, "an error number must be from 1 to 63")
 LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES_MM)
 _STEP_WHY = (
     f"a step must be between {MIN_POSITIVE:g} and {MAX_STEP_IN:g} in: a search takes several steps to each"
@@ -190,7 +190,7 @@ _STEP_WHY = (
 )
 SEARCH_STEP: Final = replace(number("step", IN, MIN_POSITIVE), high=MAX_STEP_IN, why=_STEP_WHY)
 STEPS: Final = count("number", 1, 20, "a search extends 1 to 20 steps to each side", word="STEPS")
-TIMES: Final = count("number", 1, 100, "a stage is undone 1 to 100 times", word="TIMES")
+TIMES: Final = count("number", 1, 100, "a stage can be undone 1 to 100 times", word="TIMES")
 ALONG: Final = Operand(
     name="direction", takes=(Number,), units=(DEG,), word="ALONG", optional=True, ours=True
 )

@@ -26,7 +26,7 @@ def _found(source: Source) -> Iterator[Diagnostic]:
         if macro.parameters:
             span = Span(start=macro.parameters[0].start, end=macro.parameters[-1].end)
             yield _ours(
-                "parameters of a macro are an addition of handeye", span, help="write a macro for each use"
+                "macro parameters are an extension of handeye", span, help="write a macro for each use"
             )
     for statement in as_called(script, expand(script, lambda _: None)):
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
@@ -42,8 +42,8 @@ def _found(source: Source) -> Iterator[Diagnostic]:
                 continue  # the 0 of the dialect of 1977
             if operand.ours:
                 message = (
-                    f"{quoted(operand.shown.strip('()'))} of `{definition.op}` is an addition of handeye"
+                    f"{quoted(operand.shown.strip('()'))} of `{definition.op}` is an extension of handeye"
                 )
                 yield _ours(message, value.span)
             elif definition.op == "STOP" and isinstance(value, Number):
-                yield _ours("`STOP` with a number is an addition of handeye", value.span, help=_AGAINST)
+                yield _ours("`STOP` with a number is an extension of handeye", value.span, help=_AGAINST)

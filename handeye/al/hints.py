@@ -7,19 +7,23 @@ from handeye.core.diagnostics import LOOKALIKES
 
 _COMMENT: Final = "a comment begins with `;`"
 _BLANKS: Final = "a space separates an instruction from its operands"
-_VECTOR: Final = "write a vector in brackets, as `[0 0 -1]`"
+_VECTOR: Final = "write a vector in brackets, such as `[0 0 -1]`"
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _PLAIN: Final = re.compile(_NUMBER, re.ASCII)
 _WITH_UNIT: Final = re.compile(rf"({_NUMBER})([A-Za-z]+)", re.ASCII)
 
-_ENDS: Final = "a program ends at the end of its text"
+_ENDS: Final = "a program needs no end statement: it ends after its last line"
 _MACRO_ENDS: Final = f"a macro ends with a blank line; {_ENDS}"
-_TESTS: Final = "`SKIPE` and `SKIPN` test an error, and skip one instruction"
-_ROUNDS: Final = "`JUMP` repeats from a label; `ASSIGN` and `SOJG` count the rounds"
+_TESTS: Final = "`SKIPE` and `SKIPN` test for an error and skip one instruction"
+_ROUNDS: Final = (
+    "to repeat lines, jump back to a label with `JUMP`; to count the rounds, use `ASSIGN` and `SOJG`"
+)
 _MACRO: Final = "`DEFINE` begins a macro, and a blank line ends it"
 _CALL: Final = "to call a macro, write its name and then its operands"
 _PAUSE: Final = "no instruction waits for a number of seconds; `WAIT` calls the operator"
-_STRAIGHT: Final = "`CHANGE` moves in a straight line from where the hand is, `MOVE` goes to a position"
+_STRAIGHT: Final = (
+    "`CHANGE` moves the hand in a straight line from its present place; `MOVE` moves the hand to a position"
+)
 _GRASP: Final = "`CLOSE` grasps; `CENTER` grasps without pushing"
 
 _ELSEWHERE: Final[dict[str, str]] = {
@@ -46,7 +50,9 @@ _ELSEWHERE: Final[dict[str, str]] = {
 
 
 # for a STOP without its operand, as other languages have it
-STOP_ALONE: Final = f"it ends the next motion when the hand presses with this force, in ounces; {_ENDS}"
+STOP_ALONE: Final = (
+    f"`STOP` ends the next motion when the hand presses with the given force, in ounces; {_ENDS}"
+)
 
 
 def elsewhere(word: str) -> str | None:
@@ -81,7 +87,7 @@ def strange(text: str) -> str | None:
     """Return a hint for characters outside the language, or None if there are none."""
     first = text[0]
     if first == ":":
-        return "a colon ends a label, which begins a line"
+        return "only a label ends with a colon, and a label stands at the beginning of a line"
     if first in "#/'":
         return _COMMENT
     if first in "({<" or text[-1] in ")}>":
@@ -92,7 +98,7 @@ def strange(text: str) -> str | None:
     if first in "−–—":
         return f"use an ordinary minus sign: `-{text[1:]}`"
     if first in "“”„«»‘’":
-        return 'use straight quotes, as `"this"`'
+        return 'use straight quotes, as in `"this"`'
     if first in "+-" and text[1:2].isalpha():
         return letters_for_digits(text) or f"a name cannot have a sign; {_VECTOR}"
     if first == "\N{NO-BREAK SPACE}":

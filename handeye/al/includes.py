@@ -138,8 +138,8 @@ class Requirements:
         if key in self.reading:
             return self._circle(key, file)
         if key in self.first:
-            message = f"{quoted(file.text)} is already included: this line does nothing"
-            first = Label(span=self.first[key], text="it is read here")
+            message = f"{quoted(file.text)} is already required above, so this line has no effect"
+            first = Label(span=self.first[key], text="first required here")
             return problem("required-twice", message, file.span, first)
         deep = len(self.reading) > MAX_FILES  # a text that was not sewn here
         if found is not None and not found.problem and not deep:
@@ -147,7 +147,9 @@ class Requirements:
             return found
         told, self.missing = self.missing, True
         if deep or (found is None and self.texts):
-            message = f"more than {MAX_FILES} files, or {LARGEST} characters in all, are required"
+            message = (
+                f"the script requires more than {MAX_FILES} files, or more than {LARGEST} characters in all"
+            )
             return None if told else problem("too-much-required", message, file.span)
         message = f"{quoted(file.text)} cannot be read"
         if found is not None:

@@ -156,7 +156,7 @@ class _Lowerer:
             self.problem("label-twice", f"label {quoted(label.text)} is defined twice", label, first)
         if self.pending:
             word = _word(self.pending[0])
-            first = Label(span=word.span, text="a jump to the label would skip this")
+            first = Label(span=word.span, text="a jump to the label would skip this modifier")
             message = f"label {quoted(label.text)} is between `{word.text}` and its motion"
             help = f"put the label before `{word.text}`"
             self.problem("label-splits-modifier", message, label, first, help=help)
@@ -169,7 +169,7 @@ class _Lowerer:
             if name.text in self.stages:
                 first = Label(span=self.stages[name.text], text="first here")
                 message = f"two stages have the name {quoted(name.text)}"
-                help = "give each its own name: commands and reports refer to stages by name"
+                help = "give each stage a different name: commands and reports refer to stages by name"
                 self.problem("stage-twice", message, name, first, help=help)
             self.stages.setdefault(name.text, name.span)
             self.stage = list(self.stages).index(name.text)
@@ -177,7 +177,7 @@ class _Lowerer:
     def restore(self, statement: Statement) -> None:
         assert statement.word is not None
         if not self.shiftable:
-            help = "a `RESTORE` shifts the goal of the `MOVE` on the line before it"
+            help = "a `RESTORE` shifts the goal of the `MOVE` on the line above"
             self.problem("restore-without-move", "there is no `MOVE` to shift", statement.word, help=help)
         elif self.drafts and isinstance(move := self.drafts[-1].operation, Move):
             shifts = (*move.restore, restore(statement))
@@ -187,7 +187,7 @@ class _Lowerer:
     def step(self, item: ExpandedStatement, role: Role) -> None:
         statement = item.statement
         if role is not MOTION and self.pending:
-            self.no_motion(Label(span=statement.span, text="this is not a motion that it can modify"))
+            self.no_motion(Label(span=statement.span, text="this instruction is not a motion"))
         if role is SKIP or role is JUMP:
             self.branches.append(len(self.drafts))
         modifiers = self.modifiers(statement) if self.pending else ()
@@ -234,7 +234,7 @@ class _Lowerer:
             self.problem("modifier-misplaced", message, word, modified, help=help)
             return False
         if modifier is not first:
-            other = Label(span=_word(first).span, text="the other one")
+            other = Label(span=_word(first).span, text="the other modifier")
             message = f"`{motion.word.text}` has both `{_word(first).text}` and `{word.text}`"
             if _word(first).text == word.text:
                 message = f"`{motion.word.text}` has `{word.text}` twice"
@@ -296,7 +296,7 @@ class _Lowerer:
         self.unresolved += 1
         inner = self.inner.get(label.text)
         if inner is not None:
-            there = Label(span=inner.span, text="this is inside a macro")
+            there = Label(span=inner.span, text="the label is inside a macro")
             message = f"label {quoted(label.text)} belongs to a macro"
             help = "labels of a macro are local to it; a macro ends with the first blank line"
             self.problem("unknown-label", message, label, there, *uses(label), help=help)
@@ -338,9 +338,9 @@ class _Lowerer:
         return self.at(end)
 
     def skips_modifier(self, skip: Name, modifier: Name) -> None:
-        skipped = Label(span=modifier.span, text="the skip would skip only this")
+        skipped = Label(span=modifier.span, text="only this modifier would be skipped")
         message = f"`{skip.text}` would skip `{modifier.text}`, but not the motion it modifies"
-        help = "jump over modifier and motion with the opposite test and `JUMP`"
+        help = "to skip the modifier and the motion, use the opposite test and a `JUMP`"
         self.problem("skip-over-modifier", message, skip, skipped, help=help)
 
     def problem(

@@ -23,7 +23,7 @@ def takes(definition: Instruction, operand: Operand) -> str:
     }
     choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
     said = ", or ".join(choices) or "this word"
-    counted = ", or the number of axes and their letters, as `2 X Y`" if definition.axes else ""
+    counted = ", or the number of axes and their letters, such as `2 X Y`" if definition.axes else ""
     return "; ".join([said, *_limits(operand)]) + counted
 
 

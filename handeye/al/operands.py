@@ -52,9 +52,9 @@ def separated(tokens: Sequence[Token]) -> Sequence[Token]:
     for at in commas:
         token = tokens[at]
         if at == 0 or tokens[at - 1].text in (",", "["):
-            raise Mistake("misplaced-comma", "there is nothing before this comma", token.span)
+            raise Mistake("misplaced-comma", "there is no operand before this comma", token.span)
         if at + 1 == len(tokens) or tokens[at + 1].text == "]":
-            raise Mistake("misplaced-comma", "there is nothing after this comma", token.span)
+            raise Mistake("misplaced-comma", "there is no operand after this comma", token.span)
     return [token for token in tokens if token.text != ","] if commas else tokens
 
 
@@ -63,7 +63,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
     opened = False
     for token in tokens:
         if token.text == "]" and not opened:
-            help = "write a vector in brackets, as `[0 0 -1]`"
+            help = "write a vector in brackets, such as `[0 0 -1]`"
             return Mistake("unopened-vector", "the vector has no opening bracket", token.span, help=help)
         if token.text in ("[", "]"):
             opened = token.text == "["
@@ -73,7 +73,12 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
             return _malformed(Token(before.start, token.end, NUMBER, glued))
         unit = no_units(token.text) if token.kind is NAME else None
         if unit is not None and (before.kind is NUMBER or before.text == "]"):
-            return Mistake("unit-written", f"{quoted(token.text)} follows a number", token.span, help=unit)
+            return Mistake(
+                "unit-written",
+                f"a number is followed by the unit {quoted(token.text)}",
+                token.span,
+                help=unit,
+            )
     commas = [at for at, token in enumerate(tokens) if token.text == ","]
     if len(commas) == 1 and _is_decimal(tokens[commas[0] - 1 : commas[0] + 2]):
         whole, _, part = tokens[commas[0] - 1 : commas[0] + 2]
@@ -182,8 +187,12 @@ class _Reader(msgspec.Struct, gc=False):
                 raise Mistake("unknown-axis", message, letter.span, help="the axes are `X`, `Y` and `Z`")
         named = {letter.text for letter in letters}
         if _number(count) != len(letters) or len(named) != len(letters) or not letters:
-            stand = f"{len(named)} {'is' if len(named) == 1 else 'different ones are'} named"
-            message = f"`{self.definition.op}` counts {quoted(count.text)} axes; {stand}"
+            stand = (
+                f"{len(named)} different axes are named"
+                if len(named) > 1
+                else f"{len(named) or 'no'} axis is named"
+            )
+            message = f"the number of axes is {quoted(count.text)}, but {stand}"
             raise Mistake("axis-count", message, count.span, help=self.usage())
         self.at = len(self.tokens)
         return Vector(count.start, letters[-1].end, tuple(float(axis in named) for axis in AXES))
@@ -204,7 +213,9 @@ class _Reader(msgspec.Struct, gc=False):
             else:
                 raise _no_number(token)
         else:
-            raise Mistake("unterminated-vector", "the vector has no `]`", opening.span, "it begins here")
+            raise Mistake(
+                "unterminated-vector", "the vector has no `]`", opening.span, "the vector begins here"
+            )
         self.at += len(values) + 2
         vector = Vector(opening.start, token.end, tuple(values))
         if Vector in operand.takes:
@@ -228,7 +239,7 @@ class _Reader(msgspec.Struct, gc=False):
             behind = [token.kind is NUMBER for token in self.tokens[self.at : self.at + 2]]
             bare = len(behind) == 2 and all(behind)
             return (
-                "write a vector in brackets, as `[0 0 -1]`"
+                "write a vector in brackets, such as `[0 0 -1]`"
                 if bare
                 else f"the vector comes first; {self.usage()}"
             )
@@ -257,10 +268,10 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("number-out-of-range", message, value.span, operand.why)
         if operand.nonzero and abs(value.value) < MIN_POSITIVE:
             message = f"{quoted(token.text)} is too small for the {operand.plain} of `{self.definition.op}`"
-            why = f"it must be at least {MIN_POSITIVE:g} {operand.units[0].name}, positive or negative"
+            why = f"its absolute value must be at least {MIN_POSITIVE:g} {operand.units[0].name}"
             raise Mistake("number-out-of-range", message, value.span, why)
         if operand.whole and value.value != int(value.value):
-            message = f"`{self.definition.op}` takes a whole number as {operand.plain}"
+            message = f"the {operand.plain} of `{self.definition.op}` must be a whole number"
             raise Mistake("wrong-operand", message, value.span)
         low = self.values[-1] if operand.name == "maximum" else None
         if isinstance(low, Number) and low.value > value.value:
@@ -275,11 +286,11 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("missing-operand", message, self.tokens[-1].span, help=self.usage())
 
     def missing(self, operand: Operand) -> Mistake:
-        message, help = f"`{self.definition.op}` needs its {operand.plain}", self.usage()
+        message, help = f"the {operand.plain} of `{self.definition.op}` is missing", self.usage()
         end = (self.tokens[self.at - 1] if self.at else self.head).end
         if self.definition.op == "STOP" and not self.tokens:
             help += f": {STOP_ALONE}"
-        return Mistake("missing-operand", message, Span(start=end, end=end), "it is expected here", help)
+        return Mistake("missing-operand", message, Span(start=end, end=end), "expected here", help)
 
     def too_many(self) -> None:
         first, last = self.tokens[self.at], self.tokens[-1]
@@ -292,7 +303,7 @@ class _Reader(msgspec.Struct, gc=False):
         message = f"`{self.definition.op}` takes no {'more ' if count else ''}operands"
         early = next((token for token in self.tokens[: self.at] if self.is_too_early(token)), None)
         if early is not None:
-            message = f"`{early.text}` comes too early"
+            message = f"another operand must come before `{early.text}`"
             raise Mistake("wrong-operand", message, early.span, help=self.usage())
         second = next((token.text for token in self.tokens if token.text.upper() in INSTRUCTIONS), None)
         help = self.usage() if second is None else _begins_a_line(second)
@@ -310,11 +321,11 @@ class _Reader(msgspec.Struct, gc=False):
 
 def _unterminated_string(token: Token) -> Mistake:
     start = Span(start=token.start, end=token.start + 1)
-    return Mistake("unterminated-string", "the string has no closing quote", start, "it begins here")
+    return Mistake("unterminated-string", "the string has no closing quote", start, "the string begins here")
 
 
 def _begins_a_line(instruction: str) -> str:
-    return f"`{instruction.upper()}` is an instruction: it begins a line of its own"
+    return f"`{instruction.upper()}` is an instruction: put it on a new line"
 
 
 def _number(token: Token) -> float:
@@ -325,7 +336,7 @@ def _number(token: Token) -> float:
     if "_" in token.text:
         raise _malformed(token)
     if math.isinf(value):
-        raise Mistake("number-out-of-range", f"{quoted(token.text)} is too large a number", token.span)
+        raise Mistake("number-out-of-range", f"the number {quoted(token.text)} is too large", token.span)
     return value
 
 
@@ -334,7 +345,7 @@ def _malformed(token: Token) -> Mistake:
     if glued is not None:
         unit, said = glued
         span = Span(start=token.end - len(unit), end=token.end)
-        return Mistake("unit-written", f"{quoted(unit)} follows a number", span, help=said)
+        return Mistake("unit-written", f"a number is followed by the unit {quoted(unit)}", span, help=said)
     help = letters_for_digits(token.text) or "numbers look like 3, .07, -0.6 or 1e-3"
     return Mistake("malformed-number", f"{quoted(token.text)} is not a number", token.span, help=help)
 
@@ -343,7 +354,7 @@ def _no_number(token: Token) -> Mistake:
     if _NOT_FINITE.fullmatch(token.text):
         return _malformed(token)
     if token.kind is NAME:
-        message = f"a vector consists of numbers, not of {quoted(token.text)}"
+        message = f"a vector must contain only numbers, not {quoted(token.text)}"
         return Mistake("wrong-operand", message, token.span, help=letters_for_digits(token.text))
     return _unexpected(token)
 

@@ -127,7 +127,7 @@ def braced(token: Token) -> Iterator[tuple[str, Span]]:
 
 def used(parameter: Span) -> Label:
     """Make a label at the parameter that an argument replaces."""
-    return Label(span=parameter, text="in the macro it is here")
+    return Label(span=parameter, text="here in the macro")
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:

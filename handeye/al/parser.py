@@ -229,7 +229,7 @@ class _Parser:
         if word.text in self.known:
             return
         if word.text in _CONSOLE_WORDS:
-            alone = "a script runs as a whole"
+            alone = "a script runs from its first line to its last without such commands"
             if rest and rest[0].text.upper() in INSTRUCTIONS:
                 alone += f"; write only the instruction: {quoted(free_text(rest))}"
             message = f"`{word.text}` is a console command, not an instruction of a script"

@@ -67,7 +67,7 @@ class _Phrases:
             return self.off_the_way(found, self.along(found.step, found.along))
         name, arm = found.position or self.word(found.step), self.arm.name
         note = reach_sentence(self.arm, found.reason)
-        help = f"move it, or turn it{self.counted(name)}"
+        help = f"move or turn the position{self.counted(name)}"
         match found.reason:
             case JointLimit() as reason:
                 word = self.word(found.step)
@@ -79,7 +79,7 @@ class _Phrases:
                 if isinstance(reason, OutOfReach):
                     away, nearer = f"beyond the reach of the {arm} arm", "closer to"
                 message = f"{name} is {inches} {away}"
-                help = f"move it at least {least} {nearer} the arm{self.counted(name)}"
+                help = f"move the position at least {least} {nearer} the arm{self.counted(name)}"
                 return self.at_position(found, message, help=help, notes=(note,))
             case BelowTable():
                 return self.at_position(
@@ -90,7 +90,7 @@ class _Phrases:
 
     def off_the_way(self, found: NoConfiguration, place: str) -> Diagnostic:
         message = f"the hand would leave the arm's reach {place}"
-        help = "shorten the motion, or start it from another place"
+        help = "shorten the motion, or start from another place"
         match found.reason:
             case JointLimit() as reason:
                 return self.joint_limit(found, reason, self.word(found.step), place)
@@ -118,7 +118,7 @@ class _Phrases:
         help = (
             "shorten the motion" if self.goal(found.step) is None else "add a position on the way with `VIA`"
         )
-        return self.at_position(found, message, help=help, notes=(f"it reaches its limit {place}",))
+        return self.at_position(found, message, help=help, notes=(f"the joint reaches its limit {place}",))
 
     def radians(self, name: str | None) -> str | None:
         """Return a hint for a position whose angles seem to be in radians."""
@@ -132,10 +132,10 @@ class _Phrases:
         return None
 
     def counted(self, name: str) -> str:
-        """Write `; it is relative to ...` if a position is relative to a part, or "" if it is not."""
+        """Return `; the position is relative to ...` if it is relative to a part, or "" if it is not."""
         position = self.program.positions.get(name)
         of = None if position is None else position.of
-        return "" if of is None else f"; it is relative to {quoted(of)}"
+        return "" if of is None else f"; the position is relative to {quoted(of)}"
 
     def below_table(self, found: GoalBelowTable) -> Diagnostic:
         message = (
@@ -157,7 +157,7 @@ class _Phrases:
             place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place
             help = "shorten the motion, or give it a `STOP` if it should touch something"
         elif found.position is not None:
-            place, help = f"at {found.position}", "raise the position, or move it"
+            place, help = f"at {found.position}", "raise or move the position"
         taken = None if found.held is None else found.grasp
         labels = () if taken is None else (Label(span=self.word_span(taken), text="grasped here"),)
         return self.at_position(found, f"{what} {into} {place}", help=help, secondary=labels)

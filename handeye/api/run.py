@@ -306,7 +306,7 @@ class Run:
             InvalidInput: the run has no folder, or is not closed.
         """
         if self.out is None:
-            raise Refused("the run has no folder, and so no trace; begin it with out=...")
+            raise Refused("the run has no folder, and so no trace; begin the run with out=...")
         if self._closed is None:
             raise Refused(
                 "the trace is complete only after the run is closed: leave the `with` block, or call close()"

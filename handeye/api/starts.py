@@ -145,7 +145,7 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
     """Raise InvalidInput unless the saved run was begun with the requested plan, world and camera."""
     require(begun.system, "python", str(path))
     if wanted.of_task not in (None, begun.task):
-        told = f"{quoted(begun.task)}, not of {quoted(str(wanted.of_task))}"
+        told = f"{quoted(begun.task)}, not to {quoted(str(wanted.of_task))}"
         raise Refused(f"the run in {path} belongs to the task {told}")
     if wanted.spec is not None and wanted.spec != begun.world:
         raise Refused(f"the run in {path} uses the world of {begun.world}, not that of {wanted.spec}")

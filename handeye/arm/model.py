@@ -139,11 +139,13 @@ class ArmModel(Brief):
         """Raise ValueError if the values contradict each other."""
         names = [joint.name for joint in self.joints]
         if len({*names}) < len(names) or not {*self.held} <= {*names}:
-            raise ValueError(f"{self.name}: joints have names of their own, and only joints are held")
+            raise ValueError(
+                f"{self.name}: two joints have the same name, or a name in `held` is not a joint"
+            )
         figures = (self.servo.frequency, self.servo.lag, self.compliance.friction)
         if {*map(len, figures)} != {len(names)}:
             raise ValueError(
-                f"{self.name}: servo and friction have figures for other than {counted(len(names), 'joint')}"
+                f"{self.name}: servo and friction need one value for each of {counted(len(names), 'joint')}"
             )
 
     @property

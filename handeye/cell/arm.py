@@ -201,7 +201,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def check(self, state: ArmState) -> None:
         lengths = {len(state.q), len(state.qd), len(self.dofs if state.command is None else state.command)}
         if lengths != {len(self.dofs)}:
-            raise ValueError("its arm has another number of joints")
+            raise ValueError("its arm has a different number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
             raise ValueError("its watchdog waits for a time in the past")

@@ -125,7 +125,10 @@ class Bench(Clock, Mechanism[BenchTime]):
         if name not in self.handlers:
             raise NoSuchName(f"the bench has no {name}; there are {', '.join(self.handlers)}")
         if microseconds >= _LATEST:
-            raise BadArgument(f"an event cannot happen as late as at {microseconds / MICROSECONDS:g} s")
+            raise BadArgument(
+                f"an event at {microseconds / MICROSECONDS:g} s is too late; it must be before "
+                f"{_LATEST / MICROSECONDS:g} s"
+            )
         self._due.append(Due(microseconds=microseconds, name=name))
         self._due.sort(key=lambda due: due.microseconds)
 
@@ -150,7 +153,9 @@ class Bench(Clock, Mechanism[BenchTime]):
             if self._before_event() > 0:
                 return
             self.handlers[(due := self._due.pop(0)).name]()
-        raise HandeyeError(f"events repeat without end at {self.now:g} s; the last is {due.name}")
+        raise HandeyeError(
+            f"the events at {self.now:g} s cause new events at the same time without end; the last is {due.name}"
+        )
 
     def _pass(self, most: int) -> None:
         """Let at most `most` physics steps pass: one stretch of steps, or all of them if everything sleeps."""

@@ -78,7 +78,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._senses, self._bent = channels or {}, bent
         parts = [part for channel in self._senses for part in channel.parts]
         if len({*parts}) < len(parts):
-            raise BadArgument(f"values of {name} need different names; these are {', '.join(parts)}")
+            raise BadArgument(f"the values of {name} need different names, not {', '.join(parts)}")
         self._holds = np.array([spec.holds for spec in specs])
         self._gradual = np.array([spec.name not in at_once for spec in specs])
         self._powered, self._latched = True, dict[str, tuple[float, ...]]()
@@ -155,7 +155,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     def put(self, goal: Array) -> None:
         if np.shape(goal) != (count := len(self._specs),):
-            raise BadArgument(f"a goal of {self.name} is {counted(count, 'number')}, one for each axis")
+            raise BadArgument(
+                f"a goal of {self.name} must have {counted(count, 'number')}, one for each axis"
+            )
         if not np.isfinite(goal).all():
             raise BadArgument("a goal of an axis is not a finite number")
         if not self._powered:
@@ -248,12 +250,12 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     def check(self, state: AxesState) -> None:
         if not len(state.goal) == len(state.way) == len(self._specs) or not 0 <= state.left <= self._steps:
-            raise BadFile("its machine has other axes")
+            raise BadFile("its machine has different axes")
         if not np.isfinite((*state.goal, *state.way, *chain.from_iterable(state.latched.values()))).all():
             raise BadFile("a goal or a channel of its machine is not a finite number")
         widths = {channel.name: channel.width for channel in self._senses if channel.latched}
         if any(widths.get(name) != len(values) for name, values in state.latched.items()):
-            raise BadFile("its machine has other channels")
+            raise BadFile("its machine has different channels")
 
     def restore(self, state: AxesState) -> None:
         self._goal, self._way, self._left = np.array(state.goal), np.array(state.way), state.left

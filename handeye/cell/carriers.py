@@ -38,7 +38,7 @@ class Carriers:
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
         bases = {int(model.body_parentid[body]) for body in self._body}
         if len(bases) != 1:
-            raise BadArgument(f"screw threads must be holes of one body in a scene, not of {len(bases)}")
+            raise BadArgument(f"all tapped holes of a scene must be in one body, not in {len(bases)}")
         (self.base,) = bases  # the body that has the holes
         self._slide = [model.joint(f"thread_slide{k}").id for k in holes]
         self._turn = [model.joint(f"thread_turn{k}").id for k in holes]
@@ -149,4 +149,6 @@ def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:
     for e in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
         if (model.eq_obj1id[e], model.eq_obj2id[e]) == (slide, turn):
             return int(e)
-    raise BadArgument(f"the scene does not bind {model.joint(slide).name} to {model.joint(turn).name}")
+    raise BadArgument(
+        f"no constraint of the scene couples {model.joint(slide).name} to {model.joint(turn).name}"
+    )

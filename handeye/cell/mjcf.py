@@ -90,7 +90,7 @@ def _in_full() -> Iterator[None]:
         functions._mjPRIVATE__set_xml_precision(_ALL)
     except (ValueError, OSError, AttributeError):
         raise Refused(
-            f"MuJoCo {mujoco.__version__} writes only six digits, which is too coarse for a scene"
+            f"MuJoCo {mujoco.__version__} writes numbers with only six digits, which are too few for a scene"
         ) from None
     try:
         yield

@@ -178,8 +178,8 @@ def context() -> tuple[str, Any]:
     if not reasons:
         reasons.append("on Debian, install libegl1, libgl1-mesa-dri and libopengl0")
     raise Refused(
-        f"OpenGL does not work on this machine ({'; '.join(reasons)}); photographs need it, and so does the camera "
-        "without `--camera ray`"
+        f"OpenGL does not work on this machine ({'; '.join(reasons)}); photographs need OpenGL, and so does the "
+        "camera unless `--camera ray` is given"
     )
 
 

@@ -119,11 +119,11 @@ class SignalLines(Mechanism[SignalLinesState]):
 
     def check(self, state: SignalLinesState) -> None:
         if len(state.defects) != len(self.defects):
-            raise ValueError("it has other defects")
+            raise ValueError("it has different defects")
         for defect, own in zip(self.defects, state.defects, strict=True):
             first, pictured = own.first or b"", defect.line == PICTURE
             if len(first) not in (0, ROWS * COLUMNS if pictured else _NUMBER):
-                raise ValueError(f"the value on the line {defect.line} has another size")
+                raise ValueError(f"the value on the line {defect.line} has a different size")
             if pictured and max(first, default=0) > _BRIGHTEST:
                 raise ValueError("a picture was impossibly bright")
             if not pictured:

@@ -101,11 +101,11 @@ class SnapshotCell:
             raise ValueError("it lacks values that change in this scene")
         for name, values in state.figures.items():
             if values.shape != getattr(self._model, name).shape:
-                raise ValueError(f"{name} has another size here")
+                raise ValueError(f"{name} has a different size here")
         if not all(np.isfinite(values).all() for values in (state.physics, *state.figures.values())):
             raise ValueError("some of its values are not finite numbers")
         if not 0 <= state.time < 1e9:
             raise ValueError("its clock shows an impossible time")
         if set(state.mechanisms) != {part.name for part in self._mechanisms}:
-            raise ValueError("it has other devices and mechanisms")
+            raise ValueError("it has different devices or mechanisms")
         check_noise(state.noise)

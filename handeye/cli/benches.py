@@ -52,12 +52,12 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
 
 def insertion(
     *,
-    n: Annotated[WholeNumber, Parameter(name="--n", help="Number of trials of each condition.")] = GRID_N,
+    n: Annotated[WholeNumber, Parameter(name="--n", help="Number of trials for each condition.")] = GRID_N,
     seed: Annotated[WholeNumber, Parameter(help="Seed of the first world; each world has ten trials.")] = 0,
     clearance: Annotated[
         float | None,
         Parameter(
-            help="Clearance of the hole in diameter, mm: .05 to 1. Default if --chamfer or --sd is given: "
+            help="Diametral clearance between hole and pin, mm: .05 to 1. Default if --chamfer or --sd is given: "
             ".114."
         ),
     ] = None,

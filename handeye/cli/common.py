@@ -67,7 +67,7 @@ def width_and_height(size: str) -> tuple[int, int]:
     """Width and height of a picture; raises BadArgument unless they are written like 480x360."""
     found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", size)
     if found is None:
-        raise BadArgument(f"{quoted(size)} is not a size; write it as 480x360")
+        raise BadArgument(f"{quoted(size)} is not a size; write it like 480x360")
     return int(found[1]), int(found[2])
 
 

@@ -36,7 +36,7 @@ def register(app: App) -> None:
         say(f"{app.install_completion(shell=chosen)}: written")
         if chosen in START_UP:
             changed = _start_up_text(chosen) != before
-            say(f"{_start_up(chosen)}: {'now loads it' if changed else 'already loads it'}")
+            say(f"{_start_up(chosen)}: {'now loads this file' if changed else 'already loads this file'}")
         say(f"Completion works in every new {chosen} session{CONDITION.get(chosen, '')}.")
         return 0
 

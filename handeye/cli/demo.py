@@ -31,7 +31,7 @@ def demo(
     from handeye.report.page.document import REPORT
 
     check_place(output, REPORT)
-    note("Writing the page of a recorded run; this takes some seconds.")
+    note("Writing the page of a recorded run; this takes a few seconds.")
     page = page_of(resources.demo())
     if not (output.exists() and output.read_bytes() == page):
         check_place(output, REPORT, overwrite=overwrite)

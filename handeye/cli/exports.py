@@ -105,7 +105,7 @@ def plot(
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="The plot: .png, .svg or .pdf.")],
     overwrite: Overwrite = False,
     stage: Annotated[
-        str | None, Parameter(help="Only this stage: its number, its name, or part of its name.")
+        str | None, Parameter(help="Only this stage, given by its number, its name, or part of its name.")
     ] = None,
 ) -> int:
     """Plot joints, hand force and events of a run against time; needs the extra `plot` (matplotlib).
@@ -163,7 +163,7 @@ def _cut(recorded: "RecordedRun") -> int:
     name = recorded.trace.name
     if recorded.whole or name.endswith(".part"):  # which is noted, too
         return 0
-    note(f"{name} was cut short; only the part that it holds is written")
+    note(f"{name} was cut short; only the recorded part is written")
     return 1
 
 

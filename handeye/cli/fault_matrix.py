@@ -52,7 +52,7 @@ def faults(
         Parameter(
             help="Folder for a run without faults in each world, created if missing. A fault that begins at a "
             "later stage then starts from a checkpoint of that run. By default a whole run is made for each "
-            "fault. The outcomes are the same in both ways."
+            "fault. The outcomes are the same either way."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,

@@ -214,7 +214,8 @@ def _way_on(folder: Path, result: "Result") -> str:
         return f"resume with: handeye resume {shlex.join([str(folder), *option(result.task)])}"
     call = ", ".join([repr(str(folder)), *(f"{part}=..." for part in parts)])
     return (
-        f"the run uses its caller's own {' and '.join(own)}; resume it from Python with handeye.begin({call})"
+        f"the run uses code of the calling program ({' and '.join(own)}); resume the run from Python with "
+        f"handeye.begin({call})"
     )
 
 

@@ -33,7 +33,9 @@ Then = Literal["dismantle", "assemble"]
 To = Annotated[str | None, Parameter(help="Pause after this stage.")]
 Until = Annotated[
     str | None,
-    Parameter(help="Pause before this step: its number in `handeye stages`, or its label in the script."),
+    Parameter(
+        help="Pause before this step, given by its number in `handeye stages`, or by its label in the script."
+    ),
 ]
 Break = Annotated[
     list[str] | None,

@@ -181,7 +181,7 @@ def stages(
 
 
 StageName = Annotated[
-    str | None, Parameter(help="Only this stage: its number, its name, or part of its name.")
+    str | None, Parameter(help="Only this stage, given by its number, its name, or part of its name.")
 ]
 DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
 

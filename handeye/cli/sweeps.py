@@ -148,8 +148,8 @@ def carry_out_sweep(
         again_later = sum(row.to_be_tried_again for row in ordered)
         if folder is not None and again_later:
             note(
-                f"{counted(again_later, 'trial')} ended by a failure of this computer; the same command "
-                "repeats them"
+                f"failures of this computer ended {counted(again_later, 'trial')}; run the same command again to "
+                "repeat them"
             )
     return found.exit_code
 
@@ -202,7 +202,7 @@ class _Progress(Tally):
         self._sweep, self._rows, self._timer = sweep, list(kept), timer
         self._to = notes if json else screen
         if kept:
-            note(f"{len(kept)} of {counted(total, sweep.noun)} kept from earlier")
+            note(f"{len(kept)} of {counted(total, sweep.noun)} already done by an earlier command")
         for row in kept:
             self._say(row)
 

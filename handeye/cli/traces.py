@@ -117,7 +117,9 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     check_task(wanted, trace.head.task, file)
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:
-        sentence = f"the run was recorded with other versions of {', '.join(changed)}; it may not repeat"
+        sentence = (
+            f"the run was recorded with other versions of {', '.join(changed)}, so it may not repeat exactly"
+        )
         note(sentence)
     recorded = trace.head.processor or ""
     elsewhere = ", on another kind of processor" if recorded and recorded != processor() else ""
@@ -129,15 +131,15 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} does not repeat{elsewhere}: {found.parts}")
         if found.rounded is not None:
             say(
-                "before that, numbers differ only by rounding, as between kinds of processors; the first: "
-                f"{found.rounded}"
+                "before that, numbers differ only by rounding, as they do between kinds of processors; the first "
+                f"difference: {found.rounded}"
             )
         return 1
     count = settled(events)
     ended = "" if count == len(events) else " up to the step that was interrupted"
     same = f"the same {counted(count, 'event')}{ended}"
     if found.rounded is None:
-        say(f"{file} repeats: {same}, to the byte")
+        say(f"{file} repeats: {same}, byte for byte")
     else:
         why = elsewhere or (", with other versions" if changed else ", as on another kind of processor")
         say(f"{file} repeats except for rounding{why}: {same}; the first difference: {found.rounded}")

@@ -20,10 +20,10 @@ _NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
 
 FORMER: Final = {
     "--output": ("--out", "--out, or -o, names every file or folder that is written"),
-    "--workers": ("--jobs", "--jobs says how many processes work at a time"),
-    "--width": ("--size", "--size gives both, as 1280x960"),
+    "--workers": ("--jobs", "--jobs sets the number of processes"),
+    "--width": ("--size", "--size sets width and height, as in 1280x960"),
     "--svg": ("--out", "--out, or -o, names every file or folder that is written"),
-    "--height": ("--size", "--size gives both, as 1280x960"),
+    "--height": ("--size", "--size sets width and height, as in 1280x960"),
 }
 """Options of earlier versions, each with its present name and a sentence about it."""
 

@@ -40,11 +40,14 @@ def video(
     size: Size = "480x360",
     seconds: Annotated[float | None, Parameter(help="Length of the video in seconds. Default: 14.")] = None,
     speed: Annotated[
-        float | None, Parameter(help="Instead of --seconds: how many times faster than the run.")
+        float | None,
+        Parameter(help="Instead of --seconds: speed of the video, as a multiple of the speed of the run."),
     ] = None,
     first: Annotated[
         str | None,
-        Parameter(name="--from", help="Begin with this stage: its number, its name, or part of its name."),
+        Parameter(
+            name="--from", help="Begin with this stage, given by its number, its name, or part of its name."
+        ),
     ] = None,
     last: Annotated[str | None, Parameter(name="--to", help="End with this stage.")] = None,
     captions: Annotated[
@@ -95,7 +98,7 @@ def _trace(run: Path) -> "Trace":
     file = motion_file(run)
     cut = is_cut_short(file)
     if cut and file.suffix != ".part":
-        note(f"{file} was cut short; the video shows what it holds")
+        note(f"{file} was cut short; the video shows only the recorded part")
     return read_trace(file, lenient=cut)
 
 

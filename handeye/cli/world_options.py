@@ -90,7 +90,8 @@ class ErrorOptions:
         lacking = next((name for name in off if name in SENSES), None)
         if lacking is not None:
             raise BadArgument(
-                f"`{lacking}` is a sense, not an error of the world, and this command runs no program"
+                f"`{lacking}` is a sense, not an error of the world; this command runs no program that could do "
+                "without it"
             )
         wanted = overrides(self.work.variation(), off, self.settings or (), self.scale or ())
         spec = WorldSpec(seed=seed, level=self.level, overrides=wanted)
@@ -138,7 +139,7 @@ class WorldOptions:
         int | None,
         Parameter(
             converter=whole,
-            help="Seed of the world, a whole number from 0 to 2^53 - 1: it decides where parts lie, and every "
+            help="Seed of the world, a whole number from 0 to 2^53 - 1: it determines where parts lie, and every "
             "error. Default: 0.",
         ),
     ] = None

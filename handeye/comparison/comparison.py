@@ -144,7 +144,7 @@ def comparison(a: RecordedRun, b: RecordedRun) -> Comparison:
         require(run.trace.head.system, "compare", name)
         steps = len(listing_of(run).steps)
         if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
-            raise BadFile(f"{name} has steps that its plan lacks")
+            raise BadFile(f"the trace {name} has steps that are not in its plan")
     runs, task = TwoRuns(a, b), known_any(a.trace.head.task)
     one, other = ({stage.stage: stage for stage in statistics(run.trace.events, {}).stages} for run in (a, b))
     return Comparison(

@@ -174,7 +174,7 @@ def first_difference(runs: TwoRuns) -> First | None:
                 return found
     except (DecodeError, msgspec.DecodeError, KeyError, ValueError):
         names = " or ".join(run.trace.name for run in (runs.a, runs.b))
-        raise BadFile(f"a message in {names} cannot be understood") from None
+        raise BadFile(f"a message in {names} cannot be decoded") from None
     return None
 
 

@@ -36,7 +36,7 @@ CODES: Final[dict[str, Code]] = {
     "always-undone": _warning("a stage is undone without a test before it", "MOVE P\nUNDO STAGE"),
     "aoj-without-search": _warning("no SEARCH can be executed before an AOJ", "L: MOVE T\nAOJ L"),
     "axis-count": _error(
-        "the count of a FREE or SPIN does not match its number of axes", "FREE 2 X\nCHANGE X 1"
+        "the number of axes in a FREE or SPIN does not match the axes named after it", "FREE 2 X\nCHANGE X 1"
     ),
     "carries-through-fixture": _planning(
         "the part in the hand would go through a fixture",
@@ -239,7 +239,9 @@ CODES: Final[dict[str, Code]] = {
     "vector-twice": _error(
         "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
     ),
-    "wait-for-time": _warning("a WAIT seems meant as a delay, but it calls the operator", "PARK\nWAIT 2"),
+    "wait-for-time": _warning(
+        "a WAIT seems to be intended as a delay, but WAIT calls the operator", "PARK\nWAIT 2"
+    ),
     "wrist-in-line": _planning(
         "a straight motion passes a point where the axes of two joints line up and the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",

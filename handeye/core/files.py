@@ -36,6 +36,11 @@ class Kind:
     begins: bytes  # a regular expression
     ending: str = ""  # required ending of the name, if any
 
+    @property
+    def with_article(self) -> str:
+        """The name with its article, such as `an SVG drawing`."""
+        return f"{'an' if self.name.startswith(('MP4', 'SVG')) else 'a'} {self.name}"
+
 
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
     """Read a whole file. Raises BadFile if the file is missing, not a regular file, larger than `largest` bytes, or
@@ -109,7 +114,7 @@ def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
             with path.open("rb") as file:
                 front = file.read(_FRONT)
             if front and not re.match(kind.begins, front):
-                raise CannotWrite(f"{path} exists and is no {kind.name}; nothing was written")
+                raise CannotWrite(f"{path} exists and is not {kind.with_article}; nothing was written")
             if front and not overwrite:
                 raise Taken(f"{path} already exists; --overwrite replaces it")
         from tempfile import TemporaryFile  # slow to import, and nothing that only reads needs it

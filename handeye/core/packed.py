@@ -59,11 +59,11 @@ def _plain(value: Any) -> Any:
         return value.dtype.str, value.shape, value.tobytes()
     if isinstance(value, np.floating):
         return float(value)
-    raise TypeError(f"no {type(value).__name__} belongs in a checkpoint")
+    raise TypeError(f"a checkpoint cannot contain a value of type {type(value).__name__}")
 
 
 def _array(kind: type, value: Any) -> Any:
     dtype, shape, data = value
     if dtype not in _DTYPES:
-        raise ValueError(f"no array of {dtype!r} belongs in a checkpoint")
+        raise ValueError(f"a checkpoint cannot contain an array of type {dtype!r}")
     return np.frombuffer(data, dtype).reshape(shape)

@@ -143,12 +143,14 @@ class Variation:
     def __init__(self, *quantities: Quantity) -> None:
         self.quantities = {quantity.name: quantity for quantity in quantities}
         assert len({crc32(name.encode()) for name in self.quantities}) == len(quantities), (
-            "two quantities share a stream"
+            "two quantities share a random stream"
         )
         assert not self.groups & self.quantities.keys(), "a name is both a quantity and a group"
         assert UNSOURCED not in {*self.groups, *self.quantities}, "a name is reserved"
         choices = {q.name for q in quantities if isinstance(q.distribution, Choice)}
-        assert {q.where[0] for q in quantities if q.where} <= choices, "a quantity depends on no choice"
+        assert {q.where[0] for q in quantities if q.where} <= choices, (
+            "a quantity depends on a choice that does not exist"
+        )
 
     @cached_property
     def groups(self) -> frozenset[str]:

@@ -116,7 +116,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="back stage", short="bs", group=_BACK, act=acts.back,
-        help="go back to the beginning of this stage; at its beginning, to the beginning of the previous stage",
+        help="go back to the beginning of this stage or, if the run is already there, of the previous stage",
     ),
     Command(
         usage="undo [N|stage]", group=_BACK, act=acts.undo,
@@ -137,7 +137,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="picture FILE", group=_LOOKING, act=acts.picture,
-        help="write the last picture, with what was found in it, to a new PNG file",
+        help="write the last picture, with the detected features, to a new PNG file",
     ),
     Command(
         usage="set KIND NAME x y z", group=_TRYING, act=acts.experiment,

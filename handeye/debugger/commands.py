@@ -200,7 +200,7 @@ def abort(session: DebugSession, _: str) -> CommandResult:
 
 def _check_called(session: DebugSession, word: str) -> None:
     if session.runner.call is None:
-        raise Refused(f"`{word}` answers a call of the operator, but there is none")
+        raise Refused(f"`{word}` answers a call of the operator, but no call is waiting for an answer")
 
 
 # -- keeping and leaving --------------------------------------------------------------------------------

@@ -79,7 +79,7 @@ class SearchState(MutableRecord, kw_only=True):
         """Return the horizontal offset (m) of the present place of the search."""
         found = self.place(pattern, self.count)
         if found is None:
-            raise Refused(f"the search is at its place {self.count}, which its pattern does not have")
+            raise Refused(f"the search is at place {self.count}, which does not exist in the search pattern")
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:

@@ -80,7 +80,7 @@ class ToolAxes(Axes):
     def put(self, goal: Array) -> None:
         """Drive the arm for one servo period towards a goal. Raises Refused if the arm cannot go there."""
         if np.shape(goal) != (count := len(self._specs),):
-            raise BadArgument(f"a goal of {self.name} is {count} numbers, one for each axis")
+            raise BadArgument(f"a goal of {self.name} must have {count} numbers, one for each axis")
         if not np.isfinite(goal).all():
             raise BadArgument("a goal of an axis is not a finite number")
         self._finish()

@@ -40,7 +40,7 @@ def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[s
     because a scene is the same, byte for byte, each time that it is built.
     """
     if any(getattr(model, count) != getattr(drawn, count) for count in (*_COUNTS.values(), "nmeshvert")):
-        return {"the scene": ["number of things in it"]}
+        return {"the scene": ["number of elements"]}
     found: dict[str, set[str]] = {}
     for owner, kind in _differences(model, drawn, parts):
         found.setdefault(owner, set()).add(kind)

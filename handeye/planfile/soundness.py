@@ -31,7 +31,7 @@ def faults(plan: Plan) -> Iterator[str]:
     if len(set(program.stages)) < len(program.stages):
         yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
-        yield f"its speed is {plan.speed:g}; it must be a share of the arm's limits, above 0 and at most 1"
+        yield f"its speed is {plan.speed:g}; it must be a fraction of the arm's limits, above 0 and at most 1"
     for key, position in program.positions.items():
         if position.of is not None and position.of not in program.parts:
             yield f"position {key} is relative to part {position.of}, which is not in the plan"

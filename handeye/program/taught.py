@@ -142,11 +142,15 @@ def _read(kind: str, name: str, table: dict[str, object], type: type[Entry]) -> 
         raise UnfitEntry(kind, name, unfit(error)) from None
     for key in type.__struct_fields__:
         if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, key))):
-            raise UnfitEntry(kind, name, f"{key} has a number of one million or more")
+            raise UnfitEntry(kind, name, f"{key} contains a number of one million or more")
     if isinstance(entry, PartTable):
         for x, y, diameter in (*entry.holes, *entry.screw_holes):
             if diameter <= 0:
-                raise UnfitEntry(kind, name, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
+                raise UnfitEntry(
+                    kind,
+                    name,
+                    f"the hole at ({x:g}, {y:g}) has the diameter {diameter:g}, which must be above 0",
+                )
     if isinstance(entry, FixtureTable | HeldTable):
         for box in entry.boxes:
             if not all(low < high for low, high in zip(box[:3], box[3:], strict=True)):
@@ -262,7 +266,7 @@ def _faults(taught: Taught) -> Iterator[UnfitEntry]:
             if at not in taught.positions:
                 yield UnfitEntry("held", name, f"there is no position {quoted(at)} in this file")
             if where.setdefault(at, name) != name:
-                yield UnfitEntry("held", name, f"at {at} the hand already holds {where[at]}")
+                yield UnfitEntry("held", name, f"at {at}, the hand already holds {where[at]}")
     count = 0
     for kind, solids in (("fixtures", taught.fixtures), ("held", taught.held)):
         for name, solid in solids.items():

@@ -80,7 +80,7 @@ def no_album(run: RecordedRun, why: str) -> Album:
 
 def _leading(run: RecordedRun, outcome: Outcome) -> Photograph:
     """Take the main photograph, which shows the finished work, or the moment at which the run failed."""
-    shows = "The end of the run" if outcome.ended else "The hand at the last moment"
+    shows = "The end of the run" if outcome.ended else "The hand at the end of the run"
     wanted = _PhotographRequest(time=outcome.time, view=_leading_view(run, outcome), shows=shows)
     (taken,) = _taken(run, [wanted], LARGE)
     left = run.end if outcome.ended else None

@@ -28,8 +28,8 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
     referee = runner.setup.replaced.get("referee")
     if judged and referee is not None:
         yield (
-            f"the run began with its caller's own referee, `{referee}`, which is not in a file; the referee of the "
-            "task judges it"
+            f"the run began with a referee of the calling program, `{referee}`, whose code is not saved in the run; "
+            "now the referee of the task judges the run"
         )
 
 
@@ -45,6 +45,6 @@ def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
         )
     if folder.journal_lost:
         yield (
-            f"the event list {folder.path / EVENTS} was lost, damaged or of another run, and starts again from the "
-            f"checkpoint: earlier undone steps are not in it"
+            f"the event list {folder.path / EVENTS} was lost, was damaged, or belonged to another run; the new list "
+            "starts from the checkpoint, without earlier undone steps"
         )

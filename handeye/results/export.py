@@ -123,12 +123,12 @@ def checks(exported: ExportedSolids) -> Iterator[str]:
     yield f"{count}, not closed: {', '.join(exported.open)}" if exported.open else f"{count}, all closed"
     right = [body for body in exported.weighed if agrees(body)]
     if right:
-        yield f"mass by volume and density as in the model, within {TOLERANCE:.0%}: {_names(right)}"
+        yield f"the mass computed from volume and density agrees with the model within {TOLERANCE:.0%}: {_names(right)}"
     wrong = [body for body in exported.weighed if not agrees(body)]
     for (mass, there), bodies in groupby(
         wrong, key=lambda body: (f"{body.mass:.3g}", f"{body.mass_there:.3g}")
     ):
-        yield f"mass by volume and density {mass} kg, but {there} kg in the model: {_names(bodies)}"
+        yield f"the mass computed from volume and density is {mass} kg, but {there} kg in the model: {_names(bodies)}"
 
 
 def agrees(body: WeighedBody) -> bool:
@@ -214,5 +214,5 @@ def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Ex
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part, overwrite=overwrite)
     if part is not None:
-        raise BadArgument(f"a part is written to a file whose name ends in {GLB.ending}, not to {path}")
+        raise BadArgument(f"a part must be exported to a file whose name ends in {GLB.ending}, not to {path}")
     return export_mjcf(path, shown, overwrite=overwrite)

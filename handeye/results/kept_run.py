@@ -50,7 +50,8 @@ def kept_run(path: Path) -> KeptRun:
         if _belongs(result, _readable_events(path)):
             return KeptRun(result=result)
         faults.append(
-            f"{path / RESULT} belongs to another run: of {quoted(result.program)} in the world of {result.world}"
+            f"{path / RESULT} belongs to another run, of the program {quoted(result.program)} in the world of "
+            f"{result.world}"
         )
     if not (path / EVENTS).exists() and not (path / PLAN).exists():
         raise BadFile(f"the run in {path} cannot be shown: its {PLAN} is missing")

@@ -68,7 +68,7 @@ class CheckpointStore:
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
                 raise BadFile(f"{path} belongs to another plan ({head.program}, {head.plan})")
             if path == newest and not same_plan(read_checkpoint(path).setup, setup):
-                raise BadFile(f"{path} belongs to another plan of this script, with other motions")
+                raise BadFile(f"{path} belongs to another plan of this script, with different motions")
             if (head.world, head.camera) != (setup.world, setup.camera):
                 raise BadFile(
                     f"{path} belongs to another run ({head.world}, camera {head.camera}), not to this run "
@@ -76,8 +76,8 @@ class CheckpointStore:
                 )
             if deciding(head.replaced or {}) != deciding(setup.replaced):
                 raise BadFile(
-                    f"{path} belongs to a run with other parts ({named(head.replaced or {})}) than this run "
-                    f"({named(setup.replaced)}); choose another folder"
+                    f"{path} belongs to a run with the parts {named(head.replaced or {})}, but this run has "
+                    f"{named(setup.replaced)}; choose another folder"
                 )
 
     def claim(self, setup: Setup) -> None:

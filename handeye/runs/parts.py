@@ -39,12 +39,12 @@ class Parts:
             was, now = begun.get(part), here.get(part)
             if was is not None and now is None:
                 raise Refused(
-                    f"the run uses its caller's own {part}, `{was}`, which is code and not in a file; in Python, "
-                    f"pass it to `handeye.begin` as {part}=..."
+                    f"the run uses a {part} of the calling program, `{was}`, whose code is not saved in the run; in "
+                    f"Python, pass it to `handeye.begin` as {part}=..."
                 )
             if was != now:
-                before = "handeye's own" if was is None else f"`{was}`"
-                raise Refused(f"the run began with {before} as its {part}, but `{now}` was given")
+                before = f"handeye's own {part}" if was is None else f"`{was}` as its {part}"
+                raise Refused(f"the run began with {before}, but `{now}` was given")
 
 
 def deciding(names: dict[str, str]) -> dict[str, str]:

@@ -296,7 +296,7 @@ class Runner:
         given number of steps done.
         """
         if not 0 <= position <= self.position:
-            raise BadArgument(f"cannot go back to {counted(position, 'step')} done")
+            raise BadArgument(f"cannot go back to the state after {counted(position, 'step')}")
         near = self._nearest(position, kept)
         again = self.events[: self._happened(position)]
         while self.history and self.history[-1].position > near.position:
@@ -377,7 +377,9 @@ class Runner:
     def _put(self, snapshot: Snapshot) -> None:
         cell = self.system.cell
         if (cell is None) != (snapshot.cell is None):
-            raise BadFile("the state is of another system: one has a work cell, the other does not")
+            raise BadFile(
+                "the state belongs to a run of a different kind: only one of the two runs has a work cell"
+            )
         if cell is not None and snapshot.cell is not None:
             cell.restore(snapshot.cell)
         self.system.restore(snapshot.state)

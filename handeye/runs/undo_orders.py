@@ -86,6 +86,6 @@ def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> 
     if runner.events[: len(happened)] != list(happened):
         raise Refused(
             f"the steps of {name} after its newest checkpoint give a different result here; `handeye resume "
-            f"{name}` continues from that checkpoint"
+            f"{name}` continues from the newest checkpoint"
         )
     return runner.checkpoint()

@@ -55,7 +55,7 @@ def difference(trace: Trace, folder: Path) -> str | None:
 def repetition(trace: Trace, folder: Path) -> Repetition:
     """Repeat a run in `folder` and compare both recordings. Raises Refused if the trace is thinned."""
     if trace.thinned:
-        raise Refused(f"{trace.name} is thinned: verify the whole trace that it was made from")
+        raise Refused(f"{trace.name} is thinned and cannot be verified; verify the original trace")
     wanted = trace.events[: settled(trace.events)]
     start = Checkpoint(setup=setup_of(trace))
     keeping = open_new(folder, start)

@@ -120,7 +120,9 @@ def known_any(name: str) -> AnyTask | None:
     if name not in _REGISTERED and name in _entry_points():
         found = _loaded(_entry_points()[name])
         if found.name != name:
-            raise BadArgument(f"the entry point {quoted(name)} gives a task called {quoted(found.name)}")
+            raise BadArgument(
+                f"the entry point {quoted(name)} contains a task with a different name, {quoted(found.name)}"
+            )
         register(found)
     for words in () if name in _REGISTERED else os.environ.get(ELSEWHERE, "").split():
         try:

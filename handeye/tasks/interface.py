@@ -160,7 +160,7 @@ def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
     cameras = [scene.camera(number).name for number in range(scene.ncam)]
     for name in (task.camera, *task.photographs):
         if name not in cameras:
-            there = f"it has {', '.join(map(quoted, cameras))}" if cameras else "it has none"
+            there = f"its cameras are {', '.join(map(quoted, cameras))}" if cameras else "it has no cameras"
             lacks = f"does not have the camera {quoted(name)} that the task names; {there}"
             raise Refused(f"the scene of the task {quoted(task.name)} {lacks}")
     if not {SCENERY, SEEN, LATENT} & {*map(int, scene.geom_group)}:

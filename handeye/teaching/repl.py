@@ -25,7 +25,9 @@ from handeye.teaching.functions import TYPED, is_open, lasting, mistakes
 from handeye.teaching.workplace import Workplace
 
 MAX_LINES: Final = 500  # all of them are checked again with each that is added
-_ANSWERS: Final = "PROCEED, RETRY or SKIP continues the stopped program; a new instruction abandons it"
+_ANSWERS: Final = (
+    "PROCEED, RETRY or SKIP continues the stopped program; a new instruction abandons the program"
+)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -95,7 +97,7 @@ def _do(repl: Repl, rest: str) -> Answer:
     """Execute the collected lines or, if `rest` names one, an instruction, macro or program."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
-            raise Refused("nothing is collected; type instructions, or `DO OPEN 3` to run one at once")
+            raise Refused("nothing is collected; type instructions, or `DO OPEN 3` to run one immediately")
         return repl.carry_out(repl.typed("\n".join(repl.functions)))
     definitions = lasting(repl.functions)
     name = rest.split(";")[0].strip()

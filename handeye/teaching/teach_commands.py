@@ -173,7 +173,7 @@ def _where(teacher: Teacher, what: str = "hand") -> Answer:
 
 
 def _help(teacher: Teacher, _: list[str]) -> Answer:
-    tail = "Inches and degrees, forces in ounces. `quit` leaves."
+    tail = "Lengths are in inches, angles in degrees, forces in ounces. `quit` leaves."
     return answer(teacher.workplace, lines=(*rows(TABLE), tail))
 
 
@@ -194,7 +194,7 @@ def _number(word: str) -> float:
 
 def _along(axis: str, size: float) -> Vector3:
     if axis.lower() not in AXES:
-        raise BadArgument(f"{quoted(axis)} is not an axis; there are x, y and z")
+        raise BadArgument(f"{quoted(axis)} is not an axis; the axes are x, y and z")
     x, y, z = (size if axis.lower() == name else 0.0 for name in AXES)
     return x, y, z
 

@@ -98,7 +98,7 @@ class Teacher:
         Refused if the arm does not float.
         """
         if not self.afloat:
-            raise Refused("the arm is held and cannot be pushed; `float` releases its brakes")
+            raise Refused("the arm cannot be pushed while its brakes are set; `float` releases the brakes")
 
         def act() -> None:
             with pushed(self.workplace.runner.arm_cell, force):

@@ -155,7 +155,7 @@ class Workplace:
     def answer(self, choice: Choice) -> Pause:
         """Continue after a call of the operator. Raises Refused if there is no call."""
         if self.runner.call is None:
-            raise Refused(f"`{choice}` answers a call of the operator, but there is none")
+            raise Refused(f"`{choice}` answers a call of the operator, but no call is waiting for an answer")
         self.runner.answer(choice)
         return self._go()
 

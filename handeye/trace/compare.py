@@ -106,7 +106,7 @@ def _difference(
     first, second = (
         f"{found.topic} at {_when(of, found.time / 1e9)}" for of, found in ((a, here), (b, there))
     )
-    return f"one continues with {first}, the other with {second}, {after}"
+    return f"the next message is {first} in one, and {second} in the other, {after}"
 
 
 def _quantity(a: Trace, here: RawMessage, there: RawMessage, rounded: bool) -> str:

@@ -145,5 +145,7 @@ def decoded_channels(data: bytes) -> tuple[ChannelValues, ...]:
     """Decode a channels message. Raises DecodeError if the data are not a channels message."""
     channels = _channels_decoder.decode(data).channels
     if any(channel.width != len(channel.values) for channel in channels):
-        raise msgspec.DecodeError("a channel has another number of values than it declares")
+        raise msgspec.DecodeError(
+            "the number of values in a channel differs from the number that the channel declares"
+        )
     return channels

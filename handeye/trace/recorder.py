@@ -184,7 +184,9 @@ class Recorder:
             file.move(part(self._path))
         except (DecodeError, KeyError, ValueError):  # frames or channels that there are not in this scene
             self._abandon(file)
-            raise CannotWrite(f"the trace at {self._path} is of another scene; move it elsewhere") from None
+            raise CannotWrite(
+                f"the trace at {self._path} belongs to another scene; move the file elsewhere"
+            ) from None
         except BaseException:
             self._abandon(file)
             raise

@@ -55,7 +55,7 @@ def _joints(trace: Trace) -> Table:
     )
     about = "What the sensors measured at the end of each servo period, and the commands of that period."
     if trace.thinned:
-        about += " The trace is thinned: it holds some of the periods, not all."
+        about += " The trace is thinned, and holds only some of the servo periods."
     return Table(name="joints", about=about, columns=(*_under_way(trace, motion.times), *columns, gap))
 
 
@@ -85,7 +85,11 @@ def _forces(trace: Trace) -> Table:
     ]
     guard = tuple(map(str, forces.guard[rows]))
     columns += [
-        Column(name="guard", about="kind of the active guard, the first if there are several", values=guard),
+        Column(
+            name="guard",
+            about="kind of the active guard; if several guards are active, kind of the first",
+            values=guard,
+        ),
         Column(
             name="value",
             about="what the guard measures: N, N m, or finger switches",
@@ -107,7 +111,7 @@ def _channels(trace: Trace) -> Table:
         values[np.searchsorted(times, channel.times)] = channel.values
         about = f"channel {channel.name}"
         columns.append(Column(name=channel.name, about=about, unit=channel.unit, values=values))
-    about = "What machines measured on channels of their own at the end of each servo period."
+    about = "What the machines measured on their own channels at the end of each servo period."
     return Table(name="channels", about=about, columns=(*_under_way(trace, times), *columns))
 
 
@@ -177,9 +181,13 @@ def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:
     files = tuple("" if at.step is None else at.step.file for at in each)
     return (
         Column(name="stage", about="the current stage", values=tuple(at.stage for at in each)),
-        Column(name="step", about=f"number of the current step; {NO_STEP}: none", values=steps),
-        Column(name="file", about="the required file of the step; empty: the script itself", values=files),
-        Column(name="line", about=f"its line in that file; {NO_STEP}: none", values=lines),
+        Column(name="step", about=f"number of the current step; {NO_STEP} if there is none", values=steps),
+        Column(
+            name="file",
+            about="required file that contains the step; empty if the step is in the script itself",
+            values=files,
+        ),
+        Column(name="line", about=f"line of the step in that file; {NO_STEP} if there is none", values=lines),
     )
 
 

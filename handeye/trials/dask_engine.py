@@ -51,7 +51,7 @@ def _tried(work: GuardedWork[Any], code: str, case: Case) -> list[Any]:
     """Execute a case on a worker. Raises InvalidInput if the worker has another version of handeye."""
     if code_digest() != code:
         raise Refused(
-            "a worker has another version of handeye than this computer; install the same version on all"
+            "a worker has a different version of handeye from this computer; install the same version on all computers"
         )
     return work(case)
 

@@ -43,7 +43,7 @@ class SoundRun:
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
-                f"a schedule cannot begin with {counted(position, 'step')} done: that state does not exist"
+                f"a schedule cannot begin after {counted(position, 'step')}: the run has no such state"
             )
         return found
 

@@ -45,7 +45,7 @@ class VideoRequest:
             )
         if self.speed is not None and not (_is_number(self.speed) and self.speed > 0):
             raise BadArgument(
-                f"the speed of a video must be more than 0 times the speed of the run, not {self.speed}"
+                f"the speed of a video, as a multiple of the speed of the run, must be above 0, not {self.speed}"
             )
         for stage in (self.first, self.last):
             if isinstance(stage, bool) or not isinstance(stage, str | int | None):

@@ -233,7 +233,7 @@ def _taken(port: int) -> socket.socket:
         taken.listen()
     except (OSError, OverflowError) as error:
         taken.close()
-        why = error.strerror if isinstance(error, OSError) else "a port is a number from 0 to 65535"
+        why = error.strerror if isinstance(error, OSError) else "a port must be a number from 0 to 65535"
         raise Refused(f"port {port} is not available: {why}") from None
     return taken
 

@@ -185,7 +185,7 @@ def locate_specific(
     part must have two holes.
     """
     if len(part.holes) < 2:
-        raise BadArgument("a part can be located only by two of its holes; the program gives fewer")
+        raise BadArgument("two holes are needed to locate a part, but the program gives fewer")
     scan = Scan(picture)
     box = close_box(view, general)
     if box is None:

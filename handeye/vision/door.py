@@ -50,7 +50,8 @@ def beams(
     from_where, ways = _points(starts, "starts"), _points(directions, "directions")
     if from_where.shape != ways.shape:
         raise BadArgument(
-            f"each beam needs a start and a direction, but there are {len(from_where)} and {len(ways)}"
+            f"each beam needs a start and a direction, but there are {counted(len(from_where), 'start')} and "
+            f"{counted(len(ways), 'direction')}"
         )
     if len(ways) and np.abs(np.linalg.norm(ways, axis=1) - 1).max() > _UNIT:
         raise BadArgument("the directions of beams must be unit vectors (du, dv)")

@@ -93,7 +93,7 @@ def inspect(
     have two holes.
     """
     if len(part.holes) < 2:
-        raise BadArgument("the inspection of a gasket needs two holes; the program gives fewer for the part")
+        raise BadArgument("two holes are needed to inspect a gasket, but the program gives fewer")
     new, old = Scan(difference(before, after)), Scan(before)
     places = _as_seen(old, view, part, hole_places(part, pose)[:2])
     expected = tuple((float(u), float(v)) for u, v in view.project(places))

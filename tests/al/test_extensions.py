@@ -34,11 +34,11 @@ def test_what_is_ours_in_a_required_file_is_found() -> None:
     ("text", "message", "at"),
     [
         ("LOAD 4", "`LOAD` is not documented before 1978", "LOAD"),
-        ("MOVE T DIRECT", "`DIRECT` of `MOVE` is an addition of handeye", "DIRECT"),
-        ("CHANGE [0 0 1] 1 .5", "`speed` of `CHANGE` is an addition of handeye", ".5"),
-        ("CLOSE .1 .2", "`maximum` of `CLOSE` is an addition of handeye", ".2"),
-        ("TRANS A [1 2 3 0 0 0] OF BASE", "`OF part` of `TRANS` is an addition of handeye", "BASE"),
-        ("STOP 50\nPARK", "`STOP` with a number is an addition of handeye", "50"),
+        ("MOVE T DIRECT", "`DIRECT` of `MOVE` is an extension of handeye", "DIRECT"),
+        ("CHANGE [0 0 1] 1 .5", "`speed` of `CHANGE` is an extension of handeye", ".5"),
+        ("CLOSE .1 .2", "`maximum` of `CLOSE` is an extension of handeye", ".2"),
+        ("TRANS A [1 2 3 0 0 0] OF BASE", "`OF part` of `TRANS` is an extension of handeye", "BASE"),
+        ("STOP 50\nPARK", "`STOP` with a number is an extension of handeye", "50"),
     ],
 )
 def test_what_is_ours_is_pointed_at(text: str, message: str, at: str) -> None:

@@ -27,12 +27,16 @@ from handeye.core.source import Source
         ("OPEN 1 # wide", "unexpected-character", "a comment begins with `;`"),
         ("CHANGE 0 0 -1 .6", "wrong-operand", "write a vector in brackets"),
         ("CHANGE .6 [0 0 -1]", "wrong-operand", "the vector comes first"),
-        ("CLOSE .1 OPEN", "wrong-operand", "`OPEN` is an instruction: it begins a line of its own"),
+        ("CLOSE .1 OPEN", "wrong-operand", "`OPEN` is an instruction: put it on a new line"),
         ("MOVE DIRECT T", "wrong-operand", "usage: `MOVE position (DIRECT)`"),
-        ("PARK\nSTOP", "missing-operand", "usage: `STOP force (moment)`: it ends the next motion when "),
-        ("PARK\nSTOP", "missing-operand", "in ounces; a program ends at the end of its text"),
-        ("PARK\nEND", "unknown-instruction", "a program ends at the end of its text"),
-        ("PARK\nRETURN", "unknown-instruction", "a program ends at the end of its text"),
+        ("PARK\nSTOP", "missing-operand", "usage: `STOP force (moment)`: `STOP` ends the next motion when "),
+        ("PARK\nSTOP", "missing-operand", "in ounces; a program needs no end statement"),
+        ("PARK\nEND", "unknown-instruction", "a program needs no end statement: it ends after its last line"),
+        (
+            "PARK\nRETURN",
+            "unknown-instruction",
+            "a program needs no end statement: it ends after its last line",
+        ),
         ("L: PARK\nGOTO L", "unknown-instruction", "`JUMP` goes to a label"),
         (
             "DEFINE M\nPARK\n\nCALL M",
@@ -62,11 +66,11 @@ def test_a_name_that_looks_like_a_known_one_is_taken_for_it() -> None:
     [
         (
             "ASSIGN N 3\nL: PARK\nSOJG L,N",
-            "`L` is a label and `N` a counter: `SOJG` takes them in the other order",
+            "`L` is a label and `N` a counter, but `SOJG` takes them in the other order",
         ),
         (
             "LOOK V\nGENERAL V BASE",
-            "`V` is a picture and `BASE` a part: `GENERAL` takes them in the other order",
+            "`V` is a picture and `BASE` a part, but `GENERAL` takes them in the other order",
         ),
     ],
 )
@@ -83,7 +87,9 @@ def test_a_label_inside_a_macro_is_shown_to_who_jumps_to_it() -> None:
         if d.severity == "error"
     )
     assert told.message == "label `TRY` belongs to a macro"
-    assert [(label.span.start, label.text) for label in told.secondary] == [(9, "this is inside a macro")]
+    assert [(label.span.start, label.text) for label in told.secondary] == [
+        (9, "the label is inside a macro")
+    ]
     assert "ends with the first blank line" in (told.help or "")
 
 
@@ -100,8 +106,8 @@ def test_a_torque_of_a_screwdriver_that_may_run_is_not_told() -> None:
 
 def test_an_error_that_was_tested_before_cannot_be_there_any_more() -> None:
     (told,) = diagnose("STOP 9\nCHANGE Z -1\nSKIPE 23\nSKIPE 23\nPARK\nPARK")
-    assert (told.code, told.message) == ("error-never-raised", "error 23 is already cleared")
-    assert [label.text for label in told.secondary] == ["this tested it"]
+    assert (told.code, told.message) == ("error-never-raised", "an earlier test has already cleared error 23")
+    assert [label.text for label in told.secondary] == ["the earlier test"]
 
 
 @pytest.mark.parametrize("text", ["WAIT 2", "WAIT 0.5 s", "WAIT 10 SECONDS"])
@@ -127,4 +133,4 @@ def test_a_mark_just_behind_the_widest_line_is_shown() -> None:
     text = "\t" * 13 + "TORQUE"
     (told,) = (d for d in diagnose(text) if d.code == "missing-operand")
     rows = render(told, Source(name="x.al", text=text)).splitlines()
-    assert rows[4].endswith("^ it is expected here")
+    assert rows[4].endswith("^ expected here")

@@ -179,7 +179,7 @@ def test_json_form_gives_lines_and_columns_from_one() -> None:
             "line": 2,
             "column": 6,
             "end": 7,
-            "text": "the hand opens from 0 to 4.13 in",
+            "text": "a gap must be between 0 and 4.13 in",
         },
         "secondary": [],
         "notes": [],
@@ -195,11 +195,12 @@ def test_warning_leaves_a_program() -> None:
 @pytest.mark.parametrize(
     ("text", "help"),
     [
-        ("GO", "a script runs as a whole"),
-        ("DO PUMP", "a script runs as a whole"),
+        ("GO", "a script runs from its first line to its last without such commands"),
+        ("DO PUMP", "a script runs from its first line to its last without such commands"),
         (
             "do CHANGE [0 0 -1] 1",
-            "a script runs as a whole; write only the instruction: `CHANGE [0 0 -1] 1`",
+            "a script runs from its first line to its last without such commands; write only the instruction: "
+            "`CHANGE [0 0 -1] 1`",
         ),
     ],
 )

@@ -121,7 +121,9 @@ def test_what_is_saved_only_where_nothing_leads_is_never_saved() -> None:
 @pytest.mark.parametrize("grasp", ["CLOSE .1", "CENTER .1"])
 def test_a_touch_of_closed_fingers_is_told(grasp: str) -> None:
     (told,) = diagnose(f"{grasp}\nTOUCH 3\nCHANGE Z -1")
-    assert told.message.endswith("the fingers are closed: the part between them ends it at once")
+    assert told.message.endswith(
+        "the fingers are closed, and the part between them ends the motion immediately"
+    )
 
 
 @pytest.mark.parametrize("hand", ["", "CLOSE .1\nOPEN 1\n", "CLOSE .1\nSKIPE 2\nOPEN 1\n"])
@@ -172,14 +174,17 @@ def test_a_jump_back_over_an_unused_label_is_one_mistake() -> None:
     told = diagnose(text)
     assert [d.code for d in told if d.code != "endless-loop"] == ["search-begun-anew"]
     (begun,) = (d for d in told if d.code == "search-begun-anew")
-    assert [label.text for label in begun.secondary] == ["this starts again", "nothing jumps here"]
+    assert [label.text for label in begun.secondary] == [
+        "executed again in every round",
+        "nothing jumps here",
+    ]
 
 
 def test_a_position_that_only_a_comment_goes_to_is_seen_there() -> None:
     (told,) = diagnose("TRANS ROD [24 36 3 90 90 0]\nOPEN 1 ; MOVE ROD\nPARK")
     assert (told.code, told.help) == (
         "unused-position",
-        "line 2 uses it, but in a comment, after a `;`",
+        "line 2 uses the name, but only in a comment, after a `;`",
     )
 
 
@@ -218,4 +223,4 @@ def test_angles_that_are_merely_wrong_are_not_taken_for_radians() -> None:
 
 def test_of_a_position_out_of_reach_it_is_said_what_it_is_counted_from() -> None:
     (help,) = planned("TRANS RIM [44.5 29.5 3.75 90 90 0] OF BASE\nMOVE RIM")
-    assert (help or "").endswith("closer to the arm; it is relative to `BASE`")
+    assert (help or "").endswith("closer to the arm; the position is relative to `BASE`")

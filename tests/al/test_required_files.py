@@ -101,7 +101,7 @@ def test_mistake_of_a_required_file_is_shown_in_its_own_frame() -> None:
         " ┌─ plans/lib/a.al:3:6\n"
         " │\n"
         "3│ OPEN 9\n"
-        " │      ^ the hand opens from 0 to 4.13 in"
+        " │      ^ a gap must be between 0 and 4.13 in"
     )
 
 
@@ -190,7 +190,7 @@ def test_a_long_circle_is_told_shortly() -> None:
 def test_a_file_read_before_is_read_no_more() -> None:
     files = {"a.al": "PARK", "b.al": "REQUIRE a.al\nMOVE T"}
     (diagnostic,) = diagnose("REQUIRE a.al\nREQUIRE b.al", files)
-    assert diagnostic.message == "`a.al` is already included: this line does nothing"
+    assert diagnostic.message == "`a.al` is already required above, so this line has no effect"
     assert places(compiled("REQUIRE a.al\nREQUIRE b.al", files)) == ["a.al:1 PARK", "b.al:2 MOVE T"]
 
 
@@ -202,7 +202,9 @@ def test_a_chain_of_a_thousand_files_is_too_much() -> None:
     files = {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1000)} | {"1000.al": "PARK"}
     (diagnostic,) = diagnose("REQUIRE 0.al\nPARK", files)
     assert diagnostic.code == "too-much-required"
-    assert diagnostic.message == f"more than 100 files, or {LARGEST} characters in all, are required"
+    assert diagnostic.message == (
+        f"the script requires more than 100 files, or more than {LARGEST} characters in all"
+    )
 
 
 def test_a_chain_that_another_program_has_sewn_is_too_much() -> None:

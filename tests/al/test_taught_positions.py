@@ -64,7 +64,7 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
         ("[positions.A]", r":1: positions\.A: `at` is missing"),
         (
             "[positions.A]\nat = [1, 2, 3, 0, 0, nan]",
-            r":1: positions\.A: at has a number of one million or more",
+            r":1: positions\.A: at contains a number of one million or more",
         ),
         ("[positions.A]\nat = [0,0,0,0,0,0]\nof = 'B'", r":1: positions\.A: there is no part `B`"),
         (
@@ -74,7 +74,7 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
         ("[positions.'A B']\nat = [0,0,0,0,0,0]", r":1: positions\.A B: a name consists of letters, .*"),
         (
             "[parts.B]\nat = [0,0,0,0]\nholes = [[0,0,0]]",
-            r":1: parts\.B: the hole at \(0, 0\) has diameter 0",
+            r":1: parts\.B: the hole at \(0, 0\) has the diameter 0, which must be above 0",
         ),
         ("[parts.B]\nat = 'here'", r":1: parts\.B: at: a text instead of a list"),
         ("[place.A]", r": `place` is not a known key"),
@@ -84,7 +84,7 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
         ),
         (
             "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, inf]]",
-            r":1: fixtures\.F: boxes has a number of one million .*",
+            r":1: fixtures\.F: boxes contains a number of one million .*",
         ),
         ("[fixtures.F]", r":1: fixtures\.F: `boxes` is missing"),
         (
@@ -93,7 +93,7 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
         ),
         (
             f"{AT}[held.G]\npositions = ['A']\nboxes = []\n[held.H]\npositions = ['A']\nboxes = []",
-            r":6: held\.H: at A the hand already holds G",
+            r":6: held\.H: at A, the hand already holds G",
         ),
         (
             f"[fixtures.F]\nboxes = {[[0, 0, 0, 1, 1, 1]] * 501}",

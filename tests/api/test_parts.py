@@ -94,7 +94,10 @@ def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        (None, r"^the run uses its caller's own search, `.*\.row`, which is code and not in a file; "),
+        (
+            None,
+            r"^the run uses a search of the calling program, `.*\.row`, whose code is not saved in the run; ",
+        ),
         (column, r"^the run began with `.*\.row` as its search, but `.*\.column` was given$"),
     ],
 )
@@ -113,19 +116,19 @@ def test_a_run_with_code_of_its_own_is_shown_with_how_python_goes_on_with_it(
 ) -> None:
     app(["show", str(searched.out)], result_action="return_value")
     told = capsys.readouterr().err
-    way = f"resume it from Python with handeye.begin('{searched.out}', search=...)"
-    said = f"its caller's own search `{__name__}.row`; {way}"
+    way = f"resume the run from Python with handeye.begin('{searched.out}', search=...)"
+    said = f"code of the calling program (search `{__name__}.row`); {way}"
     assert (said in " ".join(told.split()), "handeye resume" in told) == (True, False)
 
 
 def test_a_run_that_is_not_taken_up_leaves_no_folder(searched: handeye.Run, tmp_path: Path) -> None:
-    with pytest.raises(InvalidInput, match=r"^the run uses its caller's own search, "):
+    with pytest.raises(InvalidInput, match=r"^the run uses a search of the calling program, "):
         handeye.begin(searched.out, out=tmp_path / "again")
     assert [*tmp_path.iterdir()] == []
 
 
 def test_a_run_with_code_of_its_own_is_not_verified(searched: handeye.Run, tmp_path: Path) -> None:
-    with pytest.raises(InvalidInput, match=r"^the run uses its caller's own search, "):
+    with pytest.raises(InvalidInput, match=r"^the run uses a search of the calling program, "):
         difference(searched.trace, tmp_path / "again")
 
 

@@ -149,5 +149,5 @@ def test_a_plan_that_was_saved_takes_no_positions(plan: handeye.Plan, tmp_path: 
 
 def test_a_plan_replaces_no_other_file(plan: handeye.Plan, tmp_path: Path) -> None:
     (tmp_path / "notes").write_text("mine", encoding="utf-8")
-    with pytest.raises(InvalidInput, match="exists and is no plan"):
+    with pytest.raises(InvalidInput, match="exists and is not a plan"):
         plan.save(tmp_path / "notes")

@@ -60,5 +60,5 @@ def test_a_mujoco_that_cannot_write_figures_in_full_is_refused(monkeypatch: pyte
         raise OSError("no such library")
 
     monkeypatch.setattr(ctypes, "CDLL", none)
-    with pytest.raises(InvalidInput, match=r"^MuJoCo \S+ writes only six digits"):
+    with pytest.raises(InvalidInput, match=r"^MuJoCo \S+ writes numbers with only six digits"):
         mjcf_files(small(), "a scene", {})

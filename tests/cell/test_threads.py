@@ -114,11 +114,11 @@ def test_a_screw_seats_the_same_to_the_last_bit_every_time() -> None:
             'geom name="tip"',
             "^screw threads cannot work in this scene: Invalid name 'bit'",
         ),
-        ("carrier0", "carrying", "^screw threads must be holes of one body in a scene, not of 0$"),
+        ("carrier0", "carrying", "^all tapped holes of a scene must be in one body, not in 0$"),
         (
             'joint2="thread_turn0"',
             'joint2="spindle"',
-            "^the scene does not bind thread_slide0 to thread_turn0$",
+            "^no constraint of the scene couples thread_slide0 to thread_turn0$",
         ),
     ],
 )

@@ -121,7 +121,7 @@ def test_a_page_is_replaced_only_if_somebody_says_so_and_nothing_else_ever(comma
     assert command(*words, "--overwrite")[0] == 0
     Path("page.html").write_text("mine", encoding="utf-8")
     assert command(*words, "--overwrite")[2].startswith(
-        "handeye: page.html exists and is no comparison of handeye"
+        "handeye: page.html exists and is not a comparison of handeye"
     )
 
 

@@ -63,7 +63,7 @@ def test_a_file_that_is_too_large_is_not_read(tmp_path: Path) -> None:
 def test_a_file_of_another_kind_is_not_written_over(tmp_path: Path) -> None:
     path, kind = tmp_path / "a", Kind("list", rb"# list")
     path.write_bytes(b"# something else")
-    with pytest.raises(InvalidInput, match=r"a exists and is no list; nothing was written$"):
+    with pytest.raises(InvalidInput, match=r"a exists and is not a list; nothing was written$"):
         write_over(path, b"# list of mine", kind)
     assert path.read_bytes() == b"# something else"
 

@@ -493,7 +493,7 @@ def test_a_checkpoint_goes_to_the_file_that_is_named(say: Say, tmp_path: Path) -
 def test_a_file_that_is_no_checkpoint_is_left_alone(say: Say, tmp_path: Path) -> None:
     file = tmp_path / "pump.al"
     file.write_text("PARK\n")
-    assert say(f"checkpoint {file}")[0].error == f"{file} exists and is no checkpoint; nothing was written"
+    assert say(f"checkpoint {file}")[0].error == f"{file} exists and is not a checkpoint; nothing was written"
     assert file.read_text() == "PARK\n"
 
 
@@ -601,10 +601,10 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("set saved HH 1 2 3", "the program has no saved difference `HH`; did you mean `H`?"),
         ("set position T 1 2 3 4", "write `set position NAME x y z [o a t]`"),
         ("set position TT 1 2 3", "the program has no position `TT`; did you mean `T`?"),
-        ("proceed", "`proceed` answers a call of the operator, but there is none"),
-        ("retry", "`retry` answers a call of the operator, but there is none"),
-        ("skip", "`skip` answers a call of the operator, but there is none"),
-        ("abort", "`abort` answers a call of the operator, but there is none"),
+        ("proceed", "`proceed` answers a call of the operator, but no call is waiting for an answer"),
+        ("retry", "`retry` answers a call of the operator, but no call is waiting for an answer"),
+        ("skip", "`skip` answers a call of the operator, but no call is waiting for an answer"),
+        ("abort", "`abort` answers a call of the operator, but no call is waiting for an answer"),
         ("checkpoint", "this run has no folder for checkpoints; `checkpoint FILE` writes one to a file"),
         ("help me", "there is no command `me`; `help` lists them"),
     ],

@@ -153,7 +153,7 @@ def test_senses_are_told_from_errors_of_the_world() -> None:
     assert (spared, errors.without) == (("vision", "touch", "HEADS"), ["camera"])
     with pytest.raises(
         InvalidInput,
-        match=r"^`touch` is a sense, not an error of the world, and this command runs no program",
+        match=r"^`touch` is a sense, not an error of the world; this command runs no program",
     ):
         options.spec(0)
 

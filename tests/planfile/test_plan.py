@@ -143,7 +143,7 @@ GUARD = f"{CHANGE}.guards.0"
     ("path", "value", "said"),
     [
         ("program.steps", [], "it has no steps"),
-        ("speed", 0, "its speed is 0; it must be a share of the arm's limits, above 0 and at most 1"),
+        ("speed", 0, "its speed is 0; it must be a fraction of the arm's limits, above 0 and at most 1"),
         (
             "program.steps.1.span",
             [8, 80],

@@ -79,7 +79,7 @@ def refused(arm: ArmModel, position: str) -> Diagnostic:
         (
             PLANAR,
             f"[30 {Y + 2} 4 90 90 0]",
-            "the hand would have to be 2.00 in off the plane in which joint 1 (x) and joint 2 (z) move it",
+            "the hand would have to be 2.00 in off the plane in which joint 1 (x) and joint 2 (z) move the hand",
         ),
     ],
 )

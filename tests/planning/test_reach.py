@@ -16,13 +16,13 @@ def test_a_goal_beyond_the_boom_says_how_far() -> None:
     (problem,) = said("TRANS FAR [25 60 4 90 90 0]\nMOVE FAR")
     assert problem.message == "FAR is 0.56 in beyond the reach of the Stanford arm"
     assert problem.notes == ("joint 3 (boom) would have to be 50.6 in; it ends at 50.0 in",)
-    assert problem.help == "move it at least 0.56 in closer to the arm"
+    assert problem.help == "move the position at least 0.56 in closer to the arm"
 
 
 def test_a_goal_too_near_to_the_column_says_how_near() -> None:
     (problem,) = said("TRANS NEAR [20 15 5 90 90 0]\nMOVE NEAR")
     assert problem.message == "NEAR is 1.06 in too close to the column of the Stanford arm"
-    assert problem.help == "move it at least 1.07 in away from the arm"
+    assert problem.help == "move the position at least 1.07 in away from the arm"
 
 
 @pytest.mark.parametrize("inches", [0.0035, 0.0081, 0.02, 0.7])
@@ -53,7 +53,7 @@ def test_a_straight_motion_says_where_it_leaves_the_reach() -> None:
 def test_a_turn_says_where_it_comes_to_the_limit_of_a_joint() -> None:
     (problem,) = said("MOVE T\nTURN PEG 330")
     assert problem.code == "joint-limit"
-    assert problem.notes == ("it reaches its limit 50.7 in along this `TURN`",)
+    assert problem.notes == ("the joint reaches its limit 50.7 in along this `TURN`",)
     assert problem.help == "shorten the motion"
 
 
@@ -64,7 +64,7 @@ def test_a_free_motion_that_swings_beyond_a_limit_on_its_way_says_where() -> Non
     assert (
         problem.message == "`MOVE` would take joint 1 (column) 1.2 degrees beyond its limit of -170 degrees"
     )
-    assert problem.notes == ("it reaches its limit 159.1 in along its way to B",)
+    assert problem.notes == ("the joint reaches its limit 159.1 in along its way to B",)
     assert problem.help == "add a position on the way with `VIA`"
 
 

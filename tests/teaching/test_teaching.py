@@ -111,7 +111,7 @@ def test_an_arm_that_floats_stays_where_it_is_until_somebody_pushes_it(pupil: Te
 
 def test_an_arm_that_is_held_cannot_be_pushed(pupil: TeachSession) -> None:
     say(pupil, "float", "table z +.1")
-    said = "the arm is held and cannot be pushed; `float` releases its brakes"
+    said = "the arm cannot be pushed while its brakes are set; `float` releases the brakes"
     assert say(pupil, "push x 5 1") == said
 
 
@@ -174,7 +174,7 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
         ("fly", "there is no command `fly`; `help` lists them"),
         ("tabel x 1", "there is no command `tabel`; did you mean `table`?"),
         ("table x", "write the command as in `table x +.5` or `table turn z 10`"),
-        ("table w 1", "`w` is not an axis; there are x, y and z"),
+        ("table w 1", "`w` is not an axis; the axes are x, y and z"),
         ("table x inf", "`inf` is not a number"),
         ("here 1A", "`1A` is not a name: letters, digits and _, no digit first"),
         ("here A of LID", "there is no part `LID`; there are BASE, PUMP"),

@@ -171,7 +171,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
     said = console.read("OPEN 1", "WAIT look here", "OPEN 2", "DO")
     assert said.endswith(
         "2 WAIT look here                 brakes set, operator called: look here\n"
-        "PROCEED, RETRY or SKIP continues the stopped program; a new instruction abandons it"
+        "PROCEED, RETRY or SKIP continues the stopped program; a new instruction abandons the program"
     )
     console.type("PROCEED")
     assert console.gap == pytest.approx(2, abs=0.05)
@@ -180,10 +180,10 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("DO", "nothing is collected; type instructions, or `DO OPEN 3` to run one at once"),
+        ("DO", "nothing is collected; type instructions, or `DO OPEN 3` to run one immediately"),
         ("DO PRK", "there is no instruction, macro or program `PRK`; did you mean `PARK`?"),
         ("LIST all", "`LIST` takes no operand; remove `all`"),
-        ("PROCEED", "`proceed` answers a call of the operator, but there is none"),
+        ("PROCEED", "`proceed` answers a call of the operator, but no call is waiting for an answer"),
         ("WRITE", "`WRITE` takes the name of a file"),
         ("WRITE .", ". is a directory, not a file"),
         ("DO LOOK VIEW", "the camera is not calibrated; to take pictures, start with --look"),

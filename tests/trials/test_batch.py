@@ -472,11 +472,11 @@ def test_what_cannot_be_left_is_told_before_a_trial_is_carried_out(command: Comm
     assert (code, out, "tables holds other files (`mine/it.csv`)" in err) == (2, "", True)
     (tmp_path / "batch" / "figures.html").write_text("mine")
     code, out, err = command(*words)
-    assert (code, out, "figures.html exists and is no page of trials" in err) == (2, "", True)
+    assert (code, out, "figures.html exists and is not a page of trials" in err) == (2, "", True)
     assert read_batch(tmp_path / "batch")[1] == ()
     (tmp_path / "mine.html").write_text("mine")
     code, out, err = command(*words[:-1], "mine.html")
-    assert (code, out, "mine.html exists and is no page of trials" in err) == (2, "", True)
+    assert (code, out, "mine.html exists and is not a page of trials" in err) == (2, "", True)
 
 
 def test_only_tables_that_handeye_wrote_are_replaced(tmp_path: Path) -> None:

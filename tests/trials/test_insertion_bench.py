@@ -242,7 +242,7 @@ def test_a_folder_is_gone_on_with_and_its_page_made_anew(command: Command) -> No
     for n in ("4", "12"):
         _, out, err = command(*BENCH, "--n", n, "--sd", "1", "--out", "kept", "--json")
     assert (json.loads(out)["n"], len(Path("kept/trials.jsonl").read_text("utf-8").splitlines())) == (12, 17)
-    assert "4 of 12 insertions kept from earlier" in err
+    assert "4 of 12 insertions already done by an earlier command" in err
     assert Path("kept/figures.html").is_file()
 
 

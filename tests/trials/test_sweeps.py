@@ -99,7 +99,7 @@ def test_its_command_keeps_each_trial_and_goes_on_and_a_killed_process_costs_not
     code, out, _ = coins(*words, "--n", "2")
     assert (code, json.loads(out)["killed"]) == (0, 1)
     code, out, err = coins(*words, "--tables", "csv")
-    assert (code, "2 of 4 throws kept from earlier" in err) == (0, True)
+    assert (code, "2 of 4 throws already done by an earlier command" in err) == (0, True)
     assert [row.side for row in read_batch(Path("kept"))[1]] == ["heads", "tails", "rolled away", "heads"]
     assert {"figures.html", "tables", "trials.jsonl"} <= {path.name for path in Path("kept").iterdir()}
     code, out, _ = coins("trials", "compare", "kept", "kept", "--json")

@@ -139,7 +139,7 @@ def test_a_port_in_use_is_told_at_once(theatre: Theatre) -> None:
 @pytest.mark.parametrize("port", [-1, 70000])
 def test_a_port_that_cannot_be_is_told(port: int) -> None:
     with pytest.raises(
-        InvalidInput, match=rf"^port {port} is not available: a port is a number from 0 to 65535$"
+        InvalidInput, match=rf"^port {port} is not available: a port must be a number from 0 to 65535$"
     ):
         Server(Link(), port)
 

@@ -45,10 +45,8 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
             continue
         (x, y, z), (f, g, h) = change.displacement, guard.force
         if x * f + y * g + z * h < 0:
-            message = "the hand moves away from the surface that its `STOP` should meet"
-            help = (
-                "the vector of `STOP` is the force that the hand exerts: point it in the direction of motion"
-            )
+            message = "the hand moves away from the surface that the `STOP` should meet"
+            help = "the vector of `STOP` is the force that the hand exerts: point the vector in the direction of motion"
             yield AlwaysFails("stop-away-from-motion", number, message, help)
 
 
@@ -66,7 +64,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
                 f"the grasp needs at least {grasp.minimum / INCH:g} in, but the hand is open by "
                 f"{max(opened) / INCH:g} in"
             )
-            help = "it would always raise error 2"
+            help = "this grasp always raises error 2"
             yield AlwaysFails("opened-too-little", number, message, help, max(before))
 
 
@@ -86,7 +84,7 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
                 f"`TRAVEL` needs at least {travel.minimum / INCH:g} in, but the motion is at most "
                 f"{max(lengths) / INCH:g} in"
             )
-            help = "it would always raise error 8"
+            help = "this `TRAVEL` always raises error 8"
             yield AlwaysFails("travel-too-long", number, message, help, max(before))
 
 
@@ -100,7 +98,9 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
         last = graph.last(number, Tool)
         if number not in started or (last and running.isdisjoint(last)):
             message = "this motion waits for a torque, but the screwdriver does not turn"
-            help = "`TOOL` runs the screwdriver; without it, this motion always raises error 24"
+            help = (
+                "start the screwdriver with `TOOL`; while it stands still, this motion always raises error 24"
+            )
             yield AlwaysFails("torque-without-tool", number, message, help, max(last, default=None))
 
 
@@ -110,8 +110,8 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
         last = graph.last(number, Open, Close, Center)
         if last and not any(graph.at(n, Open) for n in last):
             message = (
-                "this motion waits for a touch, but the fingers are closed: the part between them ends it at"
-                " once"
+                "this motion waits for a touch, but the fingers are closed, and the part between them ends the "
+                "motion immediately"
             )
             help = "use `STOP`, which feels contact through the held part; `TOUCH` needs open fingers"
             yield AlwaysFails("touch-while-closed", number, message, help, max(last))

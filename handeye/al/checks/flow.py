@@ -55,15 +55,15 @@ _ORDERS = (
         code="aoj-without-search",
         of=Advance,
         needs=Search,
-        message="there is no `SEARCH` before this `AOJ`, so it has no next place to go to",
+        message="there is no `SEARCH` before this `AOJ`, so there is no next place to go to",
         help="put a `SEARCH` before the label",
     ),
     _Order(
         code="search-without-aoj",
         of=Search,
         needs=Advance,
-        message="there is no `AOJ` after this `SEARCH`, so only its first place is tried",
-        help="`AOJ` goes to the next place and back to a label",
+        message="there is no `AOJ` after this `SEARCH`, so only the first place is tried",
+        help="`AOJ` selects the next place of the search and jumps back to a label",
         later=True,
     ),
     _Order(
@@ -84,14 +84,14 @@ _ORDERS = (
         code="never-saved",
         of=Height,
         needs=Save,
-        message="there is no `SAVE` before this `HEIGHT`, which would raise error 9",
-        help="`SAVE` records the height of the hand, and `HEIGHT` compares with it",
+        message="there is no `SAVE` before this `HEIGHT`, so the `HEIGHT` would raise error 9",
+        help="`HEIGHT` compares the height of the hand with the height that `SAVE` recorded",
     ),
     _Order(
         code="specific-without-general",
         of=Specific,
         needs=General,
-        message="there is no `GENERAL` before this `SPECIFIC`, which would raise error 31",
+        message="there is no `GENERAL` before this `SPECIFIC`, so the `SPECIFIC` would raise error 31",
         help="`SPECIFIC` searches for holes where `GENERAL` has found the part",
     ),
 )
@@ -141,7 +141,7 @@ class _Flow:
         for number in range(len(self.graph.steps)):
             lost = self.span(number) not in reached
             if lost and not before and number - 1 not in trapped:
-                help = "the line before jumps elsewhere, and no jump leads here"
+                help = "the line above always jumps elsewhere, and no jump leads to this line"
                 message = "this line is never executed"
                 yield self.problem("unreachable-code", number, message, help=help)
             before = lost
@@ -195,17 +195,20 @@ class _Flow:
                 message = (
                     "there is no `MOVE` between the label and this `AOJ`, so every round tries the same place"
                 )
-                help = "a `MOVE` after the label would go to the next place"
+                help = "put the `MOVE` after the label, so that every round moves to the next place"
                 yield jump, self.problem("search-stands-still", jump, message, help=help)
                 continue
             if reported.setdefault(cause, self.span(jump)) != self.span(jump):
                 continue  # one search may have several jumps back
             begin = self.word(cause)
-            message = f"`{word}` jumps back to before the `{begin.text}`: every round starts it again"
+            message = (
+                f"`{word}` jumps back to a label before the `{begin.text}`, so every round executes the "
+                f"`{begin.text}` again"
+            )
             help = f"put the label after the `{begin.text}`"
             is_search = self.graph.at(cause, Search) is not None
             code = "search-begun-anew" if is_search else "count-begun-anew"
-            there = Label(span=begin.span, text="this starts again")
+            there = Label(span=begin.span, text="executed again in every round")
             yield jump, self.problem(code, jump, message, there, help=help)
 
     def vain(self) -> Iterator[Finding]:
@@ -264,16 +267,16 @@ class _Flow:
 
     def never_raised(self, number: int, error: int, actions: set[int], raised: set[int]) -> Diagnostic:
         words = {self.word(n).text for n in actions}
-        who = f"`{words.pop()}`" if len(words) == 1 else "what comes before"
+        one = f"`{words.pop()}` does not raise" if len(words) == 1 else "no action before this test raises"
         cause = Label(span=self.word(max(actions)).span, text="the last action")
         can = ", ".join(map(str, sorted(raised)))
         help = _CURES.get(error, f"errors that can occur here: {can}")
-        message = f"{who} does not raise error {error} here"
+        message = f"{one} error {error} here"
         if any(error in self.graph.steps[n].operation.raises for n in actions):
-            message = f"error {error} is already cleared"
-            help = "a test clears its error"
+            message = f"an earlier test has already cleared error {error}"
+            help = "a test clears the error that it tests"
             asked = [n for n in self.graph.which(Test) if n in self.graph.back[number]]
-            cause = Label(span=self.word((asked or [max(actions)])[-1]).span, text="this tested it")
+            cause = Label(span=self.word((asked or [max(actions)])[-1]).span, text="the earlier test")
         return self.problem("error-never-raised", number, message, cause, help=help)
 
     def span(self, number: int) -> Span:

@@ -73,7 +73,7 @@ def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> 
             assert statement.word is not None
             op = statement.word.text
             message = (
-                f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: `{op}` takes them in "
+                f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}, but `{op}` takes them in "
                 "the other order"
             )
             help = f"usage: `{INSTRUCTIONS[op].usage}`"
@@ -112,7 +112,7 @@ def _twice(what: str, names: list[Name], taken: Mapping[str, str]) -> Iterator[D
 def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagnostic:
     unit_help = no_units(name.text) if refers is Refers.VECTOR else None
     if unit_help is not None:
-        message = f"{quoted(name.text)} follows a number"
+        message = f"a number is followed by the unit {quoted(name.text)}"
         return problem("unit-written", message, name.span, *uses(name), help=unit_help)
     message = _MESSAGES[refers].format(quoted(name.text))
     code = "never-saved" if refers is Refers.SAVED else f"unknown-{refers.name.lower()}"
@@ -129,7 +129,7 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
 def _unknown_error(number: Number) -> Diagnostic:
     return problem(
         "unknown-error-number",
-        f"nothing raises error {int(number.value)}",
+        f"no instruction raises error {int(number.value)}",
         number.span,
         *uses(number),
         help="errors: " + ", ".join(map(str, sorted(ERRORS))),

@@ -135,7 +135,9 @@ def check_unused(
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in found:
                 line = commented().get(name.text)
-                help = None if line is None else f"line {line} uses it, but in a comment, after a `;`"
+                help = (
+                    None if line is None else f"line {line} uses the name, but only in a comment, after a `;`"
+                )
                 message = f"{what} {quoted(name.text)} is defined but never used"
                 yield problem(f"unused-{what}", message, name.span, help=help)
     called = {statement.word.text for statement in all_statements(script) if statement.word is not None}
@@ -201,7 +203,7 @@ def _not_described(
         others = [quoted(other) for other, part in parts.items() if all(has(part) for _, has in needs)]
         known = f"; parts with complete data: {', '.join(others)}" if others else ""
         message = f"`{op}` cannot find {quoted(name.text)} without its {' and '.join(lacking)}"
-        help = f"add this under `[parts.{name.text}]` in the taught file{known}"
+        help = f"add the missing data under `[parts.{name.text}]` in the taught file{known}"
         yield problem("part-not-described", message, name.span, help=help)
 
 

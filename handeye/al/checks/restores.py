@@ -44,7 +44,7 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
             message = (
                 f"there is no `SAVE` of {quoted(name.text)} before this `RESTORE`, so the goal is not shifted"
             )
-            here = Label(span=first[name.text].span, text="it is saved only here")
+            here = Label(span=first[name.text].span, text="the only `SAVE`")
             yield problem("never-saved", message, name.span, here, *uses(name))
 
 

@@ -22,4 +22,4 @@ def register(arm: ArmModel) -> None:
     if not arm.name:
         raise BadArgument("an arm needs a name")
     if not same_arm(_ROBOTS.setdefault(arm.name, arm), arm):
-        raise BadArgument(f"there is an arm called {quoted(arm.name)} already")
+        raise BadArgument(f"there is already an arm called {quoted(arm.name)}")

@@ -168,7 +168,7 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
         case FixedDirection():
             movers = [named(arm, joint) for joint in reason.joints]
             where = "line on which" if len(movers) == 1 else "plane in which"
-            them = f"{' and '.join(movers)} move{'s' if len(movers) == 1 else ''} it"
+            them = f"{' and '.join(movers)} move{'s' if len(movers) == 1 else ''} the hand"
             return (
                 f"the hand would have to be {enough_digits(reason.off / INCH, 2)} in off the {where} {them}"
             )

@@ -64,7 +64,7 @@ def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
             read_annotations(message.data) for message in run.trace.messages if message.topic == ANNOTATIONS
         )
     except DecodeError:
-        raise BadFile(f"{run.trace.name}: marks on a picture cannot be understood") from None
+        raise BadFile(f"{run.trace.name}: the marks on a picture cannot be decoded") from None
 
 
 def _findings(run: RecordedRun) -> dict[float, list[Finding]]:

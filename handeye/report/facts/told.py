@@ -77,4 +77,4 @@ def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
         )
         return Senses(gap=message.gap, fingers=(message.finger_1, message.finger_2), force=size)
     except msgspec.DecodeError:
-        raise BadFile(f"{run.trace.name}: a message about the hand cannot be understood") from None
+        raise BadFile(f"{run.trace.name}: a message about the hand cannot be decoded") from None

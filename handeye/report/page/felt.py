@@ -24,8 +24,8 @@ class How(StrEnum):
 
     RECORDED = ""
     THINNED = (
-        f" This trace is thinned: the curves are within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} "
-        "N m of the recorded ones, and keep the maximum."
+        f" This trace is thinned: the curves differ from the recorded curves by at most {FELT[GuardKind.FORCE]:g} N "
+        f"and {FELT[GuardKind.MOMENT]:g} N m, and have the same maximum."
     )
 
 
@@ -42,7 +42,7 @@ def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int, faile
 def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: bool) -> Iterator[Markup]:
     if lost:
         yield note(
-            f"Before this trace begins, {counted(lost, 'guard')} tripped; the forces of that time were not recorded."
+            f"{counted(lost, 'guard')} tripped before the beginning of this trace, when forces were not recorded."
         )
     if not motions:
         if not lost:
@@ -50,7 +50,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
         return
     met = sum(motion.trip is not None for motion in motions)
     yield note(
-        f"{counted(len(motions), 'guarded motion')}, of which a guard stopped {met}. Each curve is the guarded "
+        f"{counted(len(motions), 'guarded motion')}; a guard stopped {met} of them. Each curve is the guarded "
         "quantity: the force of the hand along an axis, a moment, or the torque of the screwdriver. The dashed line "
         f"is the limit; the dot is where the guard tripped and ended the motion.{how} Click a figure to show that "
         "moment of the run."
@@ -63,7 +63,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
 def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Markup:
     """Return the plots of a stage, collapsed unless `shown`."""
     met = sum(motion.trip is not None for motion in motions)
-    said = f"{counted(len(motions), 'guarded motion')}, {met} stopped by a guard"
+    said = f"{counted(len(motions), 'guarded motion')}, {met} of them stopped by a guard"
     summary = element("summary", element("h3", stage), " ", element("span", said))
     figures = element("div", *map(_figure, motions), class_="figures")
     return element("details", summary, figures, open=shown, class_="stage")

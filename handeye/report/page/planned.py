@@ -38,9 +38,9 @@ _CLASSES: Final = {
 }
 _MEANING: Final = {
     EndReason.PLANNED: "the motion ended as planned",
-    EndReason.MOVED: "earlier measurements had moved its goal",
-    EndReason.GUARD: "a guard stopped it",
-    EndReason.CARRIED: "it began away from the planned start, and ended away from the planned end",
+    EndReason.MOVED: "earlier measurements had moved the goal",
+    EndReason.GUARD: "a guard stopped the motion",
+    EndReason.CARRIED: "the motion began away from its planned start, and ended away from its planned end",
 }
 _DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)  # mm
 
@@ -66,8 +66,8 @@ def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Iterator[Markup
         yield note("No motion of this run was completed.")
         return
     yield note(
-        f"How far each of {counted(len(ends), 'motion')} ended from its planned end, in millimetres, as the arm’s "
-        "own sensors measure it. The plan is made before any measurement; measurements in the working phase then "
+        f"How far each of {counted(len(ends), 'motion')} ended from its planned end, in millimetres, as measured "
+        "by the arm’s own sensors. The plan is made before any measurement; measurements in the working phase then "
         "move the goals of motions."
     )
     yield region(_chart(ends, stages), label="chart", class_="chart")
@@ -87,7 +87,7 @@ def _chart(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Markup:
     x = Scale(min(begin, *(stage.begin for stage in stages)) if stages else begin, end, _LEFT, _WIDE - 8)
     y = _Decades(min(decades), max(decades))
     strokes = [*_grid(decades, y), *_bands(stages, x), *(_dot(each, x, y) for each in ends)]
-    label = f"distance of {counted(len(ends), 'motion end')} from the planned end, against time"
+    label = f"distances between the planned and actual ends of {counted(len(ends), 'motion')}, against time"
     return drawing(*strokes, wide=_WIDE, high=_HIGH, label=label, role="group")
 
 
@@ -162,14 +162,14 @@ def searched(searches: Sequence[Search]) -> Iterator[Markup]:
         yield note("No search needed a second place.")
         return
     yield note(
-        "The places that each search tried, seen from above: the ring marks the first place, the dot the last."
+        "Places that each search tried, seen from above. The ring marks the first place, the dot the last."
     )
     yield element("div", *map(_search, searches), class_="figures")
 
 
 def _search(search: Search) -> Markup:
     tried = counted(len(search.places), "place")
-    came = "no more places" if search.exhausted else "found at the last"
+    came = "no places left" if search.exhausted else "found at the last place"
     told = f"{tried} tried, from {exact_clock(search.times[0]) if search.times else 'the first'}: {came}"
     caption = element("figcaption", element("b", search.step.place), " ", element("span", told))
     figure = element("figure", _spiral(search, told), caption)

@@ -44,7 +44,9 @@ def _again(run: RecordedRun) -> Iterator[Markup]:
         return
     yield element("pre", element("code", typed), class_="command")
     if any(isinstance(event, OperatorAnswered | ExperimentMade | LineTyped) for event in run.trace.events):
-        yield note("A user gave commands during this run; `handeye trace verify` repeats them as well.")
+        yield note(
+            "A user gave commands during this run; `handeye trace verify` repeats these commands as well."
+        )
     if "plan.json" in typed:
         yield note("plan.json is in the folder of the run.")
 

@@ -22,13 +22,13 @@ def referee_section(run: RecordedRun) -> Markup:
 def _content(run: RecordedRun) -> Iterator[Markup]:
     if run.result is None:
         yield note(
-            "The findings of the referee are in the folder of a run, not in its trace. To show them, make the "
-            "report from the folder."
+            "The findings of the referee are in the folder of a run, not in its trace. To show the findings, "
+            "make the report from the folder."
         )
     elif not run.result.referee:
         yield note(
-            "The referee did not judge this run. It judges only finished programs, and only on request "
-            "(--judge)."
+            "The referee did not judge this run. The referee judges only finished programs, and only "
+            "on request (--judge)."
         )
     else:
         yield note(

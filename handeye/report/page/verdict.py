@@ -121,7 +121,9 @@ def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
     told = f"The referee made {counted(len(run.result.referee), 'measurement')}"
     if shares:
         share, check = max(shares, key=lambda each: each[0])
-        told += f"; closest to its limit is the {check.subject}, at {100 * share:.0f} % of the limit"
+        told += (
+            f"; the value closest to its limit, at {100 * share:.0f} % of the limit, is the {check.subject}"
+        )
     yield element("p", f"{told}.")
     for doubt in outcome.doubts:
         yield element("p", f"Caution: {doubt.told}.", class_="doubtful")
@@ -168,7 +170,7 @@ def _reasons(outcome: Outcome) -> Iterator[str]:
         yield _called(outcome.call)
     yield from map(_finding, outcome.wrong)
     if outcome.kind == "broken off":
-        yield "The trace file is incomplete; this page shows the part that exists."
+        yield "The trace file is incomplete; this page shows the recorded part."
     if outcome.kind == "panic":
         yield "The user stopped the run. The drives are off and the brakes are set."
 

@@ -43,7 +43,7 @@ class Palette:
         body (m)."""
         row = (*self._colour(shape), *self._gloss(shape), *self._grain(shape, sides))
         if row not in self._numbers:
-            assert len(self.rows) < _MOST, "a number of a material has seven bits"
+            assert len(self.rows) < _MOST, "the number of a material must fit in seven bits"
             self._numbers[row] = len(self.rows)
             self.rows.append(row)
         return self._numbers[row]

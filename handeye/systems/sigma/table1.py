@@ -159,19 +159,19 @@ def table1() -> Table1:
 def _claims(layer1: Sequence[Load], layer2: Sequence[Load], arithmetic: Sequence[Load]) -> Iterator[Claim]:
     exact = sum(found.commands == row.commands for row, found in zip(ROWS, layer1, strict=True))
     yield Claim(
-        claim="layer 1: the numbers of commands are those of the paper",
+        claim="layer 1: the numbers of commands are the same as in the paper",
         holds=exact == len(ROWS),
         found=f"{exact} of {len(ROWS)} programs",
     )
     worst = max(abs(found.seconds / row.seconds - 1) for row, found in zip(ROWS, layer1, strict=True))
     yield Claim(
-        claim=f"layer 1: the seconds are within {WITHIN:.0%} of those of the paper",
+        claim=f"layer 1: the seconds are within {WITHIN:.0%} of those in the paper",
         holds=worst <= WITHIN,
         found=f"at most {worst:.2%} off",
     )
     digits = max(abs(found.saturation - row.saturation) for row, found in zip(ROWS, layer1, strict=True))
     yield Claim(
-        claim="layer 1: the saturation is as printed, to a unit of its last digit",
+        claim="layer 1: the saturation is that of the paper, within one unit of the last printed digit",
         holds=digits < 0.001,
         found=f"at most {digits:.4f} % off",
     )
@@ -203,7 +203,7 @@ def _claims(layer1: Sequence[Load], layer2: Sequence[Load], arithmetic: Sequence
     yield Claim(
         claim="arithmetic, not the bus, saturates the computer",
         holds=idle == sorted(idle, reverse=True) and idle[-1] < 100 * (1 - LEAST_IDLE),
-        found=f"{CALCULATIONS[-1]} calculations a move leave it {idle[-1]:.1f} % idle",
+        found=f"with {CALCULATIONS[-1]} calculations per move, the computer is idle for {idle[-1]:.1f} % of the time",
     )
 
 

@@ -22,7 +22,7 @@ def _hole() -> tuple[Quantity, ...]:
         ),
         Quantity(
             name="hole.chamfer", unit="mm", distribution=Range(CHAMFER, CHAMFER), nominal=CHAMFER,
-            limits=(0.0, 3.0), source="Width of the 45 degree chamfer around the hole; 0: its edge is sharp.",
+            limits=(0.0, 3.0), source="Width of the 45 degree chamfer around the hole; 0 if the edge is sharp.",
         ),
         *(
             Quantity(

@@ -75,7 +75,7 @@ def arm() -> Iterator[Quantity]:
     return chain(
         group("arm.offset", numbered(Normal, 0.060, 0.055, 0.027, 0.13, 0.13, 0.27), JOINT_UNITS, _READING),
         group("arm.scale", numbered(Normal, 0.11, 0.22, 0.11, 0.11, 0.22, 0.22), "%",
-            "Scale error of the position reading, which is zero at a posture in the middle of the work area. "
+            "Scale error of the position reading. The error is zero at a posture in the middle of the work area. "
             f"{_READING}"),
         group("arm.wave", numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
             "Amplitude of the periodic error of the position reading. It limits the distance over which a saved "
@@ -100,7 +100,7 @@ def arm() -> Iterator[Quantity]:
                       "times as large, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both "
-            "directions. Data sheet of 1974; that its range ends at the greatest speed is inferred."),
+            "directions. Data sheet of 1974; we infer that the range ends at the greatest speed."),
         group("arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
             f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over its torques in both "
             'directions. Data sheet of 1974: "8 bits or more".'),
@@ -111,19 +111,20 @@ def arm() -> Iterator[Quantity]:
         _friction(),
         group("arm.damping", numbered(Uniform, *[30.0] * 6), "%",
             "Relative deviation of a joint's true viscous friction from the controller's value.", least=-90.0,
-            unsourced="the friction of robot joints changes much as they warm up (Bittencourt and others, IROS 2010; "
+            unsourced="the friction of robot joints changes considerably as the joints warm up (Bittencourt and "
+            "others, IROS 2010; "
                       "Simoni "
-            f"and others, Robotica 2017), but none of the Stanford arm was measured. {DOUBLED}"),
+            f"and others, Robotica 2017), but the friction of the Stanford arm was never measured. {DOUBLED}"),
         group("arm.armature", numbered(Uniform, *[5.0] * 6), "%",
             "Relative deviation of a drive's true inertia from the controller's value.", least=-90.0,
             unsourced=f"no data sheet of the arm's motors is known. {DOUBLED}"),
         group("arm.link_mass", numbered(Normal, *[3.0] * 6), "%",
             "Relative deviation of a link's true mass from the controller's value.", least=-90.0,
-            unsourced=f"the masses were published without their accuracy. The arm weighs its links. {DOUBLED}"),
+            unsourced=f"the masses were published without a tolerance. The arm weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
             "Distance of a link's centre of mass from its joint: relative deviation of the true value from the "
-            "controller's.", least=-90.0,
-            unsourced="the centres of mass were also published without their accuracy. The arm weighs its links. "
+            "controller's value.", least=-90.0,
+            unsourced="the centres of mass were also published without a tolerance. The arm weighs its links. "
                 f"{DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
             "True length of the hand minus the controller's value.",
@@ -156,8 +157,8 @@ def _friction() -> Iterator[Quantity]:
 def hand() -> Iterator[Quantity]:
     return chain(
         group("hand", {"gap_offset": Normal(0.01)}, "in", "Offset of the gap reading.",
-            unsourced="the offset is the wear of the finger pads since the gap was last set, which nothing "
-                f"measures. {DOUBLED}"),
+            unsourced="the offset is the wear of the finger pads since the gap was last set, and this wear was never "
+                f"measured. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
             "Scale error of the gap reading. Its size lies between the linearity of wire-wound potentiometers, "
             ".15 to .25 %, and that of conductive plastic, 1 to 2 %: data sheets of Bourns 3400 to 3590 and 6537 "
@@ -183,7 +184,7 @@ def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
     """Yield, for each named kind of shape, the relative error of its coefficient of friction."""
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
-        "Relative deviation of the coefficients of friction from those of the drawing.", least=-100.0,
+        "Relative deviation of the coefficients of friction from their values in the drawing.", least=-100.0,
         unsourced="two laboratories measure different friction for the same pair of metals (VAMAS round robin, Wear "
                   f"114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
     )  # fmt: skip

@@ -56,7 +56,9 @@ class Dimensions:
         list."""
         values = self.all(name)
         if len(values) != 1:
-            raise BadFile(f"the dimension `{name}` is a list of {counted(len(values), 'figure')}")
+            raise BadFile(
+                f"the dimension `{name}` must be a single number, not a list of {counted(len(values), 'number')}"
+            )
         return values[0]
 
     def all(self, name: str) -> tuple[float, ...]:
@@ -100,7 +102,9 @@ def _collect(table: dict[str, Any], prefix: str, figures: dict[str, Figure]) -> 
 def _figure(name: str, entry: dict[str, Any]) -> Figure:
     value, unit, source = entry["value"], entry.get("unit"), entry.get("source")
     if unit not in UNITS:
-        raise BadFile(f"the dimension `{name}` has the unit {unit!r}; known are {', '.join(UNITS)}")
+        raise BadFile(
+            f"the dimension `{name}` has the unknown unit {unit!r}; the units are {', '.join(UNITS)}"
+        )
     if not isinstance(source, str) or not source:
         raise BadFile(f"the dimension `{name}` has no source")
     values = value if isinstance(value, list) else [value]

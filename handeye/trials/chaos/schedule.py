@@ -90,7 +90,9 @@ def parse_schedule(text: str) -> Schedule:
         " ".join(f"{name}={value}" for name, value in words.items()) != " ".join(text.split())
         or {*words} - known
     ):
-        raise BadArgument(f"{quoted(text)} is not a schedule; write it as seed=3 start=41 faults=lamp.dead@4")
+        raise BadArgument(
+            f"{quoted(text)} is not a schedule; write it like seed=3 start=41 faults=lamp.dead@4"
+        )
     lists = {name: tuple(words[name].split(",")) for name in ("faults", "answers") if name in words}
     breaks = tuple(_break(word) for word in words.get("breaks", "").split(",") if word)
     numbers = {name: int(words[name]) for name in ("seed", "start", "steps") if is_count(words.get(name, ""))}

@@ -8,6 +8,7 @@ from typing import Final
 import msgspec
 
 from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
 from handeye.core.variation import WorldSpec
 from handeye.judge.finding import all_right
 from handeye.planfile.plan import Plan
@@ -143,7 +144,9 @@ def answered(rows: Sequence[Row]) -> int:
 
 def _summary(rows: Sequence[Row]) -> list[str]:
     count = answered(rows)
-    return [f"in {count} the program called the operator and got an answer"] if count else []
+    return (
+        [f"in {counted(count, 'trial')}, the program called the operator and got an answer"] if count else []
+    )
 
 
 ASSEMBLY: Final = Sweep(

@@ -26,7 +26,7 @@ Command = Callable[..., tuple[int, str, str]]
 def test_the_demonstration_has_a_late_riser_that_does_no_harm(command: Command) -> None:
     code, out, _ = command("sigma", "bus", "demo", "--late-riser")
     assert code == 0
-    assert out.endswith("every byte arrived as it was sent; the count of Y1 is 4668\n")
+    assert out.endswith("every byte arrived as it was sent; the count of Y1 is 4668, as it should be\n")
 
 
 @pytest.mark.sigma_row(4)
@@ -51,10 +51,10 @@ def test_with_a_long_strobe_the_late_riser_takes_a_command_that_was_never_sent(c
     [
         ("dead:Y1", "NOANSWER 1"),
         ("clock:Y1:200", "Y1 takes"),
-        ("stuck-high:0:3", "X1 does not act on 00 01 07 01 02, which was for it"),
+        ("stuck-high:0:3", "X1 does not act on 00 01 07 01 02, which was sent to it"),
         ("dead-interface", "NOANSWER"),
         ("slow-lines:8", "takes FF"),
-        ("address:X1:1", "X1 acts on 01 05 00 00 00, which was for Y1"),
+        ("address:X1:1", "X1 acts on 01 05 00 00 00, which was sent to Y1"),
     ],
 )
 def test_a_fault_of_the_bus_does_its_harm(fault: str, harm: str) -> None:
@@ -176,7 +176,9 @@ def test_the_self_tests_of_power_on_name_the_part_that_fails(fault: str, named: 
 @pytest.mark.parametrize("segment", [1, 2])
 def test_a_regenerator_that_does_not_turn_is_named(segment: int) -> None:
     found = told(power_on(LoggedBus(f"no-turn:{segment}", layout=LINE), LINE))
-    assert found == [f"regenerator {segment}: it does not reverse its direction: strobes arrive, but no data"]
+    assert found == [
+        f"regenerator {segment}: it does not reverse its direction: strobes of answers arrive, but no data"
+    ]
 
 
 @pytest.mark.sigma_row(38)
@@ -201,7 +203,7 @@ def test_a_dead_microcomputer_fails_alone() -> None:
 def test_the_self_tests_are_a_command(command: Command) -> None:
     assert command("sigma", "bus", "test", "--line")[:2] == (
         0,
-        "computer, segments, microcomputers and status lines are well\n",
+        "no fault found in the computer, segments, microcomputers and status lines\n",
     )
     assert command("sigma", "bus", "test", "--fault", "dead:Z1")[:2] == (
         1,

@@ -146,7 +146,7 @@ def test_a_player_tests_asks_swaps_and_accuses() -> None:
     assert told[0].startswith("X1 0-0, Y1 0-0, Z1 0-0, FORCE1 0-1, HAND1 0-0")
     assert told[1:5] == [
         "X1 is at step 0", "HAND1 answers to its self-test 0", "at full speed: steps lost: X2 0",
-        "X1 has a spare microcomputer; the machine was switched off and on",
+        "a spare microcomputer replaces that of X1; the machine was switched off and on",
     ]  # fmt: skip
     assert told[-1].startswith("Right: the low switch of X1 is stuck off. You used 5 tests")
 
@@ -155,7 +155,7 @@ def test_a_wrong_accusation_loses_the_game() -> None:
     game, told = played(5, "accuse supply")
     assert (game.won, game.over) == (False, True)
     assert told == [
-        "Wrong: the low switch of X1 is stuck off. You used 0 tests; the order of the paper needs 11 tests."
+        "Wrong: the low switch of X1 is stuck off. You used 0 tests; in the order of the paper, 11 tests find the part."
     ]
 
 
@@ -173,7 +173,7 @@ def test_a_player_runs_a_program(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "why"),
     [
-        ("acuse supply", "`acuse` is none of your means; did you mean `accuse`?"),
+        ("acuse supply", "`acuse` is not a test or a command of this game; did you mean `accuse`?"),
         ("force", "the form is `force ARM`"),
         ("clocks X1", "the form is `clocks`"),
         ("force 3", "the arm must be 1 or 2, not `3`"),

@@ -111,7 +111,7 @@ def test_lines_that_no_order_reaches_are_named_because_nothing_is_known_about_th
 @pytest.mark.slow
 def test_the_command_tells_deadlock_schedule_and_bound(command: Command) -> None:
     code, out, _ = command("sigma", "check", str(PLANS / "dead.mal"), "--interleavings")
-    assert (code, out.splitlines()[0]) == (1, "deadlock: no task can go on")
+    assert (code, out.splitlines()[0]) == (1, "deadlock: no task can continue")
     assert "    LEFT   110, 120\n" in out
     assert out.endswith("dead.mal: 310 states, all orders were tried; 1 finding\n")
     code, out, _ = command(

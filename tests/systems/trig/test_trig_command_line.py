@@ -82,7 +82,7 @@ def test_a_script_that_is_wrong_is_told_by_its_line(command: Command) -> None:
 def test_a_run_that_the_arm_cannot_do_is_stopped(command: Command) -> None:
     Path("far.trig").write_text("MR A\nX BY 90 RECORD\nCN A\nLOOP A 5\n", encoding="utf-8")
     code, _, err = command("trig", "run", "far.trig")
-    assert (code, err) == (1, "handeye: X would be 270 mm; the arm goes from -200 to 200\n")
+    assert (code, err) == (1, "handeye: X would be 270 mm; its range is -200 to 200 mm\n")
 
 
 @pytest.mark.parametrize("words", [("trig", "--arm", "puma"), ("trig", "run"), ("trig", "show", "a", "b")])
@@ -178,7 +178,7 @@ def test_a_job_whose_arm_is_stopped_says_what_it_has_met(
     assert (code, out.splitlines()[-2:]) == (
         1,
         [
-            "0 steps undone; the arm has stopped at the step before that: "
+            "0 steps undone; the arm stopped while undoing the next earlier step: "
             "the finger met 4.0 N; going back, the limit is 3.0 N",
             "The arm has stopped.",
         ],

@@ -79,7 +79,7 @@ def test_unlinking_leaves_the_step_to_its_other_fathers() -> None:
     assert [typist.session.program.graph[father].type for father in typist.step("FINISH").fathers] == [
         "guarded"
     ]
-    with pytest.raises(InvalidInput, match=r"^nothing else leads to S2; `DA S2` deletes it$"):
+    with pytest.raises(InvalidInput, match=r"^no other step leads to S2; to delete S2, use `DA S2`$"):
         Typist(straight(2) + "\nGOTO S1\nDLINK S2")
 
 
@@ -124,13 +124,14 @@ def test_editing_leaves_the_trail_and_what_was_deleted_cannot_be_undone() -> Non
     typist.type("CN OTHER\nCP P1\nD S2")
     assert list(typist.session.program.trail) == before
     typist.type("RUN -1000")
-    assert typist.told == ["1 step undone; the step before this has been deleted and cannot be undone"]
+    assert typist.told == ["1 step undone; the next earlier step has been deleted and cannot be undone"]
 
 
 def test_a_step_that_is_reached_by_one_father_only_is_not_unlinked_from_it() -> None:
     typist = Typist(straight(3) + "\nL S2\nGOTO S1")
     with pytest.raises(
-        InvalidInput, match=r"^S2 can be reached from the top by this step only; `DA S2` deletes it$"
+        InvalidInput,
+        match=r"^S2 can be reached from the top only through this step; to delete S2, use `DA S2`$",
     ):
         typist.type("DLINK S2")
     assert typist.names == ["S1", "S2", "S3"]
@@ -144,7 +145,7 @@ def test_a_link_makes_its_step_the_most_recent_father() -> None:
 def test_nothing_is_put_below_a_link() -> None:
     typist = Typist(PALLETISE)
     with pytest.raises(
-        InvalidInput, match=r"^a link leads from here to FINISH; remove it first with `DLINK FINISH`$"
+        InvalidInput, match=r"^a link leads from here to FINISH; remove the link first with `DLINK FINISH`$"
     ):
         typist.type("GRASP")
 

@@ -54,8 +54,8 @@ def test_what_a_guarded_step_has_met_must_still_be_there() -> None:
     typist = Typist(AT_A_BLOCK + "GOTO **TOP**\nRUN")
     typist.type("* CLEAR\nRUN -2")
     assert typist.told[-1] == (
-        "0 steps undone; the arm has stopped at the step before that: on the way forward the finger met something "
-        "here, but now it meets nothing"
+        "0 steps undone; the arm stopped while undoing the next earlier step: on the way forward the finger met "
+        "an object here, but now the finger meets nothing"
     )
     assert stopped(typist, "RUN -2") == MissingContact()
     typist.type("* STACK 2 X 100 Y 0")
@@ -85,7 +85,7 @@ def test_a_force_on_the_finger_stops_the_way_back_whatever_its_direction() -> No
     met = arm.back(Place(x=0.05), lambda: False)
     assert met == Resistance(force=PURBRICK.limits.resistance + 0.1, limit=PURBRICK.limits.resistance)
     assert arm.here().x < 0.001
-    assert told(met) == "the finger met 3.1 N; going back, the limit is 3.0 N"
+    assert told(met) == "the finger met a force of 3.1 N; the limit while going back is 3.0 N"
     axes.push = PURBRICK.limits.resistance - 0.1
     assert arm.back(Place(y=0.05), lambda: False) is None
 
@@ -122,7 +122,7 @@ def test_what_is_held_is_not_let_go_where_there_is_nothing_to_set_it_down_on() -
     bench.table.bench.data.joint("block_1").qpos[0] -= 0.1
     bench.type("RUN -1000")
     assert bench.told[-1] == (
-        f"4 steps undone; the arm has stopped at the step before that: {told(MissingSupport())}"
+        f"4 steps undone; the arm stopped while undoing the next earlier step: {told(MissingSupport())}"
     )
     assert bench.arm.closed
     assert bench.blocks[1][2] == pytest.approx(24 - 2, abs=0.3)  # 2 mm lower than it lay, and held

@@ -29,7 +29,7 @@ def test_one_block_falls_into_the_bucket_and_the_other_lies_where_it_was() -> No
     assert b == near((-120, 60, 12))
     assert bench.at == near((0, 0, 150), 0.5)
     bench.type("RUN -1000")
-    told = "5 steps undone; the arm has stopped at the step before that: the fingers are 0.0 mm apart; on"
+    told = "5 steps undone; the arm stopped while undoing the next earlier step: the fingers are 0.0 mm apart; on"
     assert bench.told[-1].startswith(told)
     a, b = bench.blocks
     assert a == near((140, 0, 12), 10)  # what was dropped stays there

@@ -201,7 +201,7 @@ def test_ways_back_to_the_guarded_step_after_line_7(lines: str, touches: bool) -
 
 def test_a_step_that_the_arm_cannot_do_stops_the_run_there() -> None:
     typist = Typist("MR DX\nX BY 90 RECORD\nCN A\nLOOP A 4\nFREE\nX 0 RECORD\n")
-    with pytest.raises(InvalidInput, match=r"^X would be 270 mm; the arm goes from -200 to 200$"):
+    with pytest.raises(InvalidInput, match=r"^X would be 270 mm; its range is -200 to 200 mm$"):
         typist.type("RUN")
     assert (typist.active.name, typist.at[0]) == ("A", 180)
     typist.type("RUN -1000")
@@ -224,5 +224,5 @@ def test_only_so_much_is_remembered_and_it_is_told(monkeypatch: pytest.MonkeyPat
     typist = Typist("MR DX\nX BY 1 RECORD\nCN A\nLOOP A 40\nFREE\nX 0 RECORD\n")
     typist.session.program.trail = type(typist.session.program.trail)(maxlen=10)
     typist.type("RUN\nRUN -1000")
-    assert typist.told[-1].endswith("earlier steps have been forgotten")
+    assert typist.told[-1].endswith("earlier steps are no longer recorded")
     assert typist.at[0] > 0

@@ -165,7 +165,7 @@ def test_solids_are_written_and_what_is_wrong_with_them_is_said(
     ("name", "sentence"),
     [
         ("a.obj", "the name of the GLB file must end in .glb"),
-        ("mine.glb", "exists and is no GLB file; nothing was written"),
+        ("mine.glb", "exists and is not a GLB file; nothing was written"),
     ],
 )
 def test_solids_take_the_place_of_no_other_file(command: Command, name: str, sentence: str) -> None:

@@ -132,9 +132,9 @@ def test_every_part_of_the_pump_but_the_rotor_weighs_what_its_volume_says(made: 
     assert {body.body for body in made.weighed} == {"base", "gasket", "top", "rotor", *SCREWS}
     assert list(checks(made)) == [
         "16 solids, all closed",
-        "mass by volume and density as in the model, within 1%: base, gasket, top, "
+        "the mass computed from volume and density agrees with the model within 1%: base, gasket, top, "
         "screw0, screw1, screw2, screw3, screw4, screw5",
-        "mass by volume and density 0.086 kg, but 0.12 kg in the model: rotor",
+        "the mass computed from volume and density is 0.086 kg, but 0.12 kg in the model: rotor",
     ]
 
 
@@ -143,7 +143,10 @@ def test_a_mass_agrees_within_one_per_cent(made: ExportedSolids, mass: float, ri
     body = WeighedBody(body="pin1", mass=mass, mass_there=1.0)
     assert agrees(body) is right
     said = list(checks(replace(made, weighed=(body,))))[1]
-    assert said.startswith("mass by volume and density as in the model, within 1%: pin1") is right
+    assert (
+        said.startswith("the mass computed from volume and density agrees with the model within 1%: pin1")
+        is right
+    )
 
 
 def test_pins_weigh_in_the_model_what_their_volume_says() -> None:

@@ -113,15 +113,17 @@ def verdict(shown: Demonstration) -> list[str]:
         out.append(f"{name_of(event.number)} takes {spaced(event.frame)}, which was never sent{acts}")
     for event in shown.strangers:
         out.append(
-            f"{name_of(event.number)} acts on {spaced(event.frame)}, which was for {name_of(event.frame[0])}"
+            f"{name_of(event.number)} acts on {spaced(event.frame)}, which was sent to {name_of(event.frame[0])}"
         )
     if shown.deaf:
-        out.append(f"{name_of(COMMAND.number)} does not act on {spaced(COMMAND.frame)}, which was for it")
+        out.append(f"{name_of(COMMAND.number)} does not act on {spaced(COMMAND.frame)}, which was sent to it")
     if shown.failed:
         out.append(shown.failed)
     elif shown.found != shown.wanted:
-        out.append(f"{ASKED} says that its count is {shown.found}; it should be {shown.wanted}")
-    return out or [f"every byte arrived as it was sent; the count of {ASKED} is {shown.found}"]
+        out.append(f"{ASKED} answers with the count {shown.found} instead of {shown.wanted}")
+    return out or [
+        f"every byte arrived as it was sent; the count of {ASKED} is {shown.found}, as it should be"
+    ]
 
 
 def told(shown: Demonstration) -> list[str]:

@@ -82,10 +82,12 @@ class Layout(Record, frozen=True, kw_only=True):
             if not 0 <= place.segment < len(self.behind):
                 raise BadArgument(f"there is no segment {place.segment} for {name_of(place.number)}")
             if not 0 <= place.number < min(self.pages * PAGE, 256):
-                more = "" if self.more_pages else "; two more output bits make 256"
+                more = (
+                    "" if self.more_pages else "; with two more output bits, 256 microcomputers are possible"
+                )
                 raise BadArgument(
                     f"{self.pages} pages of {PAGE} connect the status lines of microcomputers 0 to "
-                    f"{min(self.pages * PAGE, 256) - 1}, not of {place.number}{more}"
+                    f"{min(self.pages * PAGE, 256) - 1}, but not those of microcomputer {place.number}{more}"
                 )
         for segment in range(len(self.behind)):
             if (count := sum(place.segment == segment for place in self.places)) > FAN_OUT:

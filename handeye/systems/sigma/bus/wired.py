@@ -143,7 +143,9 @@ class WiredBus(MicrobusPort):
     def begin(self, command: Command, answer: int = 0) -> None:
         memory = self._memory
         if not self.free:
-            raise Refused("the bus still carries a command or an answer; send the next one after its end")
+            raise Refused(
+                "the bus still carries a command or an answer; wait until it has ended before sending the next command"
+            )
         sending = Sending(
             start=self.now,
             frame=command.frame,

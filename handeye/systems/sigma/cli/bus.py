@@ -30,7 +30,7 @@ AllLines = Annotated[
     bool, Parameter(negative=(), help="Show all twenty status lines, including those that do not change.")
 ]
 Seed = Annotated[
-    WholeNumber, Parameter(help="Seed of the world: it decides when each microcomputer begins to poll.")
+    WholeNumber, Parameter(help="Seed of the world: it determines when each microcomputer begins to poll.")
 ]
 
 bus = App(
@@ -116,9 +116,14 @@ def run(
     /,
     *,
     fault: BusFaults = None,
-    begin: Annotated[float, Parameter(help="Time at which the diagram begins, s since power-on.")] = 0.0,
+    begin: Annotated[
+        float, Parameter(help="Time at which the diagram begins, in seconds since power-on.")
+    ] = 0.0,
     end: Annotated[
-        float | None, Parameter(help="Time at which the diagram ends, s. Default: the end of the run.")
+        float | None,
+        Parameter(
+            help="Time at which the diagram ends, in seconds since power-on. Default: the end of the run."
+        ),
     ] = None,
     all_lines: AllLines = False,
     statement_us: Annotated[
@@ -164,8 +169,8 @@ def run(
         last = wired.now / 1e6 if end is None else end
         if not 0 <= begin < last <= _LONGEST_DIAGRAM:
             raise BadArgument(
-                f"a diagram must begin at 0 s or later and end after its beginning; {begin:g} to {last:g} s is not "
-                "possible"
+                f"a diagram must begin at 0 s or later and end after its beginning, not go from {begin:g} to "
+                f"{last:g} s"
             )
         span = round(begin * 1e6), round(last * 1e6)
         drawn = diagram(file.name, log, *span, wired.timing, all_lines=all_lines)
@@ -193,7 +198,9 @@ def errors(
     ] = 200_000,
     seed: Annotated[
         WholeNumber,
-        Parameter(help="Seed of the world: it decides bytes, clocks, and when receivers become free."),
+        Parameter(
+            help="Seed of the world: it determines the bytes, the clocks, and when receivers become free."
+        ),
     ] = 0,
     json: Json = False,
 ) -> int:

@@ -48,7 +48,8 @@ StatementTime = Annotated[
     WholeNumber,
     Parameter(
         name="--statement-us",
-        help="Microseconds that the central computer takes for a statement; each calculation in it adds a quarter.",
+        help="Microseconds that the central computer takes for a statement; each calculation in the statement adds "
+        "a quarter.",
     ),
 ]
 Arm = Annotated[
@@ -71,7 +72,7 @@ def run(
     arm: Arm = "none",
     seed: Annotated[
         WholeNumber,
-        Parameter(help="Seed of the world of `--arm gantries`: it decides the errors of the machine."),
+        Parameter(help="Seed of the world of `--arm gantries`: it determines the errors of the machine."),
     ] = 0,
     statement_us: StatementTime = 2000,
     json: Json = False,

@@ -40,7 +40,7 @@ COMMANDS: Final = {
     "COMPILE": ConsoleCommand("COMPILE", "check the program, and show the size of its code"),
     "RUN": ConsoleCommand("RUN", "run the program from the beginning"),
     "BREAK": ConsoleCommand(
-        "BREAK [LINE]", "stop before this line; without a line, remove the stop. Ctrl-C stops at once"
+        "BREAK [LINE]", "stop before this line; without a line, remove the stop. Ctrl-C stops immediately"
     ),
     "CONT": ConsoleCommand("CONT", "continue from where the program has stopped"),
     "STATUS": ConsoleCommand("STATUS", "show the microcomputers"),

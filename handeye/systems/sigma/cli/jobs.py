@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from handeye.trials.sweep import Sweep
 
 JobSeed = Annotated[
-    WholeNumber, Parameter(help="Seed of the world: it decides the pieces and the errors of the machine.")
+    WholeNumber, Parameter(help="Seed of the world: it determines the pieces and the errors of the machine.")
 ]
 NumberOfBoards = Annotated[
     WholeNumber, Parameter(name="--n", help="Number of boards; board K has the seed --seed plus K.")

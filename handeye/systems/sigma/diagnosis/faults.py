@@ -85,7 +85,9 @@ def _interface(name: str, draw: Draw) -> Planted:
 
 
 def _regenerator(name: str, _: Draw) -> Planted:
-    return _bus("no-turn", "regenerator 1", "regenerator 1 does not turn round for answers", 1)(name)
+    return _bus("no-turn", "regenerator 1", "regenerator 1 does not reverse its direction for answers", 1)(
+        name
+    )
 
 
 def _strobe(name: str, draw: Draw) -> Planted:
@@ -108,7 +110,7 @@ def _clock(name: str, draw: Draw) -> Planted:
 def _address(name: str, draw: Draw) -> Planted:
     who = draw.one(_NAMES)
     other = draw.one([number for number in (1, 0, 7, 12, 40) if number != NUMBERS[who]])
-    told = f"the microcomputer {who} takes the number {other} for its own"
+    told = f"the microcomputer {who} answers to the number {other} instead of its own"
     return _bus("address", f"microcomputer {who}", told, NUMBERS[who], other)(name)
 
 
@@ -131,7 +133,7 @@ def _machine(
 
 def _pulses(name: str, draw: Draw) -> Planted:
     who, every = draw.one(AXES), draw.one((20, 10, 50))
-    told = f"the microcomputer {who} leaves out each pulse number {every}"
+    told = f"the microcomputer {who} leaves out every {every}th pulse"
     return _machine(name, f"microcomputer {who}", told, "pulses", who, every)
 
 
@@ -199,14 +201,14 @@ def _supply(name: str, _: Draw) -> Planted:
 FAULTS: Final[dict[str, Fault]] = {
     "bit": Fault("a data line of a segment is stuck", _bit),
     "interface": Fault("the interface of a segment is dead", _interface),
-    "regenerator": Fault("a regenerator does not turn round", _regenerator),
+    "regenerator": Fault("a regenerator does not reverse its direction for answers", _regenerator),
     "strobe": Fault("the computer raises its strobe too late", _strobe),
     "dead": Fault("a microcomputer is dead", _dead),
     "clock": Fault("the clock of a microcomputer is wrong", _clock),
-    "address": Fault("a microcomputer takes another number for its own", _address),
+    "address": Fault("a microcomputer answers to a wrong number", _address),
     "status": Fault("a status line is stuck", _status),
     "interrupt": Fault("the wire that joins the A lines is broken", _interrupt),
-    "pulses": Fault("a microcomputer leaves pulses out", _pulses),
+    "pulses": Fault("a microcomputer leaves out pulses", _pulses),
     "phase": Fault("one phase of a motor's driver is dead", _phase),
     "switch": Fault("a switch at the end of a rail is stuck", _switch),
     "gauge": Fault("a strain gauge of a wrist is dead, or has an offset", _gauge),

@@ -39,23 +39,27 @@ class Means(NamedTuple):
 MEANS: Final = {
     "selftest": Means("selftest", "the self-tests of power-on"),
     "clocks": Means("clocks", "measure how long each microcomputer takes to answer"),
-    "strobe": Means("strobe", "let a microcomputer become free amid a command to another one"),
+    "strobe": Means(
+        "strobe", "let a microcomputer become free in the middle of a command to another microcomputer"
+    ),
     "force": Means("force ARM", "load each component of a wrist with known forces"),
-    "beam": Means("beam ARM", "hold nothing, a rod and a grey glass into the beam of a hand"),
+    "beam": Means(
+        "beam ARM", "read the light beam of a hand: free, with a rod in it, and with a grey glass in it"
+    ),
     "grip": Means("grip ARM", "close a hand on a block that is not in the middle of its fingers"),
-    "origin": Means("origin AXIS", "search the low end of a rail"),
+    "origin": Means("origin AXIS", "move to the low end of a rail with ORIGIN"),
     "rail": Means("rail AXIS", "move to the high end of a rail"),
     "moves": Means("moves AXIS", "move out at full speed, and look for lost steps at the low switch"),
     "load": Means("load AXIS", "move slowly against a spring balance, and look for lost steps"),
     "together": Means("together", "move all axes at once at full speed, and look for lost steps"),
     "ask": Means("ask NAME", "ask a motor for its step count, or another microcomputer for its self-test"),
     "status": Means("status", "read the status lines of all microcomputers"),
-    "swap": Means("swap NAME", "replace a microcomputer, and switch the machine off and on"),
+    "swap": Means("swap NAME", "replace a microcomputer with a spare one, and switch the machine off and on"),
     "run": Means("run FILE.mal", "run a program of your own"),
     "accuse": Means("accuse PART", "name the part that has the fault; this ends the game", counts=False),
-    "parts": Means("parts", "list what can be accused, and the possible faults", counts=False),
+    "parts": Means("parts", "list the parts that can be accused, and the possible faults", counts=False),
     "help": Means("help", "show this list", counts=False),
-    "quit": Means("quit", "give up, and see the fault", counts=False),
+    "quit": Means("quit", "give up, and show the fault", counts=False),
 }
 
 
@@ -81,8 +85,8 @@ class Game:
     def begin(self) -> None:
         """Explain the game to the player."""
         self._tell(
-            f"One of {len(FAULTS)} faults is planted in SUPERSIGMA. Find the part that has it, in as few tests as you "
-            "can. `help` lists your means, `parts` what you can accuse."
+            f"One of {len(FAULTS)} faults is planted in SUPERSIGMA. Find the faulty part, in as few tests as you can. "
+            "`help` lists the tests, `parts` the parts that you can accuse."
         )
 
     def words(self) -> Sequence[str]:
@@ -97,8 +101,8 @@ class Game:
         if not word:
             return
         if word not in MEANS:
-            near = suggestion(word, MEANS) or "`help` lists your means"
-            raise NoSuchName(f"{quoted(word)} is none of your means; {near}")
+            near = suggestion(word, MEANS) or "`help` lists the tests and commands"
+            raise NoSuchName(f"{quoted(word)} is not a test or a command of this game; {near}")
         if bool(rest) != (" " in MEANS[word].usage):
             raise BadArgument(f"the form is `{MEANS[word].usage}`")
         lines = getattr(self, f"_{word}")(rest)
@@ -211,9 +215,9 @@ class Game:
         right = "Right" if self.won else "Wrong"
         usual = Strategy(Bench(self.planted, self.seed)).diagnose()
         paper = (
-            f"the order of the paper needs {counted(usual.tests, 'test')}"
+            f"in the order of the paper, {counted(usual.tests, 'test')} find the part"
             if usual.part == self.planted.part
-            else f"the order of the paper does not find it in {counted(usual.tests, 'test')}"
+            else f"in the order of the paper, {counted(usual.tests, 'test')} do not find the part"
         )
         return [f"{right}: {self.planted.told}. You used {counted(self.tests, 'test')}; {paper}."]
 

@@ -125,7 +125,7 @@ class Strobe:
             often = f"in {self.misread} of {counted(self.tries, 'try')}"
             return [f"{often}, a microcomputer that became free in mid-command obeyed a command never sent"]
         return [
-            f"in {counted(self.tries, 'try')}, no microcomputer that became free in mid-command misread it"
+            f"in {counted(self.tries, 'try')}, no microcomputer that became free in mid-command misread the command"
         ]
 
 
@@ -174,8 +174,8 @@ class Motion:
     @property
     def lines(self) -> Sequence[str]:
         asked = f"{self.axis} moves by {counted(self.steps, 'step')}" if self.steps else f"ORIGIN {self.axis}"
-        while_ = "" if self.busy else "; its status was never busy"
-        deaf = ", though it was still moving" if self.deaf else ""
+        while_ = "" if self.busy else "; the status was never busy"
+        deaf = ", although the axis was still moving" if self.deaf else ""
         lines = f"{self.status >> 1}-{self.status & 1}"
         stop = "" if self.at_abort is None else f", stopped at {self.at_abort}"
         level = "high" if self.interrupt else "low"
@@ -241,7 +241,7 @@ def moves(at: Technician, *axes: str) -> Lost:
     for axis in axes:
         bus.send(protocol.move(axis, FREE_MOVE[axis[0]]))
     tripped = tuple(axis for axis in axes if bus.wait_free(NUMBERS[axis], _LONG) is Status.FORCE)
-    what = "at full speed" if len(axes) == 1 else "all axes at full speed at once"
+    what = "at full speed" if len(axes) == 1 else "all axes together at full speed"
     return Lost(what, {axis: _lost(bus, axis) for axis in axes}, tripped)
 
 
@@ -344,8 +344,10 @@ class Grip:
     @property
     def lines(self) -> Sequence[str]:
         each = ["no answer" if value is None else f"{value:.2f} N" for value in (self.done, self.later)]
-        busy = "" if self.busy else "; its status was never busy"
-        return [f"hand {self.arm} closes: pushes {each[0]} when it is done, {each[1]} a second later{busy}"]
+        busy = "" if self.busy else "; the status was never busy"
+        return [
+            f"hand {self.arm} closes: sideways force {each[0]} at the end of the motion, {each[1]} a second later{busy}"
+        ]
 
 
 def grip(at: Technician, arm: int) -> Grip:

@@ -107,7 +107,7 @@ def _segment(segment: int, heard: Mapping[int, _Heard]) -> SelfTest:
         return SelfTest(
             part="regenerator",
             number=segment,
-            fault="it does not reverse its direction: strobes arrive, but no data",
+            fault="it does not reverse its direction: strobes of answers arrive, but no data",
         )
     stuck = _stuck([one for one in heard.values() if not one.silent])
     return SelfTest(part="segment", number=segment, fault=stuck)
@@ -175,7 +175,7 @@ def _status_lines(at_rest: Mapping[int, Status], scanning: Container[int]) -> It
 def told(tests: Sequence[SelfTest]) -> list[str]:
     """Return the results as lines of text: the faults, or a statement that there are none."""
     out = [f"{_name(test)}: {test.fault}" for test in tests if test.fault]
-    return out or ["computer, segments, microcomputers and status lines are well"]
+    return out or ["no fault found in the computer, segments, microcomputers and status lines"]
 
 
 def _name(test: SelfTest) -> str:

@@ -88,12 +88,13 @@ class Strategy:
         for number in self._test("clocks", lambda: means.clocks(self._at)).wrong:
             raise Found(
                 f"microcomputer {name_of(number)}",
-                "its answers take a different time from those of the others",
+                "its answers take more or less time than those of the other microcomputers",
             )
         if self._test("strobe", lambda: means.strobe(self._at)).misread:
             raise Found(
                 "computer",
-                "it raises /DATA READY so late that microcomputers that become free in mid-command misread it",
+                "it raises /DATA READY so late that a microcomputer that becomes free during a command misreads the "
+                "command",
             )
 
     # -- wrists and hands, while no motor moves -----------------------------------------------------------------
@@ -109,16 +110,21 @@ class Strategy:
         for arm in ARMS:
             beam = self._test(f"beam {arm}", lambda arm=arm: means.beam(self._at, arm))  # type: ignore[misc]
             if beam.free is not False or beam.rod is not True:
-                raise Found(f"beam of hand {arm}", "it reads the same with a rod and without")
+                raise Found(
+                    f"beam of hand {arm}", "its reading is wrong without an object, or with a rod in the beam"
+                )
             if beam.glass:
-                raise Found(f"lamp of hand {arm}", "a grey glass, which passes enough light, cuts the beam")
+                raise Found(
+                    f"lamp of hand {arm}",
+                    "the beam reads cut by a grey glass, although the glass passes enough light",
+                )
             grip = self._test(f"grip {arm}", lambda arm=arm: means.grip(self._at, arm))  # type: ignore[misc]
             if not grip.busy:
-                raise Found(f"status line B of HAND{arm}", "it stays low while the hand closes")
+                raise Found(f"status line B of HAND{arm}", "the line stays low while the hand closes")
             if (grip.done or 0.0) < means.SIDEWAYS_N:
                 late = (grip.later or 0.0) >= means.SIDEWAYS_N
                 why = (
-                    "they meet the block after the hand has said that it is done"
+                    "they meet the block only after the hand has reported the end of its motion"
                     if late
                     else "they do not close"
                 )
@@ -137,32 +143,34 @@ class Strategy:
             moved = far.status is Status.RAIL
             if moved:
                 raise Found(
-                    f"low switch of {axis}", "ORIGIN does not find it, and the high switch stops the motor"
+                    f"low switch of {axis}",
+                    "ORIGIN does not find this switch, but the high switch stops the motor",
                 )
-            raise Found(f"driver of {axis}", "neither switch is reached")
+            raise Found(f"driver of {axis}", "the axis reaches neither switch")
         if far.status is Status.FREE and far.count == far.steps:
             raise Found(f"high switch of {axis}", "the motor runs to the end of its pulses, past the switch")
         if far.status is Status.FREE:
-            raise Found(f"status line A of {axis}", "the switch stops the motor, and the line stays low")
+            raise Found(f"status line A of {axis}", "the switch stops the motor, but the line stays low")
         if not far.count:
-            raise Found(f"high switch of {axis}", "it stops the motor before its first step")
+            raise Found(f"high switch of {axis}", "the switch stops the motor before the first step")
         if far.astray:
             self._swap(axis)
         if not far.interrupt:
             raise Found(
-                "interrupt wire", f"line A of {axis} is high, and the interrupt of the computer is low"
+                "interrupt wire", f"line A of {axis} is high, but the interrupt of the computer is low"
             )
 
     def _lines_b(self, motion: Motion) -> None:
         if not motion.busy and motion.deaf:
             raise Found(
-                f"status line B of {motion.axis}", "it is low while the motor moves and answers nothing"
+                f"status line B of {motion.axis}",
+                "the line is low while the motor moves and gives no answers",
             )
 
     def _trips(self, axis: str, *, tripped: bool) -> None:
         if tripped:
             part = f"accelerometer {axis[0]} of wrist {axis[1]}"
-            raise Found(part, "a free move is stopped by a force, and the wrist reads known loads right")
+            raise Found(part, "a force stops a free move, although the wrist reads known loads correctly")
 
     def _drives(self) -> None:
         for axis in AXES:
@@ -171,7 +179,7 @@ class Strategy:
             if free.losers:
                 raise Found(f"driver of {axis}", "the motor loses steps at full speed")
             if self._test(f"load {axis}", lambda axis=axis: means.load(self._at, axis)).losers:  # type: ignore[misc]
-                raise Found(f"driver of {axis}", f"the motor holds less than {means.PULL_N:g} N")
+                raise Found(f"driver of {axis}", f"the motor cannot move against {means.PULL_N:g} N")
         together = self._test("together", lambda: means.moves(self._at, *AXES))
         if together.losers:
             raise Found("supply", f"{' and '.join(together.losers)} lose steps when all motors move at once")
@@ -183,8 +191,8 @@ class Strategy:
         again = self._test(f"rail {axis}", lambda: means.rail(self._at, axis))
         why = "the far switch is reached after too many pulses"
         if again.astray:
-            raise Found(f"driver of {axis}", f"{why}, with another microcomputer, too")
-        raise Found(f"microcomputer {axis}", f"{why}, but not with another microcomputer")
+            raise Found(f"driver of {axis}", f"{why}, even with a spare microcomputer")
+        raise Found(f"microcomputer {axis}", f"{why}, but not with a spare microcomputer")
 
 
 class Swapped(Record, frozen=True, kw_only=True):
@@ -194,7 +202,7 @@ class Swapped(Record, frozen=True, kw_only=True):
 
     @property
     def lines(self) -> Sequence[str]:
-        return [f"{self.name} has a spare microcomputer; the machine was switched off and on"]
+        return [f"a spare microcomputer replaces that of {self.name}; the machine was switched off and on"]
 
 
 def swapped(at: Technician, name: str) -> Swapped:
@@ -218,19 +226,26 @@ def wrong_force(found: means.Forces) -> tuple[str, str]:
     none."""
     arm, errors = found.arm, [*_errors(found)]
     if any(value is None for _, _, read in found.readings for value in read):
-        return f"microcomputer FORCE{arm}", "it answers some questions only"
+        return f"microcomputer FORCE{arm}", "it answers only some questions"
     wrong = {component for component, _, error in errors if abs(error) > _NEAR_N}
     if not wrong:
         return "", ""
     loaded = [read for _, newtons, read in found.readings if newtons]
     if all(len({round(value or 0.0, 2) for value in read}) == 1 for read in loaded) and any(map(any, loaded)):
-        return f"multiplexer of wrist {arm}", "all components read the same, whichever is loaded"
+        return (
+            f"multiplexer of wrist {arm}",
+            "all components give the same reading, whichever component is loaded",
+        )
     if len(wrong) > 1:
         return f"converter of wrist {arm}", "readings of all components are wrong by the same amounts"
     (component,) = wrong
     own = [error for each, _, error in errors if each == component]
     spread = max(own) - min(own)
-    why = "it adds the same force to each load" if spread <= _OFFSET_SPREAD_N else "it does not feel its load"
+    why = (
+        "its reading is too large or too small by the same force at every load"
+        if spread <= _OFFSET_SPREAD_N
+        else "its reading does not follow the load"
+    )
     return f"gauge {COMPONENTS[component]} of wrist {arm}", why
 
 

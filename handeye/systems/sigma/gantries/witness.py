@@ -47,7 +47,7 @@ class Witness(Mechanism[H], Generic[H]):
 
     def check(self, state: H) -> None:
         if replace(state, **{name: getattr(self.heard, name) for name in self.growing}) != self.heard:
-            raise BadFile("other pieces stood on its board")
+            raise BadFile("its board held different pieces")
         if len(state.lines) > _MOST or any(len(line) > _LONGEST for line in state.lines):
             raise BadFile("the program cannot have printed so much")
 

@@ -73,7 +73,7 @@ VARIATION: Final = Variation(
         Range(0.03, 0.08),
         1.0,
         "Fraction of the inertial force that remains in the reading after the correction by the accelerometers; "
-        "1 without them. No source: our choice.",
+        "1 without accelerometers. No source: our choice.",
         0.05,
     ),
     _quantity(
@@ -95,7 +95,7 @@ VARIATION: Final = Variation(
         "mm",
         Noise(0.5),
         5.0,
-        "Standard deviation of a piece's position across its line. No source: our choice, as placed by hand.",
+        "Standard deviation of a piece's position across its line. No source: our choice, for pieces placed by hand.",
     ),
 )
 

@@ -64,7 +64,7 @@ class Handover(JobTask):
                 max(lifts), STANDS, "mm", "greatest height of a piece's foot above the board"
             ),
             "placed": at_most(max(places), PLACED, "mm", "greatest distance of a piece from its last place"),
-            "pressed": at_most(max(proud), PRESSED, "mm", "most that a pin still stands out"),
+            "pressed": at_most(max(proud), PRESSED, "mm", "greatest height by which a pin still protrudes"),
             "counted": at_most(
                 wrong, 0, "pieces", "difference between the program's count and the finished pieces"
             ),

@@ -51,4 +51,4 @@ class HandoverWitness(Witness[Watched]):
     def check(self, state: Watched) -> None:
         super().check(state)
         if state.touched_ms < 0:
-            raise BadFile("the arms cannot have touched for less than no time")
+            raise BadFile("the time for which the arms touched cannot be negative")

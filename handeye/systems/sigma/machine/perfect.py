@@ -85,7 +85,7 @@ class PerfectMotors(MicrobusPort):
 
     def begin(self, command: Command, answer: int = 0) -> None:
         if not self.free:
-            raise Refused("the bus carries a command already")
+            raise Refused("the bus already carries a command")
         self._memory.free_at = self._memory.now + COMMAND_BYTES * BYTE_US
         self._memory.answer = None
         if answer:
@@ -100,7 +100,7 @@ class PerfectMotors(MicrobusPort):
 
     def answer(self) -> bytes:
         if not self.free:
-            raise Refused("the answer is under way")
+            raise Refused("the answer is still being sent")
         number, came, wanted = self._memory.asked
         if self._memory.answer is None or came != wanted:
             raise NoAnswer(number, came, wanted)
@@ -130,7 +130,7 @@ class PerfectMotors(MicrobusPort):
         if not isinstance(memory, PerfectMemory):
             raise BadFile("the saved state does not belong to a machine with perfect motors")
         if {*memory.motors} != {*_AXIS} or {*memory.hands} != {*_HANDS}:
-            raise BadFile("what the machine remembers has other motors or hands")
+            raise BadFile("the saved state has different motors or hands")
         put_back(self._memory, memory)
 
     # -- microcomputers -------------------------------------------------------------------------------

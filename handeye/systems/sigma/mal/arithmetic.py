@@ -20,7 +20,7 @@ def _divided(left: float, right: float) -> float:
 
 def _root(value: float) -> float:
     if value < 0:
-        raise Trap(f"SQR takes no negative number, and this is {value:g}")
+        raise Trap(f"SQR needs a number of 0 or more, not {value:g}")
     return math.sqrt(value)
 
 

@@ -41,7 +41,7 @@ class BusOperations:
     def _do_pos(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         axis = text_of(instruction)
         if axis not in self.memory.originated:
-            raise Trap(f"NOTORIGINATED: ORIGIN {axis} comes before POS({axis})")
+            raise Trap(f"NOTORIGINATED: POS({axis}) needs an ORIGIN {axis} first")
         self._push(task, self.memory.counts.get(axis, 0) * STEP_MM)
 
     def _do_stat(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
@@ -75,7 +75,7 @@ class BusOperations:
         if abs(target) > _LARGEST_STEPS:
             most = _LARGEST_STEPS * STEP_MM
             raise Trap(
-                f"a place is at most {most:.0f} mm from 0; {axis} would go to {target * STEP_MM:.6g} mm"
+                f"the goal of {axis} is {target * STEP_MM:.6g} mm; a goal can be at most {most:.0f} mm from 0"
             )
         task.outgoing.insert(0, Outgoing(to=axis, target=target))
         task.pc += 1
@@ -87,7 +87,7 @@ class BusOperations:
         else:
             speed = task.stack.pop()
             if not 2 <= speed <= 254:
-                raise Trap(f"a constant speed is from 2 to 254 mm/s, and not {speed:g}")
+                raise Trap(f"a constant speed must be between 2 and 254 mm/s, not {speed:g}")
             task.outgoing[:] = [
                 Outgoing(to=each.to, target=each.target, slow=speed) for each in task.outgoing
             ]
@@ -115,7 +115,7 @@ class BusOperations:
     def _do_act(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         name, value = text_of(instruction), task.stack.pop()
         if not 0 <= value <= 0xFFFF or value != int(value):
-            raise Trap(f"{name} takes a whole number from 0 to 65535, and not {value:g}")
+            raise Trap(f"{name} takes a whole number from 0 to 65535, not {value:g}")
         arm, device = MAL_DEVICES[name]
         task.outgoing.append(Outgoing(to=f"HAND{arm}", command=protocol.actuate(arm, device, int(value))))
         task.pc += 1
@@ -123,7 +123,7 @@ class BusOperations:
     def _do_limspeed(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         (axis,), speed = names_of(instruction), task.stack.pop()
         if not 0 <= speed <= 2400:
-            raise Trap(f"a limit of speed is from 0 to 2400 mm/s, and not {speed:g}")
+            raise Trap(f"a speed limit must be between 0 and 2400 mm/s, not {speed:g}")
         command = protocol.limit_speed(axis, round(speed / STEP_MM))
         task.outgoing.append(Outgoing(to=axis, command=command))
         task.pc += 1
@@ -131,7 +131,7 @@ class BusOperations:
     def _do_curve(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         (axis,), curve = names_of(instruction), task.stack.pop()
         if curve not in (0, 1, 2, 3, 4):
-            raise Trap(f"a curve is 0, 1, 2, 3 or 4, and not {curve:g}")
+            raise Trap(f"a curve must be 0, 1, 2, 3 or 4, not {curve:g}")
         self.memory.curves[axis] = int(curve)
         task.pc += 1
 
@@ -139,7 +139,7 @@ class BusOperations:
         axis, *standard = names_of(instruction)
         newtons = None if standard else task.stack.pop()
         if newtons is not None and not 0 <= newtons <= 655:
-            raise Trap(f"a limit of force is from 0 to 655 N, and not {newtons:g}")
+            raise Trap(f"a force limit must be between 0 and 655 N, not {newtons:g}")
         command = protocol.threshold(int(axis[1]), axis[0], newtons)
         task.outgoing.append(Outgoing(to=f"FORCE{axis[1]}", command=command))
         task.pc += 1

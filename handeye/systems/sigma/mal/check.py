@@ -44,7 +44,7 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
     kept: dict[int, Line] = {}
     for line in lines:
         if line.number in kept:
-            first = Label(span=kept[line.number].span, text="it is already here")
+            first = Label(span=kept[line.number].span, text="the first line with this number")
             found.append(mistake("line-twice", f"two lines have the number {line.number}", line.span, first))
         else:
             kept[line.number] = line
@@ -332,8 +332,8 @@ SLOWEST: Final = 2.0  # mm/s
 FASTEST_SLOW: Final = 254.0
 _RANGES: Final = {
     "CURVE": (0.0, 4.0, "a curve"),
-    "SPEED": (0.0, 2400.0, "a limit of speed, mm/s,"),
-    "LIMIT": (0.0, 655.0, "a limit of force, N,"),
+    "SPEED": (0.0, 2400.0, "a speed limit, mm/s,"),
+    "LIMIT": (0.0, 655.0, "a force limit, N,"),
     "DELAY": (0.0, 86400.0, "a delay, s,"),
 }  # least and most that each takes
 

@@ -53,7 +53,8 @@ CODES: Final[dict[str, MalCode]] = {
         cure="begin each line with its number",
     ),
     "long-line": MalCode(
-        meaning="a line has more than 500 characters", example=f'10 PRINT "{"A" * 500}"', cure="write several lines",
+        meaning="a line has more than 500 characters", example=f'10 PRINT "{"A" * 500}"',
+        cure="split the line into several lines",
     ),
     "line-twice": MalCode(
         meaning="two lines have the same number", example="10 PRINT 1\n10 PRINT 2",
@@ -83,7 +84,7 @@ CODES: Final[dict[str, MalCode]] = {
     ),
     "return-without-gosub": MalCode(
         meaning="a task has RETURN but no GOSUB", example="10 RETURN",
-        cure="call these lines by GOSUB, or replace RETURN by END",
+        cure="call these lines with GOSUB, or replace RETURN with END",
     ),
     "stray-character": MalCode(
         meaning="a character has no meaning in MAL", example="10 A = 5 % 2",
@@ -115,7 +116,7 @@ CODES: Final[dict[str, MalCode]] = {
     ),
     "too-many-lines": MalCode(
         meaning="a program has more than 5000 lines", example="\n".join(f"{n} END" for n in range(1, 5002)),
-        cure="write repeated lines once, and call them by GOSUB",
+        cure="write repeated lines once, as a subroutine, and call them with GOSUB",
     ),
     "unknown-statement": MalCode(
         meaning="a line does not begin with a statement of MAL", example="10 MOOVE X1 TO 5",

@@ -92,7 +92,7 @@ class ExpressionReader(TokenReader):
     def _variable(self) -> Variable:
         name = self._name("the name of a variable")
         if self._is("("):
-            told = f"{quoted(name.text)} is no function, and MAL has no arrays"
+            told = f"{quoted(name.text)} is not a function, and MAL has no arrays"
             near = nearest(name.text, FUNCTIONS, max(1, len(name.text) // 3))
             raise Mistaken(
                 mistake("arrays-dropped", told, name.span, meant=SimilarName(near) if near else None)

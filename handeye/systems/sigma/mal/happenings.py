@@ -85,7 +85,7 @@ class MotorAborted(SystemEvent, frozen=True, kw_only=True):
 
     def sentence(self, measures: Measures) -> str:
         why = "at the end of its rail" if self.cause == "RAIL" else "by a force"
-        return f"{self.axis} was stopped {why}, at {self.at:.2f} mm; {self.task} had sent it"
+        return f"{self.axis} was stopped {why}, at {self.at:.2f} mm; {self.task} had started this motion"
 
 
 class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
@@ -102,7 +102,7 @@ class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
         why = "its wrist does not answer" if self.force is None else f"its wrist has felt {self.force:.1f} N"
         if self.above:
             why = f"the wrist of the other arm has felt {self.force:.1f} N, and the arms may have met"
-        return f"the count of {self.axis} is doubtful: {why}; ORIGIN {self.axis} makes it sure"
+        return f"the count of {self.axis} is doubtful: {why}; ORIGIN {self.axis} corrects the count"
 
 
 class CountWrong(SystemEvent, frozen=True, kw_only=True):
@@ -114,7 +114,7 @@ class CountWrong(SystemEvent, frozen=True, kw_only=True):
 
     def sentence(self, measures: Measures) -> str:
         return (
-            f"{self.axis} has lost steps: at the end of its rail, its count was {self.off:.2f} mm and not 0"
+            f"{self.axis} has lost steps: at the end of its rail, its count was {self.off:.2f} mm instead of 0"
         )
 
 

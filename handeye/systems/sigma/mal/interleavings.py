@@ -32,10 +32,10 @@ MOST_STATES: Final = 50_000
 HANDS_MEET_MM: Final = 550.0  # X1 + X2 beyond which the hands of the two arms, which share a rail, may touch
 FindingKind = Literal["deadlock", "axis", "hands", "variable", "flag", "stops"]
 KINDS: Final[dict[FindingKind, str]] = {
-    "deadlock": "no task can go on",
+    "deadlock": "no task can continue",
     "axis": "two tasks drive one axis at once",
     "hands": "the hands of both arms may meet",
-    "variable": "two tasks use a variable, and the result depends on which comes first",
+    "variable": "two tasks use a variable, and the result depends on which task is first",
     "flag": "a flag is set again before a task has taken it: one of the two signals is lost",
     "stops": "a statement cannot be executed",
 }
@@ -261,7 +261,7 @@ class _Search:
             )
             if lost and isinstance(event, FlagChanged) and event.flag in taken:
                 told = (
-                    f"the task {act.task}, line {act.line}, sets the flag {event.flag}, which is set already"
+                    f"the task {act.task}, line {act.line}, sets the flag {event.flag}, which is already set"
                 )
                 self._find("flag", told, [act.line or 0], key, act)
 
@@ -303,10 +303,12 @@ class _Search:
             owners = [state.memory.owners[axis] for axis in ("X1", "X2")]
             lines = [self.program.line_of(owner.address).number for owner in owners]
             who = " and ".join(
-                f"{axis} by the task {owner.task}, line {line}"
+                f"the task {owner.task}, line {line}, moves {axis}"
                 for axis, owner, line in zip(("X1", "X2"), owners, lines, strict=True)
             )
-            told = f"X1 and X2 may add up to {near:.0f} mm (the limit is {HANDS_MEET_MM:.0f} mm): {who}"
+            told = (
+                f"the sum of X1 and X2 may reach {near:.0f} mm (the limit is {HANDS_MEET_MM:.0f} mm): {who}"
+            )
             self._find("hands", told, lines, key)
 
     def _see_variables(self, key: bytes, state: _State, one: str, other: str) -> None:
@@ -315,7 +317,7 @@ class _Search:
         for name in sorted((uses[0][1] & (uses[1][0] | uses[1][1])) | (uses[1][1] & uses[0][0])):
             deeds = ["sets" if name in written else "reads" for _, written in uses]
             both = " and ".join(
-                f"the task {line.task}, line {line.number}, {deed} it"
+                f"the task {line.task}, line {line.number}, {deed} the variable"
                 for line, deed in zip(lines, deeds, strict=True)
             )
             self._find("variable", f"{name}: {both}", [line.number for line in lines], key)

@@ -145,25 +145,25 @@ class Operations(BusOperations):
 
     def _do_call(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         if len(task.returns) >= DEEPEST_GOSUB:
-            raise Trap(f"{counted(DEEPEST_GOSUB, 'GOSUB')} are under way: a subroutine does not RETURN")
+            raise Trap(f"{counted(DEEPEST_GOSUB, 'GOSUB')} are active: a subroutine does not RETURN")
         task.returns.append(self.behind(task.pc))
         self._do_go("", task, instruction)
 
     def _do_ret(self, _: str, task: TaskMemory, __: Instruction) -> None:
         if not task.returns:
-            raise Trap("no GOSUB is under way")
+            raise Trap("no GOSUB is active")
         task.pc, task.amid = task.returns.pop(), False
 
     def _do_for(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         name = text_of(instruction)
         step, last, first = task.stack.pop(), task.stack.pop(), task.stack.pop()
         if not step:
-            raise Trap("a STEP of 0 never ends")
+            raise Trap("a FOR with a STEP of 0 never ends")
         self.memory.variables[name] = first
         names = [loop.name for loop in task.loops]
         del task.loops[names.index(name) if name in names else len(names) :]
         if len(task.loops) >= DEEPEST_GOSUB:
-            raise Trap(f"{counted(DEEPEST_GOSUB, 'loop')} are under way")
+            raise Trap(f"{counted(DEEPEST_GOSUB, 'loop')} are active: a loop does not reach its NEXT")
         task.loops.append(Loop(name=name, last=last, step=step, begin=self.behind(task.pc)))
         task.pc += 1
 
@@ -171,7 +171,7 @@ class Operations(BusOperations):
         name = text_of(instruction)
         names = [loop.name for loop in task.loops]
         if name not in names:
-            raise Trap(f"no FOR {name} is under way")
+            raise Trap(f"no FOR {name} is active")
         del task.loops[names.index(name) + 1 :]
         loop = task.loops[-1]
         value = self.memory.variables.get(name, 0.0) + loop.step
@@ -194,7 +194,7 @@ class Operations(BusOperations):
     def _do_start(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         for name in names_of(instruction):
             if name in self.memory.tasks:
-                raise Trap(f"the task {name} is under way already")
+                raise Trap(f"the task {name} is already running")
             self.start(name)
         task.pc += 1
 
@@ -221,7 +221,7 @@ class Operations(BusOperations):
     def _do_sleep(self, name: str, task: TaskMemory, __: Instruction) -> None:
         seconds = task.stack.pop()
         if not 0 <= seconds <= 86400:
-            raise Trap(f"a delay is from 0 to 86400 s, and not {seconds:g}")
+            raise Trap(f"a delay must be between 0 and 86400 s, not {seconds:g}")
         self._wait(name, task, Moment(until=self.machine.now + round(seconds * 1e6)))
 
     def _do_in(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
@@ -264,5 +264,5 @@ class Operations(BusOperations):
 
     def _print(self, text: str) -> None:
         if len(self.memory.printed) + len(text) > LONGEST_PRINTED:
-            raise Trap(f"a printed line has {LONGEST_PRINTED} characters at most")
+            raise Trap(f"a printed line can have at most {LONGEST_PRINTED} characters")
         self.memory.printed += text

@@ -40,7 +40,7 @@ def tokens(line: str, start: int) -> tuple[list[Token], Diagnostic | None]:
     has only the token REM."""
     found: list[Token] = []
     if len(line) > LONGEST_LINE:
-        told = f"a line has {LONGEST_LINE} characters at most; this one has {len(line)}"
+        told = f"a line can have at most {LONGEST_LINE} characters, but this line has {len(line)}"
         return [], mistake("long-line", told, Span(start=start, end=start + 1))
     at = 0
     while at < len(line):

@@ -78,5 +78,5 @@ class UntimedMachine(MicrobusPort):
 
     def remember(self, memory: MutableRecord) -> None:
         if not isinstance(memory, UntimedMemory):
-            raise BadFile("what the machine remembers is not of a machine without time")
+            raise BadFile("the saved state does not belong to a machine without time")
         put_back(self.state, memory)

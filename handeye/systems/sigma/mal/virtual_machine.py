@@ -157,7 +157,9 @@ class VirtualMachine:
         waiting = [name for name, each in self.memory.tasks.items() if isinstance(each.waits, TypedNumber)]
         if (task and task not in waiting) or not waiting:
             raise BadArgument(
-                "no task waits for a number" if not task else f"the task {quoted(task)} waits for no number"
+                "no task waits for a number"
+                if not task
+                else f"the task {quoted(task)} does not wait for a number"
             )
         try:
             value = float(text)
@@ -339,7 +341,9 @@ class VirtualMachine:
         if owner is None or task is None:
             address = 0 if owner is None else owner.address
             whose = (
-                "no task had sent it" if owner is None else f"the task {owner.task} that sent it has ended"
+                "no task started this motion"
+                if owner is None
+                else f"the task {owner.task}, which started this motion, has ended"
             )
             fault = Fault(
                 kind="abort",

@@ -77,8 +77,8 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "ORIGIN": Word(
         "statement", "ORIGIN axis {, axis}",
-        "Move axes to the ends of their rails, all at once, and count from there. If an axis has lost steps since its "
-        "last ORIGIN, the program stops.",
+        "Move axes to the low ends of their rails, all at the same time, and count from there. If an axis has lost "
+        "steps since its last ORIGIN, the program stops.",
         "20 ORIGIN X1, Y1, Z1",
     ),
     "SPEED": Word("statement", "SPEED axis, expression", "Limit the speed of an axis, mm/s; 0 means no limit.",
@@ -124,7 +124,8 @@ WORDS: Final[dict[str, Word]] = {
     "SQR": Word("function", "SQR(expression)", "The square root."),
     "POS": Word(
         "function", "POS(axis)",
-        "The place to which the axis was sent, mm. The computer knows it from its own commands, and asks no motor.",
+        "The place to which the axis was sent, mm. The computer knows this place from its own commands, without "
+        "asking the motor.",
     ),
     "FORCE": Word(
         "function", "FORCE(axis)",
@@ -137,12 +138,15 @@ WORDS: Final[dict[str, Word]] = {
     "STATUS": Word("function", "STATUS(axis)", "0 free, 1 busy, 2 stopped at its rail, 3 stopped by a force."),
     "BEAM": Word(
         "function", "BEAM(arm)",
-        "1 if an object cuts the light beam of the arm's hand, 0 if not, as the hand answers.",
+        "The answer of the arm's hand: 1 if an object cuts the light beam of the hand, 0 if not.",
     ),
     "TIME": Word("function", "TIME", "Seconds since the program began."),
-    "NOT": Word("operator", "NOT condition", "The condition does not hold."),
-    "AND": Word("operator", "condition AND condition", "Both conditions hold. In WAIT: all these flags are set."),
-    "OR": Word("operator", "condition OR condition", "One of the conditions holds, or both."),
+    "NOT": Word("operator", "NOT condition", "True if the condition does not hold."),
+    "AND": Word(
+        "operator", "condition AND condition",
+        "True if both conditions hold. In WAIT: all these flags must be set.",
+    ),
+    "OR": Word("operator", "condition OR condition", "True if at least one of the conditions holds."),
 }  # fmt: skip
 STATEMENTS: Final = tuple(name for name, word in WORDS.items() if word.kind == "statement")
 FUNCTIONS: Final = tuple(name for name, word in WORDS.items() if word.kind == "function")

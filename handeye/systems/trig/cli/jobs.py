@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
 
 Seed = Annotated[
-    WholeNumber, Parameter(help="Seed of the world: it decides the errors of teaching, machine and blocks.")
+    WholeNumber,
+    Parameter(help="Seed of the world: it determines the errors of teaching, machine and blocks."),
 ]
 
 

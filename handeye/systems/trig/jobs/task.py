@@ -96,7 +96,7 @@ class Bucket(_BlocksTask):
     """Drop a block into a bucket, and put another one in its place."""
 
     name = "bucket"
-    words = Words(product="the bucket", done="The block is in the bucket, and another one is in its place.")
+    words = Words(product="the bucket", done="The block is in the bucket, and another block is in its place.")
 
     def judge(self, truth: Truth) -> Findings:
         seen = initial_scene(truth)

@@ -62,7 +62,7 @@ def here_relative(session: Session, given: Arguments) -> None:
     """SR: store, under a name, the offset from where the last step ended to the arm's present place."""
     start = session.program.ended_at
     if start is None:
-        raise Refused("no step has moved the arm yet; use CALPOS and ENDCAL, which measure any distance")
+        raise Refused("no step has moved the arm yet; to measure a distance, use CALPOS and ENDCAL")
     _define(session, given.position or "", session.arm.here().seen_from(start), relative=True)
 
 
@@ -74,7 +74,7 @@ def begin_way(session: Session, given: Arguments) -> None:
 def end_way(session: Session, given: Arguments) -> None:
     """ENDCAL: store, under a name, the offset from the place that CALPOS remembered to the arm's present place."""
     if session.origin is None:
-        raise Refused("type CALPOS first: it remembers the start")
+        raise Refused("type CALPOS first, to record the start")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)
     session.origin = None
 

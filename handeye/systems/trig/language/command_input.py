@@ -61,7 +61,9 @@ def command_of(word: str) -> TrigCommand:
     if command is not None:
         return command
     if upper in (*AXES, *ENDS):
-        raise BadArgument(f"{upper} is on the teach box, which works while M or FREE waits for it")
+        raise BadArgument(
+            f"{upper} is a control of the teach box, which works only while M or FREE is waiting"
+        )
     near = nearest(upper, [*COMMANDS, *SYNONYMS], max(1, len(upper) // 3)) if len(upper) > 1 else None
     raise NoSuchName(
         f"there is no command {quoted(word)}; " + (f"did you mean {near}?" if near else "HELP lists them")

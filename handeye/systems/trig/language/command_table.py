@@ -51,7 +51,7 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; if it is not defined, teach it, of the same kind as the previous move",
+        help="move to a position; a position that is not defined is taught, of the same kind as in the previous move",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
@@ -140,7 +140,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="P [COUNT]", group=CURSOR, takes=("count",), act=program_commands.previous_step,
-        help="go up COUNT steps; where a step has several parents, to the one that was active last",
+        help="go up COUNT steps; from a step with several parents, go to the parent that was active last",
     ),
     TrigCommand(
         usage="GOTO STEP", group=CURSOR, takes=("step",), needs=1, act=program_commands.goto, help="go to a named step"

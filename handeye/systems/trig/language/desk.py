@@ -97,7 +97,7 @@ def buttons(line: str) -> list[Button]:
             found.append(_jog(word, words))
             continue
         if words:
-            raise BadArgument(f"{word} ends the work with the teach box; {quoted(words[0])} is too late")
+            raise BadArgument(f"{word} ends the work with the teach box; remove {quoted(words[0])} after it")
         found.append(ENDS[word])
     return found
 

@@ -189,7 +189,8 @@ def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int)
     """
     if after not in graph.distances(target):
         raise Refused(
-            f"{graph[target].name} is not above the active step, and a loop must go back; use `L` to link to it"
+            f"{graph[target].name} is not above the active step, and a loop must go back; to link to a step below, "
+            "use `L`"
         )
     loop, bloop = graph.new("loop"), graph.new("bloop")
     loop.partner, bloop.partner, loop.wanted = bloop.id, loop.id, wanted

@@ -60,7 +60,7 @@ def run(session: Session, given: Arguments) -> None:
     """RUN: execute the whole program, or a number of steps, forwards or backwards."""
     if given.count == 0:
         raise BadArgument(
-            "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last one"
+            "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last executed step"
         )
     if given.count is not None and given.count < 0:
         session.desk.tell(told_run(session.runner.back(-given.count), back=True))
@@ -75,14 +75,14 @@ def told_run(ran: RunResult, *, back: bool = False) -> str:
     """Say in words how a run ended."""
     steps = f"{counted(ran.steps, 'step')} {'undone' if back else 'done'}"
     if ran.obstacle is not None:
-        return f"{steps}; the arm has stopped at the step before that: {told_obstacle(ran.obstacle)}"
+        return f"{steps}; the arm stopped while undoing the next earlier step: {told_obstacle(ran.obstacle)}"
     return {
         "count": steps,
         "none": f"{steps}; the program has ended",
-        "halted": f"{steps}; stopped: RUN with a number continues, with a minus goes back",
+        "halted": f"{steps}; stopped: RUN with a number continues, RUN with a negative number goes back",
         "beginning": f"{steps}; no earlier steps can be undone" if ran.steps else "there is nothing to undo",
-        "forgotten": f"{steps}; earlier steps have been forgotten",
-        "deleted": f"{steps}; the step before this has been deleted and cannot be undone",
+        "forgotten": f"{steps}; earlier steps are no longer recorded",
+        "deleted": f"{steps}; the next earlier step has been deleted and cannot be undone",
     }[ran.end]
 
 

@@ -85,7 +85,7 @@ class Session:
         node = self.program.active if node is None else node
         if node.type != "guarded":
             if given is not None:
-                raise Refused("n and g are branches of a guarded step, but this one is not guarded")
+                raise Refused("n and g are branches of a guarded step, but the active step is not guarded")
             return 0
         if given is not None:
             return given
@@ -103,10 +103,11 @@ class Session:
             target = self.program.graph[self.program.graph.step_at(active.sons[branch])]
             if target.name is None:
                 raise Refused(
-                    "a link leads from here to a step without a name; name it with N and CN, then use DLINK"
+                    "a link leads from here to a step without a name; name that step with N and CN, then remove the "
+                    "link with DLINK"
                 )
             raise Refused(
-                f"a link leads from here to {target.name}; remove it first with `DLINK {target.name}`"
+                f"a link leads from here to {target.name}; remove the link first with `DLINK {target.name}`"
             )
         return branch
 

@@ -25,7 +25,7 @@ def move(kind: Literal["absolute", "relative"] | None, *, guarded: bool = False)
         if given.position in session.program.positions:
             _to_known(session, given, kind, node, branch)
         elif given.negate:
-            raise Refused(f"-{given.position} has no opposite yet: {given.position} is not defined")
+            raise Refused(f"-{given.position} cannot be used yet, because {given.position} is not defined")
         else:
             relative = session.program.relative_by_default() if kind is None else kind == "relative"
             _to_taught(session, given.position, relative, node, branch)
@@ -84,7 +84,9 @@ def save(session: Session, given: Arguments) -> None:
         session.program.positions[name] = Position(relative=False, init=here, data=here)
     elif position.relative:
         check_no_opposite(session, name)
-        session.confirmed(f"{name} is relative. Make it the present, absolute place of the arm? ")
+        session.confirmed(
+            f"{name} is a relative position. Replace it with the present place of the arm, as an absolute position? "
+        )
         session.program.positions[name] = Position(relative=False, init=here, data=here)
     node = session.program.graph.new("savpos")
     node.position = name
@@ -156,7 +158,7 @@ def rename(session: Session, given: Arguments) -> None:
     if other is not None and other is not node:
         raise BadArgument(f"another step is called {name}; GOTO {name} shows which")
     if name.startswith("*"):
-        raise BadArgument("that is the name of the top; a step has a name such as GET-BLOCK")
+        raise BadArgument("only the top has a name that begins with `*`; choose a name such as GET-BLOCK")
     node.name = name
     session.program.changed = True
 
@@ -166,7 +168,9 @@ def change_position(session: Session, given: Arguments) -> None:
     node = active_step(session)
     position = session.position(given.position)
     if node.position is None:
-        raise Refused("the active step has no position to change: it neither moves nor saves one")
+        raise Refused(
+            "the active step has no position to change, because it neither goes to a position nor saves one"
+        )
     if node.type == "savpos" and position.relative:
         raise Refused(f"{given.position} is relative; SAVPOS saves an absolute place")
     node.position, node.negate = given.position, False
@@ -211,13 +215,16 @@ def unlink(session: Session, given: Arguments) -> None:
     if not branches:
         raise Refused(f"the active step does not lead to {target.name}")
     if len(graph.edges_into(entry)) == 1:
-        raise Refused(f"nothing else leads to {target.name}; `DA {target.name}` deletes it")
+        raise Refused(
+            f"no other step leads to {target.name}; to delete {target.name}, use `DA {target.name}`"
+        )
     branch = branches[0] if len(branches) == 1 and given.branch is None else session.branch(given.branch)
     if branch not in branches:
-        raise Refused(f"that branch does not lead to {target.name}")
+        raise Refused(f"the chosen branch does not lead to {target.name}")
     if not _reached_otherwise(program, node, branch, entry):
         raise Refused(
-            f"{target.name} can be reached from the top by this step only; `DA {target.name}` deletes it"
+            f"{target.name} can be reached from the top only through this step; to delete {target.name}, use "
+            f"`DA {target.name}`"
         )
     above = program.above(node.id)
     graph.attach(node.id, branch, NONE)

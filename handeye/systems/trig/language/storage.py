@@ -41,12 +41,12 @@ def _edge_faults(graph: Graph) -> Iterator[str]:
             yield f"step {id} is {node.type} and has {len(node.sons)} sons"
         for son in node.sons:
             if son != NONE and (son not in graph or son == TOP):
-                yield f"step {id} has a son {son} that does not exist"
+                yield f"step {id} leads to step {son}, which does not exist"
             elif son != NONE and id not in graph[son].fathers:
-                yield f"step {son} does not know its father {id}"
+                yield f"step {son} does not name its father {id}"
         for father in node.fathers:
             if father not in graph or id not in graph[father].sons:
-                yield f"step {id} has a father {father} who does not know it"
+                yield f"step {id} names the father {father}, which does not lead to it"
         if any(not 0 <= branch < len(node.sons) or node.sons[branch] == NONE for branch in node.links):
             yield f"step {id} has a link without a target"
     if graph[TOP].fathers:
@@ -84,16 +84,16 @@ def _step_faults(node: Node, positions: Positions) -> Iterator[str]:
     if node.name is not None and not (re.fullmatch(NAME, node.name) and len(node.name) <= LONGEST):
         yield f"step {node.id} has a name that is not valid"
     if node.name is not None and (not node.shown or node.type == "loop"):
-        yield f"step {node.id} is a {node.type} and has a name"
+        yield f"step {node.id} has a name, which a step of type {node.type} cannot have"
     position = positions.get(node.position or "")
     if (node.type in ("normal", "guarded", "savpos")) != (position is not None):
-        yield f"step {node.id} is {node.type} and {'has a' if position else 'lacks its'} position"
+        yield f"step {node.id}, of type {node.type}, {'must not have' if position else 'needs'} a position"
     elif position is not None and position.relative and node.type == "savpos":
         yield f"step {node.id} saves a relative position"
     elif position is not None and node.negate and not position.relative:
-        yield f"step {node.id} goes the other way of an absolute position"
+        yield f"step {node.id} uses the opposite of an absolute position, which does not exist"
     if (node.type == "guarded") != (node.threshold is not None and node.vector is not None):
-        yield f"step {node.id} is {node.type}, and threshold and force vector do not fit that"
+        yield f"the threshold and the force vector of step {node.id} do not fit its type, {node.type}"
     if node.threshold is not None and not node.threshold >= 0:
         yield f"step {node.id} has a threshold below 0"
 
@@ -289,7 +289,7 @@ def _node(fields: dict[str, object]) -> Node:
     )
     if (read.type == "loop") != (read.loop is not None):
         raise _Fault(
-            f"is not valid: step {read.id} is {read.type}, and {'says' if read.loop else 'lacks'} how it loops"
+            f"is not valid: step {read.id}, of type {read.type}, {'must not have' if read.loop else 'needs'} loop data"
         )
     if read.loop is not None:
         node.partner, node.wanted = read.loop.bloop, read.loop.wanted

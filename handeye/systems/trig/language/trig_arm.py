@@ -54,7 +54,7 @@ def told_obstacle(obstacle: Obstacle) -> str:
     match obstacle:
         case Resistance(force=force, limit=limit):
             felt, allowed = distinct_digits((force, limit), 1)
-            return f"the finger met {felt} N; going back, the limit is {allowed} N"
+            return f"the finger met a force of {felt} N; the limit while going back is {allowed} N"
         case HoldOff(gap=gap, kept=kept):
             now, then = distinct_digits((gap / MILLIMETRE, kept / MILLIMETRE), 1)
             return f"the fingers are {now} mm apart; on the way forward they were {then} mm apart"
@@ -62,7 +62,7 @@ def told_obstacle(obstacle: Obstacle) -> str:
             far, allowed = distinct_digits((off / SIZES[axis], limit / SIZES[axis]), 1)
             return f"{AXES[axis]} is {far} {UNITS[axis]} from its commanded place; the limit is {allowed}"
         case MissingContact():
-            return "on the way forward the finger met something here, but now it meets nothing"
+            return "on the way forward the finger met an object here, but now the finger meets nothing"
         case MissingSupport():
             return "the hand had picked up its part from a support here, but now there is no support"
 
@@ -76,7 +76,7 @@ class OutOfTravel(Refused):
     def __init__(self, axis: int, value: float, lower: float, upper: float) -> None:
         told = [f"{number / SIZES[axis]:.4g}" for number in (value, lower, upper)]
         super().__init__(
-            f"{AXES[axis]} would be {told[0]} {UNITS[axis]}; the arm goes from {told[1]} to {told[2]}"
+            f"{AXES[axis]} would be {told[0]} {UNITS[axis]}; its range is {told[1]} to {told[2]} {UNITS[axis]}"
         )
 
 

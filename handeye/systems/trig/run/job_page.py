@@ -103,7 +103,8 @@ def _drawn(done: JobReport) -> Markup:
         *_scatter("taken back, seen from above", back, None, _PANELS[1]),
         wide=_WIDE,
         high=_HIGH,
-        label="The blocks from above, and their position errors when placed and when taken back",
+        label="The blocks seen from above, and their position errors after they were placed and after they were put "
+        "back",
     )
 
 

@@ -242,7 +242,8 @@ class RunningJob(RunningSystem):
         state = self._state
         if choice == "skip" and state.undoing is not None:
             raise Refused(
-                "no step can be skipped while going back, because each starts where the last one ended: `proceed` "
+                "no step can be skipped while going back, because each step starts where the last step ended: "
+                "`proceed` "
                 "tries again, `abort` ends the run"
             )
         if state.undoing is None:

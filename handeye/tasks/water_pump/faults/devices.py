@@ -59,8 +59,8 @@ _FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
 _WITHIN_AGREEMENT: Final = (
-    "The two sensors of the joint agree within their errors, 2 % of a long motion, and near zero a factor has no "
-    "effect."
+    "A deviation of up to 2 % of a long motion is within the errors of the joint's two sensors, and near zero a "
+    "factor has no effect."
 )
 _WITHIN_SEARCHES: Final = "The searches and CENTER find parts in spite of small displacements."
 _WITHIN_DRIVES: Final = (
@@ -68,8 +68,8 @@ _WITHIN_DRIVES: Final = (
 )
 
 _WITHIN_WEIGHTS: Final = (
-    "Only joints 2 and 3 carry weight, and the arm knows their weights to 6 and 17 %. The arm takes an error that is "
-    "present from the start for the weight of the links."
+    "Only joints 2 and 3 carry weight, and the arm knows their weights to 6 and 17 %. The arm mistakes an error that "
+    "is present from the start for the weight of the links."
 )
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
 

@@ -194,13 +194,13 @@ class Mishaps(Mechanism[MishapsState]):
 
     def check(self, state: MishapsState) -> None:
         if len(state.mishaps) != len(self.due):
-            raise ValueError("other things happen in it")
+            raise ValueError("it has different faults")
         for (_, mishap), own in zip(self.due, state.mishaps, strict=True):
-            finite(own.place or (), "what happens in it")
+            finite(own.place or (), "a fault")
             if not 0 <= (own.seconds or 0.0) < np.inf:
-                raise ValueError("something happened in it when it cannot have")
+                raise ValueError("a fault has an impossible time")
             if (own.seconds is None or mishap.watched is None) != (own.place is None):
-                raise ValueError("something happened in it to another part")
+                raise ValueError("a fault belongs to a different part")
 
     def restore(self, state: MishapsState) -> None:
         self._states = list(state.mishaps)

@@ -58,7 +58,7 @@ def _make() -> Iterator[Quantity]:
     yield Quantity(
         name=SCREWS, unit="", distribution=Choice(tuple(map(float, MAKES))), nominal=float(USUAL),
         source="Number of screws, and of tapped holes: part of the job, not an error. It does not depend on seed or "
-               "level. The seventh screw and its hole belong to a later make of the pump, which the program of 1973 "
+               "level. The seventh screw and its hole belong to a later version of the pump, which the program of 1973 "
                "does not know.",
     )  # fmt: skip
 
@@ -154,12 +154,13 @@ def _parts() -> Iterator[Quantity]:
     )
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Position within the play of its guides or hole: uniform, within the play at the high level too. A pin "
+        "Position within the play of its guides or hole, uniformly distributed. The position stays within the play "
+        "at the level `high`, too. A pin "
         "has no play, because the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
-    masses = "Relative deviation of the masses of base and top from those of the drawing."
+    masses = "Relative deviation of the masses of base and top from their values in the drawing."
     cast = (
         "no drawing of the castings is known. Bound: 10 to 15 %, the tolerance of foundries for the wall thickness "
         "of sand castings (Badger Iron Works)."
