@@ -187,12 +187,10 @@ class _Reader(msgspec.Struct, gc=False):
                 raise Mistake("unknown-axis", message, letter.span, help="the axes are `X`, `Y` and `Z`")
         named = {letter.text for letter in letters}
         if _number(count) != len(letters) or len(named) != len(letters) or not letters:
-            stand = (
-                f"{len(named)} different axes are named"
-                if len(named) > 1
-                else f"{len(named) or 'no'} axis is named"
-            )
-            message = f"the number of axes is {quoted(count.text)}, but {stand}"
+            stand = ("no axis is", "one axis is", "two different axes are", "three different axes are")[
+                len(named)
+            ]
+            message = f"the number of axes is {quoted(count.text)}, but {stand} named"
             raise Mistake("axis-count", message, count.span, help=self.usage())
         self.at = len(self.tokens)
         return Vector(count.start, letters[-1].end, tuple(float(axis in named) for axis in AXES))

@@ -113,9 +113,7 @@ class CountWrong(SystemEvent, frozen=True, kw_only=True):
     off: float  # mm
 
     def sentence(self, measures: Measures) -> str:
-        return (
-            f"{self.axis} has lost steps: at the end of its rail, its count was {self.off:.2f} mm instead of 0"
-        )
+        return f"{self.axis} has lost steps: at the end of its rail, its count was {self.off:.2f} mm instead of 0"
 
 
 EVENTS = (
