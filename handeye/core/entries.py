@@ -23,6 +23,7 @@ OWN: Final = (
     "handeye.systems.stanford:ENTRY",
     "handeye.systems.trig:ENTRY",
     "handeye.systems.sigma:ENTRY",
+    "handeye.systems.ml:ENTRY",
 )  # need no installed metadata
 PLANNED: Final = "program"  # the system that executes plans of motions, which is meant where none is named
 

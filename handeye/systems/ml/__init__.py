@@ -1,2 +1,19 @@
 """MOS and ML (IBM, 1975): guarded motions in a language of numbered statements, above a real-time level that watches
 all sensors every ten milliseconds."""
+
+from handeye.core.entries import Entry
+
+ENTRY = Entry(
+    name="ml",
+    title="ML",
+    help="Run programs of guarded motions in ML, above a real-time level that watches every 10 ms (IBM, 1975).",
+    system="handeye.systems.ml.run.system:ML",
+    can=("levels", "console"),
+    reasons={
+        "plans": "`handeye ml run FILE.ml` runs its programs",
+        "undo": "its motions are not recorded; `back` in the stepper returns to an earlier state of the run",
+    },
+    tasks={"ml": "handeye.systems.ml.run.task:ML_TASK"},
+    languages={".ml": "handeye.systems.ml.language.language:LANGUAGE"},
+    events="handeye.systems.ml.happenings:EVENTS",
+)

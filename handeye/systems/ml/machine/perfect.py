@@ -136,8 +136,8 @@ class PerfectArm(Axes, Outputs):
             raise NoSuchName(f"the {self.name} arm has no {channel}; it has {', '.join(names)}")
         self.memory.switches[channel] = value
 
-    def remember(self, memory: PerfectMemory) -> None:
-        """Continue from a copy of a state. Raises BadFile if the state belongs to another arm."""
+    def remember(self, memory: PerfectMemory, cycles: int) -> None:
+        """Continue from a copy of a state, at a cycle. Raises BadFile if the state belongs to another arm."""
         count = len(self._specs)
         names = {each.name for each in self._channels}
         if (
@@ -147,6 +147,7 @@ class PerfectArm(Axes, Outputs):
         ):
             raise BadFile(f"the saved state does not belong to the {self.name} arm")
         put_back(self.memory, memory)
+        self._clock.cycles = cycles
 
 
 def perfect_machine(

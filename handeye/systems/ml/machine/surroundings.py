@@ -1,13 +1,15 @@
 """What the sensors of perfect motors sense: stimuli that are told beforehand, and outlines that the wand touches."""
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
 
 from handeye.core.record import Record
 
 Point = tuple[float, float]
+MOST_STIMULI: Final = 1000
+MOST_CORNERS: Final = 1000
 
 
 class Stimulus(Record, frozen=True, kw_only=True):

@@ -31,7 +31,7 @@ class RealTime(Cycles, Level):
         return self._memory
 
     def remember(self, memory: MutableRecord) -> None:
-        if not isinstance(memory, ArmMemory) or not _same_shape(memory, self._memory):
+        if not isinstance(memory, ArmMemory) or not _fits(memory, self._memory):
             raise BadFile("the saved state does not belong to this arm")
         put_back(self._memory, memory)
         self.bind()
@@ -210,9 +210,15 @@ class RealTime(Cycles, Level):
             raise MlError("M15", "outputs can be tested while the pump is off; it is on")
 
 
-def _same_shape(one: ArmMemory, other: ArmMemory) -> bool:
-    """Return True if two states have tables of the same sizes."""
-    return all(
-        not isinstance(table := getattr(one, name), list) or len(table) == len(getattr(other, name))
-        for name in one.__struct_fields__
+def _fits(memory: ArmMemory, own: ArmMemory) -> bool:
+    """Return True if a state has tables of the sizes of this arm's, and words that they can have."""
+    return (
+        all(
+            not isinstance(table := getattr(memory, name), list) or len(table) == len(getattr(own, name))
+            for name in memory.__struct_fields__
+        )
+        and memory.now >= 0
+        and 0 <= memory.AR[0].posted < len(POSTS)
+        and 0 <= memory.EM[0].cause < len(CAUSES)
+        and all(0 < lock.word <= len(memory.PI) for lock in memory.SF)
     )

@@ -1,0 +1,106 @@
+"""What a run drives: perfect motors, or a station with a job in it."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from handeye.core.errors import BadFile
+from handeye.core.variation import WorldSpec
+from handeye.execution.servo import ServoPeriod
+from handeye.ports.axes import Channel
+from handeye.program.events import SystemEvent
+from handeye.systems.ml.level import Side
+from handeye.systems.ml.machine.perfect import PerfectMemory, perfect_machine
+from handeye.systems.ml.realtime.machine import Machine
+from handeye.systems.ml.run.plan import MlPlan
+from handeye.tasks.interface import AnyTask
+
+if TYPE_CHECKING:  # programs run on perfect motors without a simulator
+    from handeye.cell.snapshot_cell import SnapshotCell
+
+Tell = Callable[[SystemEvent], None]
+
+
+class Ending(NamedTuple):
+    """The end of a run, as its job sees it."""
+
+    done: bool  # False: the operator is called
+    text: str
+
+
+class Hardware(ABC):
+    """A machine for a run, with what the run shows of it and what a job wants to know of the run."""
+
+    machine: Machine
+    joints: Sequence[str] = ()
+    channels: Sequence[Channel] = ()
+
+    @property
+    def cell(self) -> "SnapshotCell | None":
+        """The simulated cell, or None."""
+        return None
+
+    @property
+    def servo_period(self) -> ServoPeriod | None:
+        """The present state for traces; None if there is nothing to be seen."""
+        return None
+
+    @property
+    def memory(self) -> dict[Side, PerfectMemory]:
+        """The state that is not in the cell."""
+        return {}
+
+    def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:
+        """Continue from a copy of a state. Raises BadFile if it does not fit."""
+        if memory:
+            raise BadFile("the saved state is of perfect motors")
+
+    @abstractmethod
+    def signal(self, interlock: str, *, on: bool) -> None:
+        """Switch the signal of an interlock, as a person or a device of the room does. Raises NoSuchName."""
+
+    def hear(self, text: str) -> None:  # noqa: B027 - few jobs listen
+        """Take notice of a printed line."""
+
+    def ending(self, statement: int) -> Ending | None:
+        """Say whether the job is at its end after a statement."""
+        return None
+
+    @property
+    def figures(self) -> Mapping[str, float]:
+        """Further figures of the job."""
+        return {}
+
+
+class PerfectHardware(Hardware):
+    """Perfect motors."""
+
+    def __init__(self, plan: MlPlan, tell: Tell) -> None:
+        sides: tuple[Side, ...] = ("right",) if plan.left is None else ("right", "left")
+        self.machine, self._arms = perfect_machine(
+            tell, sides=sides, stimuli=plan.stimuli, outline=plan.outline
+        )
+
+    @property
+    def memory(self) -> dict[Side, PerfectMemory]:
+        return {side: arm.memory for side, arm in self._arms.items()}
+
+    def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:
+        if {*memory} != {*self._arms}:
+            raise BadFile("the saved state is of other arms")
+        for side, arm in self._arms.items():
+            arm.remember(memory[side], self.machine.now)
+
+    def signal(self, interlock: str, *, on: bool) -> None:
+        for arm in self._arms.values():
+            arm.switch(interlock, float(on))
+
+
+class StationTask(AnyTask):
+    """A task whose programs run on a simulated station."""
+
+    system: ClassVar[str] = "ml"
+
+    @abstractmethod
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        """Open the station of a plan in a world."""

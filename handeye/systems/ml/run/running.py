@@ -1,0 +1,363 @@
+"""An ML program during a run. A step is one statement with all the cycles that pass until another can be executed."""
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Final
+
+from handeye.core.entries import refusal
+from handeye.core.errors import BadFile, InvalidInput, Refused
+from handeye.core.plain_text import printable
+from handeye.core.versions import versions
+from handeye.execution.servo import Halted
+from handeye.execution.state import ReversalOrder
+from handeye.planfile.store import written_digest
+from handeye.ports.axes import Channel
+from handeye.ports.camera import Renderer
+from handeye.program.events import (
+    AnyEvent,
+    Choice,
+    LineTyped,
+    OperatorAnswered,
+    OperatorCalled,
+    RunFinished,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+    StepFinished,
+    StepStarted,
+    SystemEvent,
+)
+from handeye.program.system_state import SystemState, TaskPlace
+from handeye.runs.setup import Setup
+from handeye.runs.system import RunCallbacks, RunningSystem, Settable
+from handeye.systems.ml import ENTRY
+from handeye.systems.ml.arithmetic import HIGHEST, LOWEST
+from handeye.systems.ml.background.host import Host
+from handeye.systems.ml.background.interpreter import Interpreter
+from handeye.systems.ml.background.program import StoredProgram
+from handeye.systems.ml.errors import MlError
+from handeye.systems.ml.happenings import Printed
+from handeye.systems.ml.level import Side
+from handeye.systems.ml.machine.rectilinear import INTERLOCKS
+from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
+from handeye.systems.ml.run.hardware import Hardware, PerfectHardware, StationTask
+from handeye.systems.ml.run.plan import MlPlan, encode, listing, stored
+from handeye.systems.ml.run.state import MlState
+from handeye.systems.ml.tables.layout import SHAPES
+from handeye.tasks import any_task
+
+if TYPE_CHECKING:
+    from handeye.cell.snapshot_cell import SnapshotCell
+
+WATCHED: Final = 2  # cycles between two moments that a trace keeps
+
+
+class RunningMl(RunningSystem):
+    """Executes a program on the machine of its plan."""
+
+    trouble = None
+
+    def __init__(self, setup: Setup, around: RunCallbacks) -> None:
+        assert isinstance(setup.plan, MlPlan)
+        self._setup, self._around, self._plan = setup, around, setup.plan
+        self._listing = listing(setup.plan)
+        self._held: list[SystemEvent] | None = []  # events that are told later; None: they are told at once
+        self._hardware = self._open()
+        self.machine = self._hardware.machine
+        self.program = StoredProgram()
+        for number, line in stored(self._plan.name, self._plan.text).items():
+            self.program.store(number, line.statement)
+        self._host = Host()
+        self.interpreters: dict[Side, Interpreter] = {
+            side: Interpreter(side, self.machine.levels, self.program, self._tell, self._host, joystick=True)
+            for side in self.machine.levels
+        }
+        self._state = MlState(
+            program=self.program.memory,
+            background={side: each.memory for side, each in self.interpreters.items()},
+            machine=self.machine.memory,
+            perfect=self._hardware.memory,
+            texts=self._host.texts,
+        )
+
+    def _open(self) -> Hardware:
+        task = any_task(self._plan.task)
+        if isinstance(task, StationTask):
+            return task.hardware(self._plan, self._setup.world, self._tell)
+        return PerfectHardware(self._plan, self._tell)
+
+    @cached_property
+    def cell(self) -> "SnapshotCell | None":
+        return self._hardware.cell
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return tuple(self._hardware.joints)
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return tuple(self._hardware.channels)
+
+    @property
+    def state(self) -> MlState:
+        return self._state
+
+    @property
+    def time(self) -> float:
+        return self.machine.now / CYCLES_PER_SECOND
+
+    def _tell(self, event: SystemEvent) -> None:
+        if isinstance(event, Printed):
+            self._hardware.hear(event.text)
+        if self._held is None:
+            self._around.emit(event)
+        else:
+            self._held.append(event)
+
+    # -- going on -------------------------------------------------------------------------------------
+
+    def begin(self) -> Sequence[AnyEvent]:
+        plan = self._plan
+        started = RunStarted(
+            system=ENTRY.name, time=0.0, program=plan.name, steps=len(self._listing.steps),
+            plan=written_digest(encode(plan)), arm="", arm_digest="", world=self._setup.world,
+            camera=Renderer(method="none"), versions=versions(), task=self._setup.task,
+        )  # fmt: skip
+        for level in self.machine.levels.values():
+            level.enable()
+        self.interpreters["right"].run(plan.first)
+        if plan.left is not None:
+            self.interpreters["left"].run(plan.left)
+        self._stand()
+        early, self._held = self._held or [], None
+        return [started, *early]
+
+    def step(self) -> None:
+        state = self._state
+        assert state.at is not None
+        number, step = state.at, self._listing.steps[state.at]
+        if state.stage is None:
+            state.stage = 0
+            self._around.emit(StageStarted(time=self.time, stage=self._plan.name))
+        self._poll()
+        turn = self._next
+        assert turn is not None
+        text = self.program.memory.statements.get(turn.memory.at, step.text)
+        self._around.emit(StepStarted(time=self.time, step=number, line=turn.memory.at, text=text))
+        turn.statement()
+        state.statements += 1
+        self._pass()
+        self._around.emit(StepFinished(time=self.time, step=number, hand=None, planned=None, gap=None))
+        self._stand()
+        self._end(turn.memory.executing)
+        self._call()
+
+    def _poll(self) -> None:
+        if self._around.halt():
+            raise Halted
+
+    def _pass(self) -> None:
+        """Let cycles pass until a statement can be executed, or until all programs have ended."""
+        while (waiting := self._unfinished) and not any([each.ready() for each in waiting]):  # noqa: C419 - asks all
+            self._poll()
+            self.machine.cycle()
+            if self.machine.now % WATCHED == 0 and (period := self._hardware.servo_period) is not None:
+                self._around.watch(period)
+
+    @property
+    def _unfinished(self) -> list[Interpreter]:
+        return [each for each in self.interpreters.values() if each.running]
+
+    @property
+    def _next(self) -> Interpreter | None:
+        """The interpreter of the arm whose statement is executed next; None if there is none."""
+        standing = [each for each in self.interpreters.values() if each.memory.at]
+        return min(standing, key=lambda each: bool(each.memory.waits), default=None)
+
+    def _stand(self) -> None:
+        """Record where each arm is in the program."""
+        state, turn = self._state, self._next
+        at = {side: each.memory.at for side, each in self.interpreters.items() if each.memory.at}
+        several = len(self.interpreters) > 1
+        state.standing = [
+            TaskPlace(side if several else "", self._listing.step_of(at[side]), self._waits_for(side))
+            for side in sorted(at, key=lambda side: self.interpreters[side] is not turn)
+        ]
+        state.at = None if turn is None else self._listing.step_of(turn.memory.at)
+        if turn is None and not self._stopped:
+            self._close("done")
+
+    def _waits_for(self, side: Side) -> str:
+        waits = self.interpreters[side].memory.waits
+        return {"": "", "post": "the end of its motion", "until": "time", "joy": "a function key"}[waits]
+
+    @property
+    def _stopped(self) -> Interpreter | None:
+        """The interpreter whose program was stopped, if there is one."""
+        return next((each for each in self.interpreters.values() if each.memory.stopped), None)
+
+    def _end(self, executed: int) -> None:
+        """Ask the job whether it is at its end."""
+        ending = self._hardware.ending(executed) if self._stopped is None else None
+        if ending is None:
+            return
+        for each in self.interpreters.values():
+            each.end()
+        if ending.done:
+            self._stand()
+        else:
+            self._stop(ending.text, executed)
+
+    def _call(self) -> None:
+        """Call the operator if a program was stopped."""
+        if (stopped := self._stopped) is not None:
+            self._stop(stopped.memory.stopped, stopped.memory.executing)
+
+    def _stop(self, why: str, statement: int) -> None:
+        state = self._state
+        state.stopped = OperatorCalled(time=self.time, message=printable(why))
+        state.at, state.onward = None, self._listing.step_of(statement)
+        self._around.emit(state.stopped)
+
+    def _close(self, status: str) -> None:
+        if self._state.stage is not None:
+            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status=status))  # type: ignore[arg-type]
+            self._state.stage = None
+
+    def answer(self, choice: Choice) -> None:
+        """Follow the operator's answer: continue after the statement at which the program was stopped, repeat that
+        statement, or end the program. Arms that were stopped are enabled again.
+        """
+        state, stopped = self._state, self._stopped
+        state.stopped, state.onward = None, None
+        if choice == "skip":
+            for each in self.interpreters.values():
+                each.end()
+                each.memory.stopped = ""
+        elif stopped is not None:
+            self._held = []
+            try:
+                stopped.again(onward=choice == "proceed")
+            except MlError as error:
+                stopped.memory.stopped = str(error)
+        self._stand()
+        self._around.emit(OperatorAnswered(time=self.time, choice=choice, step=state.at))
+        self._release()
+        if choice == "skip":
+            self._close("skipped")
+        self._call()
+
+    def _release(self) -> None:
+        """Tell the events that were held back."""
+        held, self._held = self._held or [], None
+        for event in held:
+            self._around.emit(event)
+
+    def reverse(self, undoing: ReversalOrder) -> None:
+        raise refusal(ENTRY.name, "undo")
+
+    def type_line(self, text: str, task: str) -> None:
+        """Execute a line that is typed at the terminal between two statements, or store it."""
+        side = task or "right"
+        if side not in self.interpreters:
+            raise Refused(f"there is no {side} arm")
+        self._held = []
+        try:
+            self.interpreters[side].type_line(text)
+        except InvalidInput:
+            self._held = None
+            raise
+        self._around.emit(LineTyped(time=self.time, text=text, task=task))
+        self._release()
+        self._pass()
+        self._stand()
+        self._call()
+
+    def finish(self) -> bool:
+        completed = self._next is None and self._stopped is None and self._state.stopped is None
+        if not completed and self._state.stage is not None:  # which stays: results name it
+            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status="stopped"))
+        self._around.emit(RunFinished(time=self.time, completed=completed))
+        return completed
+
+    def restore(self, state: SystemState) -> None:
+        steps = len(self._listing.steps)
+        numbers = [state.at, state.onward, *(place.step for place in state.places)]
+        if (
+            not isinstance(state, MlState)
+            or {*state.background} != {*self.interpreters}
+            or any(number is not None and not 0 <= number < steps for number in numbers)
+            or state.stage not in (None, 0)
+        ):
+            raise BadFile("the state of the run does not fit this program")
+        self.machine.remember(state.machine)
+        self._hardware.remember(state.perfect)
+        self.program.remember(state.program)
+        self._host.texts.clear()
+        self._host.texts.update(state.texts)
+        for side, each in self.interpreters.items():
+            each.remember(state.background[side])
+        mine = self._state
+        mine.at, mine.stage, mine.stopped, mine.onward = state.at, state.stage, state.stopped, state.onward
+        mine.statements, mine.standing = state.statements, list(state.standing)
+        self._held = None
+
+    @property
+    def figures(self) -> Mapping[str, float]:
+        cycles = self.machine.memory.arms["right"].CY[0]
+        return {
+            "simulated_s": self.time,
+            "statements": self._state.statements,
+            "motions": cycles.goals + cycles.forces,
+            "force_events": cycles.forces,
+            **self._hardware.figures,
+        }
+
+    # -- display --------------------------------------------------------------------------------------
+
+    @property
+    def shown(self) -> Mapping[str, Any]:
+        variables = self.machine.memory.shared.VR
+        return {
+            "arms": {side: self._arm(side) for side in self.interpreters},
+            "variables": {str(n): value for n, value in enumerate(variables, 1) if value},
+            "statements": self._state.statements,
+        }
+
+    def _arm(self, side: Side) -> dict[str, Any]:
+        level = self.machine.levels[side]
+        return {
+            "pump": "on" if level.enabled else "off",
+            "flags": list(level.flags),
+            "positions": {str(motor): level.position(motor) for motor in level.motors},
+            "goals": {str(motor): level.goal(motor) for motor in level.motors},
+            "waits for": self._waits_for(side),
+        }
+
+    def settables(self) -> Mapping[str, Settable]:
+        names = tuple(str(number) for number in range(1, SHAPES["VR"].lines + 1))
+        locks = self.machine.memory.arms["right"].SF
+        return {
+            "variable": Settable(
+                noun="variable", usage="NUMBER n", names=names, units=(1.0,), fewest=1,
+                present=lambda name: (float(self.machine.memory.shared.VR[int(name) - 1]),),
+            ),
+            "interlock": Settable(
+                noun="interlock (1: it stops the arms)", usage="NAME n", names=INTERLOCKS, units=(1.0,), fewest=1,
+                present=lambda name: (float(locks[INTERLOCKS.index(name)].now),),
+            ),
+        }  # fmt: skip
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        settable = self.settables().get(what)
+        if settable is None or name not in settable.names or len(value) != 1:
+            raise Refused(f"{what} {name} cannot be set")
+        number = value[0]
+        if what == "interlock":
+            if number not in (0.0, 1.0):
+                raise Refused(f"an interlock is 0 or 1, not {number:g}")
+            self._hardware.signal(name, on=bool(number))
+        elif number != int(number) or not LOWEST <= number <= HIGHEST:
+            raise Refused(f"{number:g} is not an integer of 16 bits")
+        else:
+            self.machine.memory.shared.VR[int(name) - 1] = int(number)

@@ -1,0 +1,29 @@
+"""Defines the state of an ML run between two statements."""
+
+from msgspec import field
+
+from handeye.program.system_state import SystemState, TaskPlace
+from handeye.systems.ml.background.memory import BackgroundMemory
+from handeye.systems.ml.background.program import ProgramMemory
+from handeye.systems.ml.level import Side
+from handeye.systems.ml.machine.perfect import PerfectMemory
+from handeye.systems.ml.realtime.machine import MachineMemory
+
+
+class MlState(SystemState, kw_only=True):
+    """The complete state of a run: both levels, the stored program, and perfect motors. The state of a simulated arm
+    is in the cell.
+    """
+
+    program: ProgramMemory = field(default_factory=ProgramMemory)
+    background: dict[Side, BackgroundMemory] = field(default_factory=dict)
+    machine: MachineMemory = field(default_factory=MachineMemory)
+    perfect: dict[Side, PerfectMemory] = field(default_factory=dict)
+    texts: dict[str, str] = field(default_factory=dict)  # programs that the host keeps
+    statements: int = 0  # executed
+    standing: list[TaskPlace] = field(default_factory=list)
+    """The place of each arm's program that has not ended; the one whose turn it is comes first."""
+
+    @property
+    def places(self) -> tuple[TaskPlace, ...]:
+        return tuple(self.standing)

@@ -1,0 +1,81 @@
+"""Defines MOS and ML as a system. It builds runs, and provides the words for them."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from handeye.core.resources import plans
+from handeye.core.source import read_source
+from handeye.program.events import Choice
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.system import Listing, RunCallbacks, StepperWords, System
+from handeye.systems.ml import ENTRY
+from handeye.systems.ml.machine.spec import GRAM_FORCE, RANGE_COUNT
+from handeye.systems.ml.machine.surroundings import Stimulus
+from handeye.systems.ml.run.plan import MlPlan, decode, encode, listing, sound
+from handeye.systems.ml.run.running import RunningMl
+from handeye.systems.ml.run.state import MlState
+
+OWN: Final = "guarded_move.ml"  # the program that is run where none is named
+
+
+WORKED_EXAMPLE: Final = (
+    Stimulus(channel="right_strain_x", value=500 * GRAM_FORCE, motor=3, beyond=2750),
+    Stimulus(channel="left_strain_z", value=-700 * GRAM_FORCE),
+    Stimulus(channel="range", value=300 * RANGE_COUNT),
+)
+"""What the sensors sense in the paper's example: a force as y passes 2.750 in, a part in the hand, and a surface
+30 mm below it.
+"""
+
+
+class MlSystem(System):
+    """The system that executes ML programs on the machine of their plan."""
+
+    name = ENTRY.name
+    plan = MlPlan
+    state = MlState
+    words = StepperWords(
+        about=(
+            "A step is one statement with all its cycles of 10 ms; the arrow stands before the statement that comes",
+            "next. `type LINE` executes a line of ML between two statements, for example `type FILE MT 3 8 10`.",
+        ),
+        places=(
+            "PLACE is the number of a statement (288), or the first word of a statement (DMOTOR).",
+            "WHAT is one of",
+        ),
+        units="0.001 in, 0.01 deg, cycles of 10 ms",
+        commands={
+            "proceed": "enable the arm and continue after the statement at which the program was stopped",
+            "retry": "enable the arm and execute the statement again",
+            "skip": "end the program here",
+        },
+    )
+
+    def encode(self, plan: MlPlan) -> bytes:
+        return encode(plan)
+
+    def decode(self, data: bytes, name: str) -> MlPlan:
+        return decode(data, name)
+
+    def listing(self, plan: MlPlan) -> Listing:
+        return listing(plan)
+
+    def build(self, setup: Setup, around: RunCallbacks) -> RunningMl:
+        self.check(setup)
+        sound(setup.plan)  # type: ignore[arg-type]  # as `check` has found
+        return RunningMl(setup, around)
+
+    def own_plan(self, task: str) -> MlPlan:
+        text = read_source(plans() / OWN).text
+        return MlPlan(name=OWN, text=text, stimuli=WORKED_EXAMPLE)
+
+    def choices(self, runner: Runner) -> Mapping[Choice, str]:
+        return {
+            "proceed": "proceed: enable the arm, and continue after this statement",
+            "retry": "retry: enable the arm, and execute it again",
+            "skip": "skip: end the program here",
+        }
+
+
+ML: Final = MlSystem()
