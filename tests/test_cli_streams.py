@@ -72,6 +72,7 @@ CHEAP = {
     "trials base": "trials base --n ✓",
     "trials chess": "trials chess --n ✓",
     "trials handover": "trials handover --n ✓",
+    "trials insert": "trials insert --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

@@ -17,17 +17,20 @@ ENTRY = Entry(
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
 trials chess = handeye.systems.sigma.cli.chess:chess_trials: Sort chess pieces in many worlds: success rate, errors of heights and places.
 trials handover = handeye.systems.sigma.cli.handover:handover_trials: Hand pieces from arm to arm in many worlds: success rate, and errors of places.
+trials insert = handeye.systems.sigma.cli.insert:insert_trials: Find holes by force in many worlds: success rate, forces, and tries.
 """,  # noqa: E501 - a command a line
     tasks={
         "mal": "handeye.systems.sigma.run.task:MAL_TASK",
         "gantries": "handeye.systems.sigma.gantries.task:GANTRIES",
         "chess": "handeye.systems.sigma.chess.task:CHESS",
         "handover": "handeye.systems.sigma.handover.task:HANDOVER",
+        "insert": "handeye.systems.sigma.insert.task:INSERTION",
     },
     languages={".mal": "handeye.systems.sigma.mal.language:LANGUAGE"},
     sweeps={
         "chess": "handeye.systems.sigma.run.job_trials:CHESS_TRIALS",
         "handover": "handeye.systems.sigma.run.job_trials:HANDOVER_TRIALS",
+        "insert": "handeye.systems.sigma.run.job_trials:INSERTION_TRIALS",
     },
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

@@ -33,6 +33,7 @@ from handeye.systems.sigma.cli.chess import chess
 from handeye.systems.sigma.cli.crash import crash
 from handeye.systems.sigma.cli.diagnose import diagnose
 from handeye.systems.sigma.cli.handover import handover
+from handeye.systems.sigma.cli.insert import insert
 from handeye.systems.sigma.cli.moves import moves
 from handeye.systems.sigma.cli.table1 import table1
 from handeye.systems.sigma.mal.check import checked
@@ -265,7 +266,7 @@ def console(
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, words, axis, bus, crash, chess, handover, moves, table1, diagnose)
+_COMMANDS: Final = (run, check, words, axis, bus, crash, chess, handover, insert, moves, table1, diagnose)
 sigma.default(console)
 for _command in _COMMANDS:
     sigma.command(_command)

@@ -14,6 +14,7 @@ from handeye.systems.sigma.cli.jobs import (
     NumberOfBoards,
     carry_out,
     carry_out_trials,
+    job_or_own_plan,
 )
 
 Program = Annotated[
@@ -38,20 +39,10 @@ def handover(
     Exit code 0: right; 1: the program has stopped before its end, for example at a deadlock or because the arms
     collided; 3: it has ended, and the referee disagrees; 2: bad input; 130: interrupted.
     """
-    from handeye.core.source import read_source
-    from handeye.systems.sigma.cli.commands import reported
     from handeye.systems.sigma.handover.pieces import MOST
-    from handeye.systems.sigma.run.jobs import job_plan
-    from handeye.systems.sigma.run.plan import MalPlan, sound
 
-    plan = job_plan("handover", MOST)
-    if file is not None:
-        source = read_source(file)
-        if not reported(source):
-            return 2
-        plan = MalPlan(name=file.name, text=source.text, arm="gantries", job="handover", pieces=MOST)
-        sound(plan)
-    return carry_out(plan, seed, errors, options)
+    plan = job_or_own_plan("handover", MOST, file)
+    return 2 if plan is None else carry_out(plan, seed, errors, options)
 
 
 def handover_trials(

@@ -28,7 +28,7 @@ from handeye.core.errors import CannotWrite, InvalidInput
 
 if TYPE_CHECKING:
     from handeye.systems.sigma.run.job_trials import JobRow
-    from handeye.systems.sigma.run.plan import MalPlan
+    from handeye.systems.sigma.run.plan import JobName, MalPlan
     from handeye.trials.sweep import Sweep
 
 JobSeed = Annotated[
@@ -57,6 +57,24 @@ class JobOptions:
 
 
 ANY_RUN: Final = JobOptions()
+
+
+def job_or_own_plan(job: "JobName", pieces: int, file: Path | None) -> "MalPlan | None":
+    """Return the plan of a job's own program, or of the program in `file` for the same pieces. Prints the mistakes of
+    that program, and returns None if it has errors."""
+    from handeye.core.source import read_source
+    from handeye.systems.sigma.cli.commands import reported
+    from handeye.systems.sigma.run.jobs import job_plan
+    from handeye.systems.sigma.run.plan import MalPlan, sound
+
+    if file is None:
+        return job_plan(job, pieces)
+    source = read_source(file)
+    if not reported(source):
+        return None
+    plan = MalPlan(name=file.name, text=source.text, arm="gantries", job=job, pieces=pieces)
+    sound(plan)
+    return plan
 
 
 def carry_out(plan: "MalPlan", seed: int, errors: OwnErrorOptions, options: JobOptions) -> int:

@@ -25,6 +25,8 @@ State = Literal["still", "moving", "stopping", "seeking", "turning", "releasing"
 """State of a motor; ORIGIN goes through `seeking` the low end of the rail, `turning` there, and `releasing` its
 switch.
 """
+COUNTING: Final[frozenset[State]] = frozenset({"still", "moving", "stopping"})
+"""States in which the count of a motor stays valid."""
 _BITS: Final = 16
 REST: Final = 20_000  # microseconds in which a rotor comes to rest before ORIGIN turns it round
 

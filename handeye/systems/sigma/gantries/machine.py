@@ -24,7 +24,7 @@ from handeye.ports.workcell import Sensed
 from handeye.systems.sigma.bus.plant import TRAVEL, Level, Plant
 from handeye.systems.sigma.firmware.device import PS
 from handeye.systems.sigma.firmware.force import CONVERTER_N, RELEASED, STANDARD_N
-from handeye.systems.sigma.firmware.motor import Motor, Pin
+from handeye.systems.sigma.firmware.motor import COUNTING, Motor, Pin
 from handeye.systems.sigma.gantries.memory import GantryMemory
 from handeye.systems.sigma.gantries.world import (
     BEAM,
@@ -53,6 +53,7 @@ _HAND_KG: Final = 1.2  # as the accelerometers are set
 _STIFFNESS: Final = 20_000.0  # N/m of a wrist, as the strain gauges are set
 _DAMPING: Final = 92.95  # N s/m
 _GRAVITY: Final = 9.81
+_SUNK: Final = 1e-3  # m by which the lamp lies in its finger, so that an object in the grip is before it
 _FINGER: Final = 2e-4  # m by which a ray may end before the photodiode: it meets the other finger
 _SENSE: Final = np.array([1.0, 1.0, -1.0, -1.0, 1.0, -1.0])  # of each axis along x, y or z of the scene
 _AXIS: Final = {NUMBERS[axis]: index for index, axis in enumerate(AXES)}
@@ -123,6 +124,7 @@ class Gantries(Plant[GantryMemory]):
         self._over = np.full(_N, _least_over(STANDARD_N))
         self._release = np.full(_N, _least_over(STANDARD_N * RELEASED))
         self._trains: list[object] = [None] * _N
+        self._motors: list[Motor | None] = [None] * _N
         self._fields = [Field(0, np.zeros(1), np.zeros(1))] * _N
         self._first = self._step = 0
         self._peaks = np.zeros(_N)
@@ -155,11 +157,11 @@ class Gantries(Plant[GantryMemory]):
 
     def beam(self, number: int) -> bool:
         model, data, arm = self.bench.model, self.bench.data, ARMS[_HAND[number]]
-        lamp = data.site(f"lamp_{arm}").xpos
-        way = data.site(f"photodiode_{arm}").xpos - lamp
-        length = float(np.linalg.norm(way))
+        way = -data.body(f"left_{arm}").xmat.reshape(3, 3)[:, 1]  # from the left finger to the right one
+        lamp, photodiode = data.site(f"lamp_{arm}").xpos, data.site(f"photodiode_{arm}").xpos
+        length = float((photodiode - lamp) @ way) + _SUNK
         body, met = model.body(f"left_{arm}").id, np.zeros(1, dtype=np.int32)
-        far = mujoco.mj_ray(model, data, lamp, way / length, None, True, body, met)
+        far = mujoco.mj_ray(model, data, lamp - _SUNK * way, way, None, True, body, met)
         return bool(0 <= far < length - _FINGER)
 
     def actuate(self, number: int, devices: Sequence[int]) -> None:
@@ -178,6 +180,7 @@ class Gantries(Plant[GantryMemory]):
     def driven(self, number: int, motor: Motor) -> None:
         index, memory = _AXIS[number], motor.memory
         train = memory.train, memory.began, memory.pulses
+        self._motors[index] = motor
         if self._trains[index] != train:
             self._trains[index], self._fields[index] = train, _field(motor, self._step)
             self._plan()
@@ -194,6 +197,11 @@ class Gantries(Plant[GantryMemory]):
     def places(self) -> Array:
         """True position of each axis (steps from its low switch, shape (6,))."""
         return np.asarray((self.bench.data.qpos[self._q] - self._low) / STEP)
+
+    @property
+    def counting(self) -> tuple[bool, ...]:
+        """For each axis, False while it searches the end of its rail, because its count begins there."""
+        return tuple(motor is not None and motor.memory.state in COUNTING for motor in self._motors)
 
     @property
     def felt(self) -> Array:
@@ -251,10 +259,10 @@ class Gantries(Plant[GantryMemory]):
         self._ranges[:, :, 0], self._ranges[:, :, 1] = -pull, pull
         strains = np.maximum(STEP, pull / self._stiff)  # m of lag from which on a pole holds less
         over, under, high, low = np.frombuffer(self.memory.levels, bool).reshape(_LEVELS // _N, _N)
-        forces = [np.where(acts, self._release, self._over) for acts in (over, under)]
+        force = np.where(over | under, self._release, self._over)  # a force may reverse within a step
         ends = self._high - DIFFERENTIAL * high, DIFFERENTIAL * ~low - self._low
         self._limits = np.empty((rows, _ALL))
-        self._limits[:, :_LEVELS] = np.concatenate((*forces, *ends))
+        self._limits[:, :_LEVELS] = np.concatenate((force, force, *ends))
         self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + strains, strains - places
 
     def _draw(self) -> None:

@@ -110,3 +110,4 @@ def _sweep(job: JobName) -> Sweep[JobRow]:
 
 CHESS_TRIALS: Final = _sweep("chess")
 HANDOVER_TRIALS: Final = _sweep("handover")
+INSERTION_TRIALS: Final = _sweep("insert")
