@@ -1,4 +1,4 @@
-"""The insertion: pegs are squared in the rack, and their holes are found by force; referee, planted mistakes, commands."""
+"""The insertion: pegs squared in the rack, holes found by force; the referee, planted mistakes, commands."""
 
 import json
 from collections.abc import Callable
@@ -57,7 +57,10 @@ def judged(runner: Runner) -> Findings:
 
 def test_pegs_are_drawn_turned_and_plates_up_to_3_mm_beside_their_places() -> None:
     pegs = [peg for seed in range(40) for peg in drawn(GantryWorld(WorldSpec(seed=seed)), MOST)]
-    off = [np.hypot(p.plate_x - 100 - 400 * (n % 2), p.plate_y - 100 - 180 * (n % 4 // 2)) for n, p in enumerate(pegs)]
+    off = [
+        np.hypot(p.plate_x - 100 - 400 * (n % 2), p.plate_y - 100 - 180 * (n % 4 // 2))
+        for n, p in enumerate(pegs)
+    ]
     assert 0.9 * OFF < max(off) <= OFF + 0.01
     assert 0.9 * TURNED < max(abs(peg.turned) for peg in pegs) <= TURNED
     with pytest.raises(BadArgument, match="an insertion has 1 to 4 pegs, not 5"):
@@ -81,7 +84,9 @@ def test_two_pushes_against_a_corner_square_a_peg(turned: float) -> None:
 
 @pytest.mark.slow
 def test_a_program_that_counts_a_peg_on_top_of_its_plate_fails_in_silence() -> None:
-    never = ONE.replace("> 3 THEN", "> 300 THEN").replace("< 3 THEN", "< 300 THEN").replace("BY 0.6", "BY 0.1")
+    never = (
+        ONE.replace("> 3 THEN", "> 300 THEN").replace("< 3 THEN", "< 300 THEN").replace("BY 0.6", "BY 0.1")
+    )
     runner = begun(never.replace("MOVE Z1 TO BOARD - GRIP - 1.2 SLOW 30", "REM"))
     result = ended(runner)
     assert (result.exit_code, {"at_depth", "counted"} <= {*wrong(judged(runner))}) == (3, True)
@@ -89,7 +94,9 @@ def test_a_program_that_counts_a_peg_on_top_of_its_plate_fails_in_silence() -> N
 
 @pytest.mark.slow
 def test_at_the_rack_no_order_of_the_tasks_is_a_deadlock_or_a_race() -> None:
-    result = interleavings(program_of("test.mal", TEXT), 50_000)  # beams read 0, so that no peg is carried away
+    result = interleavings(
+        program_of("test.mal", TEXT), 50_000
+    )  # beams read 0, so that no peg is carried away
     assert (result.complete, result.findings) == (True, ())
     shared = "\n".join(line for line in TEXT.splitlines() if "TAKE" not in line)
     assert "hands" in {each.kind for each in interleavings(program_of("test.mal", shared), 1_000).findings}
@@ -145,7 +152,7 @@ def test_the_result_of_a_users_own_program_has_the_fields_of_an_assembly(
 ) -> None:
     file = tmp_path / "own.mal"
     file.write_text('10 PRINT "PEGS", 0\n', encoding="utf-8")
-    code, out, _ = command("sigma", "insert", str(file), *"--seed 3 --no-keep --json".split())
+    code, out, _ = command("sigma", "insert", str(file), *["--seed", "3", "--no-keep", "--json"])
     found = json.loads(out)
     assert (code, found["assembled"], found["completed"], found["task"]) == (3, False, True, "insert")
     assert [name for name, each in found["referee"].items() if not each["ok"]] == ["in_the_hole"]

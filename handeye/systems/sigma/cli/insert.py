@@ -21,7 +21,9 @@ from handeye.systems.sigma.cli.jobs import (
 )
 
 USUAL = 4
-Pegs = Annotated[WholeNumber, Parameter(help=f"Number of pegs, 1 to {USUAL}; the arms take turns at the rack.")]
+Pegs = Annotated[
+    WholeNumber, Parameter(help=f"Number of pegs, 1 to {USUAL}; the arms take turns at the rack.")
+]
 
 
 def insert(

@@ -87,7 +87,9 @@ def stand(spec: mujoco.MjSpec, pegs: tuple[Peg, ...]) -> None:
             style, type=box, size=[SIDE / 2000, SIDE / 2000, HIGH / 2000], density=_PEG_DENSITY,
             rgba=[0.86, 0.62, 0.20, 1],
         )  # fmt: skip
-        plate = spec.worldbody.add_body(name=peg.plate, pos=[peg.plate_x / 1000, peg.plate_y / 1000, THICK / 2000])
+        plate = spec.worldbody.add_body(
+            name=peg.plate, pos=[peg.plate_x / 1000, peg.plate_y / 1000, THICK / 2000]
+        )
         plate.add_freejoint(name=peg.plate)
         for sign in (-1, 1):
             for size, pos in (

@@ -1,5 +1,5 @@
-"""The insertion as a task: the referee checks that the pegs counted by the program are in their holes, that no plate has
-moved, that no force was too great, and that no motor has lost a step.
+"""The insertion as a task: the referee checks that the pegs counted by the program are in their holes, that no plate
+has moved, that no force was too great, and that no motor has lost a step.
 """
 
 from __future__ import annotations
@@ -51,18 +51,23 @@ class Insertion(JobTask):
             proud.append(abs(z - HIGH / 2))
             beside.append(hypot(x - hole_x, y - hole_y))
             moved.append(hypot(hole_x - peg.plate_x, hole_y - peg.plate_y))
-        inserted = sum(
-            high <= PROUD and far <= _IN_HOLE for high, far in zip(proud, beside, strict=True)
-        )
+        inserted = sum(high <= PROUD and far <= _IN_HOLE for high, far in zip(proud, beside, strict=True))
         counted = 0 if watched.counted is None else watched.counted
         return {
-            "at_depth": at_most(max(proud), PROUD, "mm", "greatest height of a peg over the floor of its hole"),
-            "in_the_hole": at_most(max(beside), _IN_HOLE, "mm", "greatest distance of a peg from the middle of its hole"),
+            "at_depth": at_most(
+                max(proud), PROUD, "mm", "greatest height of a peg over the floor of its hole"
+            ),
+            "in_the_hole": at_most(
+                max(beside), _IN_HOLE, "mm", "greatest distance of a peg from the middle of its hole"
+            ),
             "plates": at_most(max(moved), MOVED, "mm", "greatest distance by which a plate has moved"),
             "force": at_most(watched.most_n, FORCE, "N", "greatest force in a wrist"),
             "steps": at_most(watched.lost * POLE, 0, "steps", "number of steps that motors have lost"),
             "counted": at_most(
-                abs(counted - inserted), 0, "pegs", "difference between the program's count and the inserted pegs"
+                abs(counted - inserted),
+                0,
+                "pegs",
+                "difference between the program's count and the inserted pegs",
             ),
             "apart": at_most(watched.touched_ms, 0, "ms", "time for which the arms touched each other"),
         }

@@ -9,7 +9,11 @@ from handeye.runs.setup import Setup
 from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.run.plan import JobName, MalPlan
 
-PROGRAMS: Final[dict[JobName, str]] = {"chess": "chess.mal", "handover": "handover_pieces.mal", "insert": "insert.mal"}
+PROGRAMS: Final[dict[JobName, str]] = {
+    "chess": "chess.mal",
+    "handover": "handover_pieces.mal",
+    "insert": "insert.mal",
+}
 
 
 def job_plan(job: JobName, pieces: int) -> MalPlan:
