@@ -37,6 +37,12 @@ def test_a_slide_ends_where_it_was_sent_at_no_more_than_20_cm_s() -> None:
     assert arm.arms["right"].memory.q[2] == pytest.approx(0.0508)
 
 
+def test_a_motion_within_the_tolerance_is_executed_to_its_end() -> None:
+    arm = rig()
+    assert arm.move({3: 5}) == 2
+    assert arm.arms["right"].memory.q[2] == pytest.approx(5 * 25.4e-6)
+
+
 @pytest.mark.ml_row(11)
 def test_yaw_turns_by_hundredths_of_a_degree() -> None:
     arm = rig()
@@ -250,13 +256,13 @@ def test_a_motion_whose_motors_do_not_come_to_their_goals_is_an_emergency() -> N
     assert (arm.right.posted, arm.right.stopped) == ("emergency", "the motors do not reach their goals")
 
 
-def test_a_calibrated_sensor_reads_zero_where_it_was() -> None:
-    arm = rig(pressed(37))
-    arm.pass_cycles(8)
-    assert arm.right.reading(5) == 37
+def test_a_calibrated_sensor_has_the_mean_of_its_last_8_readings_as_zero() -> None:
+    arm = rig(pressed(1000, until=4), pressed(36, since=4, until=8), pressed(40, since=8))
+    arm.pass_cycles(12)
+    assert arm.right.reading(5) == 40
     arm.right.calibrate([])
     arm.pass_cycles(1)
-    assert (arm.right.reading(5), arm.right.read("ST", 5, 6)) == (0, 37)
+    assert (arm.right.reading(5), arm.right.read("ST", 5, 6)) == (2, 38)
 
 
 def test_the_wand_can_be_any_sensor() -> None:

@@ -90,6 +90,13 @@ def test_a_strategic_goal_that_is_written_moves_the_motor() -> None:
     assert arm.right.position(3) == 300
 
 
+def test_a_strategic_goal_that_is_written_beyond_the_travel_is_not_followed_there() -> None:
+    arm = rig()
+    arm.right.write("MT", 11, 4, -500)
+    arm.pass_cycles(10)
+    assert arm.right.position(11) == 0
+
+
 def test_a_tactical_goal_that_is_written_is_where_the_set_point_goes_on() -> None:
     arm = rig()
     arm.right.start({3: 4000})

@@ -31,6 +31,7 @@ from handeye.systems.ml.realtime.sampling import (
 from handeye.systems.ml.tables.layout import RECENT
 from handeye.systems.ml.tables.records import (
     AT_GOAL,
+    BOTH_OPEN,
     FROZEN,
     INSTALLED,
     LOWER_OPEN,
@@ -127,11 +128,12 @@ class Cycles:
                 line.earlier, line.last = line.last, line.position
                 point = line.input - 1
                 count = memory.AI[point] if 0 <= point < len(memory.AI) else 0
-                line.position = saturated(scaled(count, line) - line.offset)
+                position = scaled(count, line)
+                line.position = saturated(position - line.offset) if line.offset else position
             at = self.now // self.spec.every % RECENT
             for number, sensor in enumerate(memory.ST):
                 memory.CA[number * RECENT + at] = value = sensed(sensor, memory.AI, memory.DI)
-                sensor.reading = saturated(value - sensor.offset)
+                sensor.reading = saturated(value - sensor.offset) if sensor.offset else value
         except ProgramCheck:
             checked = True
         memory.PI[0] = packed(
@@ -194,6 +196,8 @@ class Cycles:
         """Advance the tactical goal of a motor; return False if it stays where it is."""
         memory, n = self._memory, motor.number - 1
         was = memory.fine[n]
+        if was == HUNDREDTHS * line.tactical == HUNDREDTHS * line.strategic:
+            return False
         if line.tactical != round(was / HUNDREDTHS):  # a program has written it
             was = HUNDREDTHS * line.tactical
         pace = min(max(line.speed, 0) * HUNDREDTHS, memory.pace[n] or motor.peak)
@@ -286,7 +290,9 @@ class Cycles:
 
 def _leaves(sensor: SensorLine) -> bool:
     """Return True if the flag of a sensor is off, and its reading is outside its expected limits."""
-    return not sensor.flag and outside(sensor.reading, sensor.lower, sensor.upper, sensor.open)
+    if sensor.flag or sensor.open == BOTH_OPEN:
+        return False
+    return outside(sensor.reading, sensor.lower, sensor.upper, sensor.open)
 
 
 def _arrived(line: MotorLine, fine: int) -> bool:

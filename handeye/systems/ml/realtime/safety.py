@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 
 from handeye.systems.ml.machine.spec import ArmSpec
 from handeye.systems.ml.realtime.sampling import outside
+from handeye.systems.ml.tables.records import BOTH_OPEN
 from handeye.systems.ml.tables.store import ArmMemory
 
 CAUSES: Final = ("", "PROGRAM", "SENSOR", "PANIC", "INTERLOCK", "CLASS", "STUCK")
@@ -37,7 +38,9 @@ def danger(memory: ArmMemory, spec: ArmSpec) -> Danger | None:
         if lock.now:
             return Danger(_INTERLOCKS[name][0], number)
     for number, sensor in enumerate(memory.ST, 1):
-        if outside(sensor.reading, sensor.lower_emergency, sensor.upper_emergency, sensor.emergency_open):
+        if sensor.emergency_open != BOTH_OPEN and outside(
+            sensor.reading, sensor.lower_emergency, sensor.upper_emergency, sensor.emergency_open
+        ):
             return Danger("SENSOR", number)
     return None
 

@@ -23,7 +23,8 @@ class ProgramCheck(Exception):
 
 def saturated(value: float) -> int:
     """Return the word nearest to a value."""
-    return min(max(round(value), LOWEST), HIGHEST)
+    word = round(value)
+    return word if LOWEST <= word <= HIGHEST else LOWEST if word < 0 else HIGHEST
 
 
 def packed(bits: Sequence[object]) -> int:
@@ -45,6 +46,8 @@ def sensed(line: SensorLine, analog: Sequence[int], digital: Sequence[int]) -> i
     """Return the reading of a logical sensor before its offset is subtracted; 0 if it is not connected. Raises
     ProgramCheck.
     """
+    if not line.input:
+        return 0
     point = line.input - 1
     if line.kind == ANALOG:
         count = analog[point] if 0 <= point < len(analog) else 0
