@@ -1,10 +1,17 @@
 """The executable specification of the guarded move, and the machine beside it."""
 
+import doctest
+import re
+from pathlib import Path
+from typing import Final
+
 import pytest
 from drawn_programs import compared, first_difference
+from run_bench import program
 
 from handeye.systems.ml.guarded import Branch, Delay, Motion, Sensor, State, branch, execute
 
+PAGE: Final = Path(__file__).parents[3] / "docs/guarded_moves.md"
 SPEEDS = {2: 7874, 3: 7874}
 START = State.at({2: 0, 3: 0})
 
@@ -56,3 +63,14 @@ def test_specification_and_machine_share_no_code() -> None:
 
     with open(guarded.__file__, encoding="utf-8") as file:
         assert "handeye" not in [line.split()[1].split(".")[0] for line in file if line.startswith("from ")]
+
+
+def test_the_page_on_guarded_moves_shows_what_is_so() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    blocks = re.findall(r"```pycon\n(.*?)```", text, re.DOTALL)
+    test = doctest.DocTestParser().get_doctest("".join(blocks), {}, PAGE.name, None, 0)
+    said: list[str] = []
+    assert not doctest.DocTestRunner().run(test, out=said.append).failed, "".join(said)
+    statements = re.search(r"```\n(200 SENSOR.*?)```", text, re.DOTALL)
+    assert statements is not None
+    assert statements[1] in program("guarded_move")

@@ -43,6 +43,24 @@ def test_a_motion_within_the_tolerance_is_executed_to_its_end() -> None:
     assert arm.arms["right"].memory.q[2] == pytest.approx(5 * 25.4e-6)
 
 
+def test_a_motion_ends_when_the_motors_that_lag_are_within_the_tolerance(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    arm = rig()
+    motors = arm.arms["right"].memory
+
+    def lag() -> None:
+        motors.q = [q + (goal - q) / 2 for q, goal in zip(motors.q, motors.goal, strict=True)]
+
+    monkeypatch.setattr(arm.arms["right"], "arrive", lag)
+    arm.right.start({3: 1000})
+    distances = []
+    while not arm.right.posted:
+        arm.machine.cycle()
+        distances.append(1000 - arm.right.position(3))
+    assert distances[-1] <= 6 < distances[-2]
+
+
 @pytest.mark.ml_row(11)
 def test_yaw_turns_by_hundredths_of_a_degree() -> None:
     arm = rig()

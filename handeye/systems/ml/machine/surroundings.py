@@ -34,9 +34,14 @@ class Stimulus(Record, frozen=True, kw_only=True):
 
 
 def inside(outline: Sequence[Point], at: Point) -> bool:
-    """Return True if a point is inside an outline, which is closed and does not cross itself."""
+    """Return True if a point is inside an outline, which is closed and does not cross itself. A point on the outline
+    is not inside.
+    """
     (y, x), within = at, False
     for (y1, x1), (y2, x2) in zip(outline, [*outline[1:], outline[0]], strict=True):
-        if (x1 > x) != (x2 > x) and y < y1 + (x - x1) * (y2 - y1) / (x2 - x1):
+        side = (x - x1) * (y2 - y1) - (y - y1) * (x2 - x1)
+        if side == 0 and min(x1, x2) <= x <= max(x1, x2) and min(y1, y2) <= y <= max(y1, y2):
+            return False
+        if (x1 > x) != (x2 > x) and (side > 0) == (x2 > x1):
             within = not within
     return within

@@ -331,6 +331,11 @@ class RunningMl(RunningSystem):
             "flags": list(level.flags),
             "positions": {str(motor): level.position(motor) for motor in level.motors},
             "goals": {str(motor): level.goal(motor) for motor in level.motors},
+            "sensors": {
+                str(number): [line.reading, *((line.lower, line.upper) if not line.open else ())]
+                for number, line in enumerate(level.memory.ST, 1)
+                if line.input
+            },
             "waits for": self._waits_for(side),
         }
 
