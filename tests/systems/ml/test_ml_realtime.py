@@ -166,6 +166,7 @@ def test_an_event_half_way_stops_all_motors() -> None:
     arm.right.expect(5, -178, 450)
     arm.move({3: 2000, 9: 4000, 2: -2000})
     held = {motor: arm.right.position(motor) for motor in (2, 3, 9)}
+    assert arm.arms["right"].memory.q[2] == pytest.approx(held[3] * 25.4e-6)  # already in this cycle
     arm.pass_cycles(50)
     assert {motor: arm.right.position(motor) for motor in (2, 3, 9)} == held
     assert 1000 <= held[3] <= 1079
