@@ -83,6 +83,9 @@ GROUPS: Final = {
     "A bus of microcomputers": {
         "handeye.Microbus": "systems.sigma.microbus_api.Microbus",
     },
+    "A terminal of ML": {
+        "handeye.Ml": "systems.ml.ml_api.Ml",
+    },
     "Vision": {
         "handeye.vision.Scan": "vision.scan.Scan",
         "handeye.vision.beams": "vision.door.beams",

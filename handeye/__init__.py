@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     )
     from handeye.judge.finding import Finding, at_least, at_most
     from handeye.results.result import Result
+    from handeye.systems.ml.ml_api import Ml
     from handeye.systems.sigma.microbus_api import Microbus
     from handeye.systems.trig.session_api import TrigSession
     from handeye.tasks.interface import Task
@@ -52,6 +53,7 @@ __all__ = [
     "HandeyeError",
     "InvalidInput",
     "Microbus",
+    "Ml",
     "NoSuchName",
     "PhysicsFailed",
     "Plan",
@@ -89,6 +91,7 @@ _HOMES = {
     "HandeyeError": "handeye.core.errors",
     "InvalidInput": "handeye.core.errors",
     "Microbus": "handeye.systems.sigma.microbus_api",
+    "Ml": "handeye.systems.ml.ml_api",
     "NoSuchName": "handeye.core.errors",
     "PhysicsFailed": "handeye.core.errors",
     "Plan": "handeye.api.plans",

@@ -49,6 +49,7 @@ CHEAP = {
     "dismantle": "dismantle ✓",
     "trig": "trig ✓.trig.json",
     "sigma": "sigma ✓.mal",
+    "ml": "ml ✓.ml",
     "docs": "docs ✓",
     "demo": "demo -o ✓",
     "compare": "compare ✓ ✓",

@@ -1,8 +1,9 @@
 """Pages that a reader can follow from a shell: files to write, commands to type, and what these print.
 
-A block `al NAME`, `toml NAME` or `mal NAME` is a file. A block without a language holds commands behind `$ `, each with
-what it prints; `...` stands for lines left out, and where nothing is shown, all is. A command with `--step` begins a
-session, whose commands stand behind `handeye> `, there and in later blocks. Other languages are not looked at.
+A block `al NAME` is a file, and so are those of `toml`, `mal`, `ml` and `sym`. A block without a language holds
+commands behind `$ `, each with what it prints; `...` stands for lines left out, and where nothing is shown, all is.
+A command with `--step` begins a session, whose commands stand behind `handeye> `, there and in later blocks; lines
+typed at the terminal of ML stand behind `READY `. Other languages are not looked at.
 """
 
 import re
@@ -13,7 +14,7 @@ from pathlib import Path
 from figures import as_recorded
 
 BLOCK = re.compile(r"^```(\w*)(?: (\S+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-PROMPTS = r"\$ |handeye> "
+PROMPTS = r"\$ |handeye> |READY "
 TYPED = re.compile(rf"^({PROMPTS})(.*)\n((?:(?!{PROMPTS}).*\n)*)", re.MULTILINE)
 LEFT_OUT = "..."
 Answer = Callable[[str], tuple[int, str]]
@@ -59,7 +60,7 @@ def walked(page: str, command: Answer, said: Answer | None = None) -> list[Typed
     found = []
     for block in BLOCK.finditer(page):
         language, name, content = block.groups()
-        if language in ("al", "toml", "mal") and name:
+        if language in ("al", "toml", "mal", "ml", "sym") and name:
             Path(name).write_text(content, encoding="utf-8")
         for typed in TYPED.finditer(content) if not language else ():
             prompt, line, shown = typed.groups()

@@ -13,7 +13,13 @@ ENTRY = Entry(
         "plans": "`handeye ml run FILE.ml` runs its programs",
         "undo": "its motions are not recorded; `back` in the stepper returns to an earlier state of the run",
     },
+    commands="""
+ml = handeye.systems.ml.cli.commands:ml: MOS and ML (IBM, 1975): guarded motions, and a level that watches all sensors every 10 ms.
+""",  # noqa: E501 - a command a line
     tasks={"ml": "handeye.systems.ml.run.task:ML_TASK"},
-    languages={".ml": "handeye.systems.ml.language.language:LANGUAGE"},
+    languages={
+        ".ml": "handeye.systems.ml.language.language:LANGUAGE",
+        ".sym": "handeye.systems.ml.language.language:SYMBOLIC_LANGUAGE",
+    },
     events="handeye.systems.ml.happenings:EVENTS",
 )

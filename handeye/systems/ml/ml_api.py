@@ -46,7 +46,7 @@ class Ml:
         self._machine, _ = perfect_machine(self.events.append, stimuli=stimuli, outline=outline)
         self._program = StoredProgram()
         self._mos = Interpreter(
-            "right", self._machine.levels, self._program, self.events.append, Host(procedures), joystick=True
+            "right", self._machine.levels, self._program, self.events.append, Host(procedures)
         )
         self.do("ENABLE")
         self.load(text)

@@ -47,7 +47,7 @@ def test_an_emergency_limit_freezes_all_motors_and_switches_the_pump_off() -> No
     )
     assert stopped(arm) == ("SENSOR", 5, 288)
     assert arm.right.stopped == "sensor 5 is outside its emergency limits"
-    with pytest.raises(MlError, match=r"^M15: the pump of the right arm is off$"):
+    with pytest.raises(MlError, match=r"^M15: the pump of the right arm is off; ENABLE switches it on$"):
         arm.right.start({3: 0})
     assert len(arm.seen(EmergencyStopped)) == 1
 

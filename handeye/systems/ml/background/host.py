@@ -5,6 +5,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadFile
 from handeye.core.source import Source
 from handeye.systems.ml.background.hand_frame import MOTORS, rotated, translated
 from handeye.systems.ml.background.motion import dhand, go_line, go_mean, start
@@ -48,12 +49,15 @@ def _host(mos: "Interpreter") -> Host:
 
 
 def load_program(mos: "Interpreter", name: str) -> None:
-    """Read a program in place of the stored one. A running program ends."""
-    source = Source(name=name, text=_host(mos).read(name))
+    replace_program(mos, Source(name=name, text=_host(mos).read(name)))
+
+
+def replace_program(mos: "Interpreter", source: Source) -> None:
+    """Store a program in place of the present one. A running program ends. Raises BadFile if it has mistakes."""
     lines, found = parsed(source)
     if found:
         row, _ = source.position(found[0].primary.span.start)
-        raise MlError("M16", f"{name}:{row}: {found[0].message}")
+        raise BadFile(f"{source.name}:{row}: {found[0].message}; `handeye check` shows all mistakes")
     mos.end()
     mos.program.clear()
     for line in lines:

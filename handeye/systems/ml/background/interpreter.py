@@ -5,7 +5,7 @@ its wait in the memory; the caller then lets cycles pass until `ready`.
 from collections.abc import Callable, Mapping
 from typing import Final
 
-from handeye.core.errors import BadArgument, BadFile
+from handeye.core.errors import BadArgument, BadFile, InvalidInput
 from handeye.core.mutable_records import MutableRecord, put_back
 from handeye.program.events import SystemEvent
 from handeye.systems.ml.arithmetic import fits
@@ -70,7 +70,9 @@ class Interpreter:
     def run(self, first: int | None = None) -> None:
         """Start the stored program at a statement, or at its first one. Raises MlError (M07, M14)."""
         if self.level.stopped:
-            raise MlError("M14", f"{self.level.stopped}; ENABLE the arm first")
+            raise MlError(
+                "M14", f"the arm was stopped by an emergency: {self.level.stopped}; ENABLE it first"
+            )
         if first is None and not self.program.numbers:
             raise MlError("M07", "no program is stored")
         first = self.program.numbers[0] if first is None else first
@@ -109,7 +111,7 @@ class Interpreter:
         self.level.statement(number)
         try:
             self._execute(self.program.statement(number))
-        except MlError as error:
+        except InvalidInput as error:
             self.level.emergency("PROGRAM", number)
             self._stop(f"{error} (statement {number})")
         if not memory.waits:
@@ -131,7 +133,7 @@ class Interpreter:
         self.level.statement(0)
         try:
             self._execute(line.statement)
-        except MlError:
+        except InvalidInput:
             self.memory.executing = executing
             raise
 

@@ -102,11 +102,11 @@ def go_line(mos: "Interpreter", one: int, other: int) -> None:
 def joy(mos: "Interpreter", number: int) -> None:
     """Begin to guide the arm; the wait ends when a function key is pressed."""
     mos.program.check_point(number)
-    if not mos.joystick:
-        raise MlError("M16", "this run has no joystick")
     if mos.level.flags:
         start(mos, {})
         return
+    if not mos.joystick and not mos.level.read("FK", 1, 1):
+        raise MlError("M16", "there is no joystick here, and no function key is pressed in the table FK")
     mos.memory.waits, mos.memory.joy, mos.memory.until = "joy", number, mos.level.now
 
 

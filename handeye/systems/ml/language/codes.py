@@ -110,6 +110,29 @@ CODES: Final[dict[str, MlCode]] = {
     ),
 }  # fmt: skip
 
+SYMBOLIC: Final[dict[str, MlCode]] = {
+    "bad-definition": MlCode(
+        meaning="a definition does not have the form that it requires", example="STEP EQU",
+        cure="write `NAME EQU number`, or `NAME VAR`",
+    ),
+    "bad-name": MlCode(
+        meaning="a name is a command or a table, or has other characters than letters, digits and `_`",
+        example="STOP EQU 5", cure="choose another name, which begins with a letter",
+    ),
+    "name-twice": MlCode(
+        meaning="a name is defined twice", example="A EQU 5\nA VAR", cure="give each value a name of its own",
+    ),
+    "too-many-statements": MlCode(
+        meaning="a symbolic program has more than 1000 statements", example="STOP\n" * 1001,
+        cure="write repeated statements once, as a subroutine",
+    ),
+    "unknown-name": MlCode(
+        meaning="a name of a symbolic program is not defined", example="BRANCH AGAIN",
+        cure="define it by EQU, by VAR or as a label",
+    ),
+}  # fmt: skip
+"""Mistakes in symbolic programs, besides those of ML."""
+
 
 def mistake(
     code: str,
@@ -121,6 +144,6 @@ def mistake(
     notes: tuple[str, ...] = (),
 ) -> Diagnostic:
     """Make a diagnostic. It has the cure of its code, unless a more specific cure is given."""
-    known = CODES[code]
+    known = CODES.get(code) or SYMBOLIC[code]
     cure = help or names_sentence(meant) or known.cure
     return problem(code, message, span, *secondary, help=cure, meant=meant, own=known.severity, notes=notes)

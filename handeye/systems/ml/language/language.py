@@ -6,12 +6,15 @@ from handeye.core.diagnostics import Diagnostic, render
 from handeye.core.source import Source
 from handeye.program.language import OwnLanguage
 from handeye.systems.ml.errors import MEANINGS
+from handeye.systems.ml.language.assembler import assembled
 from handeye.systems.ml.language.check import checked
-from handeye.systems.ml.language.codes import CODES
+from handeye.systems.ml.language.codes import CODES, SYMBOLIC
 from handeye.systems.ml.language.commands import COMMANDS, Kind, explained
 from handeye.systems.ml.language.parser import parsed, parsed_line
 from handeye.systems.ml.machine.rectilinear import RIGHT
 from handeye.systems.ml.tables.layout import SENSORS, SHAPES
+
+LONGEST_EXAMPLE: Final = 10  # lines that are shown
 
 
 class MlLanguage(OwnLanguage):
@@ -73,15 +76,28 @@ class MlLanguage(OwnLanguage):
 def code_explained(code: str) -> str | None:
     """Return the meaning of a code, with an example and the cure, or None if the code is unknown."""
     code = code.upper() if code.upper() in MEANINGS else code.casefold()
-    known = CODES.get(code)
+    known = CODES.get(code) or SYMBOLIC.get(code)
     if known is None:
         more = "Programs are not checked for this; it stops a running program."
         return f"error[{code}]: {MEANINGS[code]}\n{more}" if code in MEANINGS else None
-    source = Source(name="example.ml", text=known.example)
-    shown = next(each for each in checked(source)[1] if each.code == code)
-    lines = (*known.example.split("\n"), "", *render(shown, source).split("\n"))
+    ending, check = (".sym", assembled) if code in SYMBOLIC else (".ml", checked)
+    source = Source(name=f"example{ending}", text=known.example)
+    shown = next(each for each in check(source)[1] if each.code == code)
+    example = known.example.strip().split("\n")
+    example = example if len(example) <= LONGEST_EXAMPLE else [*example[:2], "...", example[-1]]
+    lines = (*example, "", *render(shown, source).split("\n"))
     text = "\n".join(f"    {line}"[:100].rstrip() for line in lines)
     return f"{known.severity}[{code}]: {known.meaning}\ncure: {known.cure}\n\nfor example\n\n{text}"
 
 
+class SymbolicLanguage(OwnLanguage):
+    """The language of the symbolic assembler."""
+
+    system = "ml"
+
+    def check(self, source: Source) -> list[Diagnostic]:
+        return assembled(source)[1]
+
+
 LANGUAGE: Final = MlLanguage()
+SYMBOLIC_LANGUAGE: Final = SymbolicLanguage()

@@ -55,6 +55,7 @@ def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
     known = watched(flow)
     motions = [number for number in known if lines[number].statement.code in MOTIONS - {"JOY"}]
     guarding = any(each.statement.code in ("SENSOR", "WAND") for each in lines.values())
+    jolts: set[str] = set()
     for number in sorted(motions):
         line, watch = lines[number], known[number]
         if not watch.guarded:
@@ -69,7 +70,10 @@ def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
             which = f"sensor {names}" if watch.on - {ANY} else names
             told = f"the flag of {which} may still be on here, and then this motion moves nothing"
             yield mistake("flag-left-on", told, line.spans[0])
-        yield from _too_fast(line, watch)
+        for jolt in _too_fast(line, watch):
+            if jolt.message not in jolts:  # a limit is reported at the first motion that it makes too fast
+                jolts.add(jolt.message)
+                yield jolt
 
 
 def watched(flow: Flow) -> dict[int, Watch]:

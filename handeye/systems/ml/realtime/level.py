@@ -117,7 +117,7 @@ class RealTime(Cycles, Level):
     def start(self, goals: Mapping[int, int]) -> bool:
         memory, arm = self._memory, self._memory.AR[0]
         if not self.enabled:
-            raise MlError("M15", f"the pump of the {self.spec.side} arm is off")
+            raise MlError("M15", f"the pump of the {self.spec.side} arm is off; ENABLE switches it on")
         if self.flags:
             return False
         rounded = {motor: nearest_detent(goal, self._motor(motor).detent) for motor, goal in goals.items()}

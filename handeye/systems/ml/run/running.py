@@ -69,7 +69,7 @@ class RunningMl(RunningSystem):
             self.program.store(number, line.statement)
         self._host = Host()
         self.interpreters: dict[Side, Interpreter] = {
-            side: Interpreter(side, self.machine.levels, self.program, self._tell, self._host, joystick=True)
+            side: Interpreter(side, self.machine.levels, self.program, self._tell, self._host)
             for side in self.machine.levels
         }
         self._state = MlState(

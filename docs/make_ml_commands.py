@@ -1,0 +1,75 @@
+"""Write docs/ml_commands.md from the tables of ML's commands, tables and mistakes."""
+
+from pathlib import Path
+from typing import Final
+
+from handeye.systems.ml.errors import MEANINGS
+from handeye.systems.ml.language.codes import CODES, SYMBOLIC
+from handeye.systems.ml.language.commands import COMMANDS
+from handeye.systems.ml.tables.layout import SHAPES
+
+PAGE: Final = Path(__file__).parent / "ml_commands.md"
+TITLES: Final = {
+    "control": "Control", "flow": "Flow", "motion": "Motion", "sense": "Sensors", "data": "Data",
+    "arithmetic": "Arithmetic", "edit": "Editing", "test": "Tests of the hardware", "host": "Host",
+}  # fmt: skip
+HEAD: Final = """# The commands of ML
+
+A line consists of a sequence number from 1 to 5000, a command, and 0 to 15 parameters. A line with a sequence number
+is stored; a line without one is executed at once. A parameter is a number from -32768 to 32767, or a reference:
+`&17` is the value of variable 17, `&&17` the value of the variable whose number it holds, and `-&17` the opposite
+value. There are 256 variables, and up to six `&`. A line that begins with `*` is a remark.
+
+In the forms below, you may leave out what is in `[ ]`, and `...` repeats the parameter before it. `n` is the number
+of a statement, `v` and `w` are numbers of variables, `m` is a motor, `s` a sensor, `t` a table; `x` and `y` are
+values. Positions of motors 2, 3, 4 and 11 are in .001 inch, those of motors 1, 8, 9, 10 and 12 in .01 degree.
+
+[ML](ml.md) is the tutorial; `handeye ml words MOVE` explains a command in a terminal. `docs/make_ml_commands.py`
+writes this page from the tables that parser and interpreter read.
+"""
+
+
+def page() -> str:
+    """The page."""
+    out = [HEAD]
+    for category, title in TITLES.items():
+        rows = [each for each in COMMANDS.values() if each.category == category and each.code not in SHAPES]
+        out += [f"## {title}\n", "| form | | example |", "|---|---|---|"]
+        out += [f"| `{each.form}` | {each.help} | `{each.example}` |" for each in rows]
+        out.append("")
+    out += [
+        "## Tables\n",
+        "The name of a table is a command that shows it: `MT` all lines that are not zero, `MT 3` a line with the "
+        "names of its words, `MT 3 1` a word. GET and QUERY read a word, PUT and FILE write one. The real-time level "
+        "uses internal tables; external tables are on the disk, and are paged into frames.\n",
+        "| table | contents | lines | words | |",
+        "|---|---|---|---|---|",
+    ]
+    for name, shape in SHAPES.items():
+        words = ", ".join(shape.names) if len(shape.names) == shape.words else ""
+        where = "internal" if shape.internal else "external"
+        out.append(
+            f"| `{name}` | {shape.title} | {shape.lines} | {shape.words} | {where}{': ' if words else ''}{words} |"
+        )
+    out += [
+        "",
+        "## Mistakes\n",
+        "The checker finds these mistakes before a program runs. `handeye explain CODE` shows an example.\n",
+        "| code | | cure |",
+        "|---|---|---|",
+    ]
+    known = {**CODES, **SYMBOLIC}
+    out += [f"| `{code}` | {each.severity}: {each.meaning} | {each.cure} |" for code, each in known.items()]
+    out += [
+        "",
+        "These errors stop a running program. Like every error in a running program, they are an emergency: all motors "
+        "freeze, and the pump is switched off.\n",
+        "| code | |",
+        "|---|---|",
+    ]
+    out += [f"| `{code}` | {meaning} |" for code, meaning in MEANINGS.items() if code not in CODES]
+    return "\n".join(out) + "\n"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

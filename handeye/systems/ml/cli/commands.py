@@ -1,0 +1,225 @@
+"""The commands of MOS and ML: run and check a program, assemble a symbolic one, and open the terminal of 1975."""
+
+import sys
+from collections.abc import Callable
+from itertools import chain
+from pathlib import Path
+from typing import Annotated, Final
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Details, Json, NoKeep, Out, Overwrite, WholeNumber, note, say, show
+from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
+from handeye.core.diagnostics import has_errors, quoted, suggestion
+from handeye.core.errors import InvalidInput, NoSuchName
+from handeye.core.files import check_new, write_whole
+from handeye.core.source import Source, read_source
+from handeye.program.events import AnyEvent
+from handeye.runs.observer import Observer
+from handeye.systems.ml.happenings import Printed
+from handeye.systems.ml.language.check import checked
+
+MlFile = Annotated[Path, Parameter(help="A program in ML, `.ml`.")]
+
+ml = App(
+    name="ml",
+    help="MOS and ML (IBM, 1975): guarded motions, and a clock of ten milliseconds that watches all sensors.",
+)
+
+
+def run(
+    file: MlFile,
+    /,
+    *,
+    first: Annotated[
+        WholeNumber | None,
+        Parameter(help="The statement at which the program begins. Default: the first one."),
+    ] = None,
+    sense: Annotated[
+        list[str] | None,
+        Parameter(
+            help="A reading of a sensor, such as 8=1200, or 5=500@3:2750: while motor 3 is at 2750 or farther. Give "
+            "--sense for each."
+        ),
+    ] = None,
+    json: Json = False,
+    details: Details = False,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    no_keep: NoKeep = False,
+    breaks: Break = None,
+    step: Step = False,
+    live: Live = False,
+    on_stop: OnStop = None,
+) -> int:
+    """Run a program with perfect motors, which nothing obstructs. The arm is enabled first. A step is one statement.
+
+    Exit code 0: the program has ended; 1: an error or an emergency has stopped it; 2: bad input; 130: interrupted.
+    """
+    from handeye.cli.job import Job, work
+    from handeye.core.variation import WorldSpec
+    from handeye.runs.setup import Setup
+    from handeye.runs.snapshot import Checkpoint
+    from handeye.systems.ml.cli.senses import sensed
+    from handeye.systems.ml.run.plan import MlPlan, sound
+
+    check_kept(no_keep, out)
+    stimuli = tuple(sensed(each) for each in sense or ())
+    source = read_source(file)
+    if not reported(source):
+        return 2
+    plan = MlPlan(name=file.name, text=source.text, first=first, stimuli=stimuli)
+    sound(plan)
+    setup = Setup(system="ml", plan=plan, world=WorldSpec(seed=0), camera="auto", judged=True)
+    return work(
+        Job(
+            start=Checkpoint(setup=setup), out=out, keep=not (no_keep or step), details=details, overwrite=overwrite,
+            breaks=breaks or (), step=step, live=live, on_stop=on_stop, json=json, referee=True,
+            listening=() if step else (Printer(note if json else say),),
+        )
+    )  # fmt: skip
+
+
+class Printer(Observer):
+    """Prints the output of a program."""
+
+    def __init__(self, put: Callable[[str], None]) -> None:
+        self._put = put
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, Printed):
+            self._put(event.text)
+
+
+def reported(source: Source) -> bool:
+    """Print the mistakes of a program. Returns True if there are no errors."""
+    found = checked(source)[1]
+    show(found, source, json=False)
+    return not has_errors(found)
+
+
+def check(
+    file: MlFile, /, *, json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False
+) -> int:
+    """Check a program as `handeye check` does: its form, its jumps, and how it uses its sensors.
+
+    Exit code 0: no errors; 2: bad input, or a program with errors.
+    """
+    source = read_source(file)
+    found = checked(source)[1]
+    show(found, source, json=json)
+    if not found and not json:
+        say(f"{file}: no errors")
+    return 2 if has_errors(found) else 0
+
+
+def assemble(
+    file: Annotated[Path, Parameter(help="A symbolic program, `.sym`.")],
+    /,
+    *,
+    out: Annotated[
+        Path | None, Parameter(name=["--out", "-o"], help="The program in ML. Default: it is printed.")
+    ] = None,
+    overwrite: Overwrite = False,
+) -> int:
+    """Assemble a symbolic program: names become the numbers of statements, variables and sensors.
+
+    Exit code 0: it was assembled; 2: bad input, or a program with errors.
+    """
+    from handeye.systems.ml.language.assembler import assembled
+
+    source = read_source(file)
+    text, found = assembled(source)
+    show(found, source, json=False)
+    if has_errors(found):
+        return 2
+    if out is None:
+        say(text.removesuffix("\n"), whole=True)
+        return 0
+    if not overwrite:
+        check_new(out)
+    write_whole(out, text.encode())
+    return 0
+
+
+def words(word: str | None = None, /) -> int:
+    """Explain a command of ML; without a command, list all.
+
+    Parameters
+    ----------
+    word
+        The command, such as MOVE, SENSOR or MT.
+    """
+    from handeye.systems.ml.language.commands import COMMANDS, explained
+
+    if word is None:
+        for category in dict.fromkeys(command.category for command in COMMANDS.values()):
+            say(f"{category} commands")
+            for command in COMMANDS.values():
+                if command.category == category:
+                    say(f"  {command.form}", whole=True)
+        return 0
+    text = explained(word)
+    if text is None:
+        near = suggestion(word.upper(), COMMANDS)
+        raise NoSuchName(
+            f"{quoted(word)} is not a command of ML"
+            + (f"; {near}" if near else "; `handeye ml words` lists them")
+        )
+    say(text)
+    return 0
+
+
+def console(
+    file: Annotated[Path | None, Parameter(help="A program in ML to load at the start, `.ml`.")] = None, /
+) -> int:
+    """Open the terminal of 1975: lines with a number are stored, and all others are executed at once. ENABLE switches
+    the pump on, RUN and TRY run the program, EXIT leaves, and HELP lists the commands.
+
+    Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
+    """
+    return _session(file)
+
+
+def try_program(file: MlFile, /) -> int:
+    """Load a program at the terminal, enable the arm, and run the program one statement at a time.
+
+    Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
+    """
+    return _session(file, "ENABLE", "TRY")
+
+
+def _session(file: Path | None = None, *typed: str) -> int:
+    """Execute some lines, then those that the user types. Returns the exit code."""
+    from handeye.cli.panic_button import PanicButton
+    from handeye.cli.prompt import typed_lines
+    from handeye.systems.ml.cli.console import Console
+
+    terminal, code = sys.stdin.isatty(), 0
+    with PanicButton() as panic:
+
+        def asked(prompt: str) -> str | None:
+            if not terminal:
+                say(prompt.rstrip())
+            return next(typed_lines(prompt if terminal else "", panic.aside, lambda: ()), None)
+
+        session = Console(say, asked, panic)
+        if file is not None:
+            session.load(read_source(file))
+        lines = typed_lines("READY " if terminal else "", panic.aside, session.words)
+        for line in chain(typed, lines):
+            try:
+                session.hear(line)
+            except InvalidInput as error:
+                say(str(error))
+                code = 2
+            if session.over:
+                break
+    return 0 if terminal else code
+
+
+_COMMANDS: Final = (run, check, assemble, words)
+ml.default(console)
+for _command in _COMMANDS:
+    ml.command(_command)
+ml.command(try_program, name="try")
