@@ -74,6 +74,7 @@ CHEAP = {
     "trials chess": "trials chess --n ✓",
     "trials handover": "trials handover --n ✓",
     "trials insert": "trials insert --n ✓",
+    "trials prco": "trials prco --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

@@ -16,6 +16,7 @@ ENTRY = Entry(
     commands="""
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
 trials chess = handeye.systems.sigma.cli.chess:chess_trials: Sort chess pieces in many worlds: success rate, errors of heights and places.
+trials prco = handeye.systems.sigma.cli.prco:prco_trials: Assemble the plate of the pump in many worlds: success rate, and depth and clamp of its screws.
 trials handover = handeye.systems.sigma.cli.handover:handover_trials: Hand pieces from arm to arm in many worlds: success rate, and errors of places.
 trials insert = handeye.systems.sigma.cli.insert:insert_trials: Find holes by force in many worlds: success rate, forces, and tries.
 """,  # noqa: E501 - a command a line
@@ -25,12 +26,14 @@ trials insert = handeye.systems.sigma.cli.insert:insert_trials: Find holes by fo
         "chess": "handeye.systems.sigma.chess.task:CHESS",
         "handover": "handeye.systems.sigma.handover.task:HANDOVER",
         "insert": "handeye.systems.sigma.insert.task:INSERTION",
+        "prco": "handeye.systems.sigma.prco.task:PRCO",
     },
     languages={".mal": "handeye.systems.sigma.mal.language:LANGUAGE"},
     sweeps={
         "chess": "handeye.systems.sigma.run.job_trials:CHESS_TRIALS",
         "handover": "handeye.systems.sigma.run.job_trials:HANDOVER_TRIALS",
         "insert": "handeye.systems.sigma.run.job_trials:INSERTION_TRIALS",
+        "prco": "handeye.systems.sigma.run.job_trials:PRCO_TRIALS",
     },
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

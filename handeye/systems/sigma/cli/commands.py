@@ -35,6 +35,7 @@ from handeye.systems.sigma.cli.diagnose import diagnose
 from handeye.systems.sigma.cli.handover import handover
 from handeye.systems.sigma.cli.insert import insert
 from handeye.systems.sigma.cli.moves import moves
+from handeye.systems.sigma.cli.prco import prco
 from handeye.systems.sigma.cli.table1 import table1
 from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
@@ -266,7 +267,21 @@ def console(
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, words, axis, bus, crash, chess, handover, insert, moves, table1, diagnose)
+_COMMANDS: Final = (
+    run,
+    check,
+    words,
+    axis,
+    bus,
+    crash,
+    chess,
+    handover,
+    insert,
+    prco,
+    moves,
+    table1,
+    diagnose,
+)
 sigma.default(console)
 for _command in _COMMANDS:
     sigma.command(_command)

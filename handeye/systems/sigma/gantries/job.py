@@ -13,6 +13,7 @@ from handeye.systems.sigma.run.plan import decode
 if TYPE_CHECKING:
     import mujoco
 
+    from handeye.systems.sigma.gantries.machine import Gantries
     from handeye.systems.sigma.gantries.witness import Witness
 
 
@@ -28,6 +29,9 @@ class JobTask(GantryTask):
         """Return the scene of a world with its pieces, and the witness of a run. Raises BadArgument if the number of
         pieces is impossible.
         """
+
+    def equip(self, world: GantryWorld, count: int, gantries: Gantries) -> None:
+        """Add the mechanisms of the job, besides the gantries, to the bench. By default there are none."""
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         return self.board(GantryWorld(spec), self.usual)[0].compile()

@@ -8,7 +8,7 @@ then is other code executed.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 import mujoco
@@ -65,6 +65,7 @@ _HIGH: Final = 2  # rows of six: forces one way and the other, high ends, low en
 _ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
 _LEVELS: Final = 4 * _N
 _ALL: Final = 6 * _N
+_SERVOS: Final = _N + len(ARMS)  # a job may have more motors, which follow these
 _AHEAD: Final = 256  # steps that are planned at once
 _PLACES: Final = slice(_LEVELS, _LEVELS + _N)
 Table = NDArray[np.float64]
@@ -108,6 +109,8 @@ class Gantries(Plant[GantryMemory]):
                 accelerates a hand is not counted.
         """
         self.bench, self.memory = Bench(spec.compile()), GantryMemory()
+        self.actuated: list[Callable[[int, Sequence[int]], None]] = []
+        """Called with the number and the outputs of a hand microcomputer when the outputs have changed."""
         assert self.bench.tick * 10**6 * PS == TICK
         model, data = self.bench.model, self.bench.data
         self._low = world.axes(SWITCHES)  # m, where the low switch of each axis is, of its joint
@@ -169,6 +172,8 @@ class Gantries(Plant[GantryMemory]):
         if self.memory.grips[_HAND[number]] != closed:
             self.memory.grips[_HAND[number]] = closed
             self._plan()
+        for act in self.actuated:
+            act(number, devices)
 
     def limited(self, number: int, thresholds: Sequence[float]) -> None:
         over, part = [*map(_least_over, thresholds)], _WRIST[number]
@@ -252,7 +257,7 @@ class Gantries(Plant[GantryMemory]):
             speeds[:there, index] = field.speeds[gone : gone + there]
         places = (places + POLE * np.array(self.memory.slipped)) * STEP + self._begin
         pull = pull_out(speeds) * self._pull
-        self._ctrl = np.empty((rows, _N + len(ARMS)))
+        self._ctrl = np.empty((rows, _SERVOS))
         self._ctrl[:, :_N] = places + self._lead * speeds * STEP
         self._ctrl[:, _N:] = [0.0 if closed else OPEN for closed in self.memory.grips]
         self._ranges = np.empty((rows, _N, 2))
@@ -270,7 +275,7 @@ class Gantries(Plant[GantryMemory]):
         if not self._whole and self._step - self._first > self._last:
             self._plan()
         self._row = min(self._step - self._first, self._last)
-        self.bench.data.ctrl[:] = self._ctrl[self._row]
+        self.bench.data.ctrl[:_SERVOS] = self._ctrl[self._row]
         self.bench.model.actuator_forcerange[:_N] = self._ranges[self._row]
         if self._strained:
             self.bench.model.actuator_forcerange[:_N] *= np.array(self.memory.holds)[:, np.newaxis]

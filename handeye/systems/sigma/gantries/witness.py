@@ -1,7 +1,9 @@
 """The witness of a job: what the program prints, and what happens on the board, for the referee only."""
 
+from collections.abc import Callable
 from typing import ClassVar, Final, Generic, TypeVar
 
+import numpy as np
 from msgspec import field
 from msgspec.structs import replace
 
@@ -13,6 +15,7 @@ from handeye.systems.sigma.gantries.machine import Gantries
 HEARD: Final = "heard"
 _MOST: Final = 200  # lines
 _LONGEST: Final = 2000  # characters
+_CARRIAGES: Final = ("carriage_X1", "carriage_X2")
 
 
 class Heard(Record, frozen=True, kw_only=True):
@@ -22,6 +25,17 @@ class Heard(Record, frozen=True, kw_only=True):
 
 
 H = TypeVar("H", bound=Heard)
+
+
+def touch_of_arms(gantries: Gantries) -> Callable[[], bool]:
+    """Return a function that tells whether the arms touch each other now. A piece in a hand counts as a part of the
+    board.
+    """
+    model, data = gantries.bench.model, gantries.bench.data
+    roots = [model.body(name).id for name in _CARRIAGES]
+    arm = np.array([root in roots and 1 + roots.index(root) for root in model.body_rootid], dtype=int)
+    arm_of = arm[model.geom_bodyid]
+    return lambda: bool(data.ncon and (arm_of[data.contact.geom].prod(axis=1) == 2).any())
 
 
 class Witness(Mechanism[H], Generic[H]):

@@ -19,6 +19,7 @@ LEFT: Final = "wrists.left"
 BEAM: Final = "beams.height"
 CLOCKS: Final = "clocks"
 ACROSS: Final = "pieces.across"
+FIXTURES: Final = "fixtures.place"
 _CLIPPED: Final = 2.0  # sigmas
 
 
@@ -96,6 +97,14 @@ VARIATION: Final = Variation(
         Noise(0.5),
         5.0,
         "Standard deviation of a piece's position across its line. No source: our choice, for pieces placed by hand.",
+    ),
+    _quantity(
+        FIXTURES,
+        "mm",
+        Noise(0.25),
+        2.0,
+        "Standard deviation of a fixture's position on the board, in x and in y, in jobs that have fixtures. "
+        "No source: our choice.",
     ),
 )
 

@@ -3,16 +3,14 @@
 import re
 from typing import ClassVar, Final
 
-import numpy as np
 from msgspec.structs import replace
 
 from handeye.core.errors import BadFile
 from handeye.systems.sigma.gantries.machine import Gantries
-from handeye.systems.sigma.gantries.witness import Heard, Witness
+from handeye.systems.sigma.gantries.witness import Heard, Witness, touch_of_arms
 from handeye.systems.sigma.handover.pieces import Piece
 
 _TOLD: Final = re.compile(r"PIECES\s+(\d{1,9})\b")
-_CARRIAGES: Final = ("carriage_X1", "carriage_X2")
 
 
 class Watched(Heard, frozen=True, kw_only=True):
@@ -29,21 +27,15 @@ class Watched(Heard, frozen=True, kw_only=True):
 
 
 class HandoverWitness(Witness[Watched]):
-    """Records what the program prints, and watches whether the arms touch each other.
-
-    A piece in a hand counts as a part of the board, so it may touch the other hand.
-    """
+    """Records what the program prints, and watches whether the arms touch each other."""
 
     growing: ClassVar[tuple[str, ...]] = ("lines", "touched_ms")
 
     def watch(self, gantries: Gantries) -> None:
-        model, data = gantries.bench.model, gantries.bench.data
-        roots = [model.body(name).id for name in _CARRIAGES]
-        arm = np.array([root in roots and 1 + roots.index(root) for root in model.body_rootid], dtype=int)
-        arm_of = arm[model.geom_bodyid]
+        touching = touch_of_arms(gantries)
 
         def look() -> None:
-            if data.ncon and (arm_of[data.contact.geom].prod(axis=1) == 2).any():
+            if touching():
                 self.heard = replace(self.heard, touched_ms=self.heard.touched_ms + 1)
 
         gantries.bench.after_step.append(look)

@@ -9,12 +9,11 @@ from msgspec.structs import replace
 
 from handeye.core.errors import BadFile
 from handeye.systems.sigma.gantries.machine import Gantries
-from handeye.systems.sigma.gantries.witness import Heard, Witness
+from handeye.systems.sigma.gantries.witness import Heard, Witness, touch_of_arms
 from handeye.systems.sigma.insert.pieces import Peg
 from handeye.systems.sigma.protocol import AXES
 
 _TOLD: Final = re.compile(r"PEGS\s+(\d{1,9})\b")
-_CARRIAGES: Final = ("carriage_X1", "carriage_X2")
 
 
 class WatchedInsertion(Heard, frozen=True, kw_only=True):
@@ -40,16 +39,14 @@ class InsertionWitness(Witness[WatchedInsertion]):
 
     def watch(self, gantries: Gantries) -> None:
         model, data = gantries.bench.model, gantries.bench.data
-        roots = [model.body(name).id for name in _CARRIAGES]
-        arm = np.array([root in roots and 1 + roots.index(root) for root in model.body_rootid], dtype=int)
-        arm_of = arm[model.geom_bodyid]
+        touching = touch_of_arms(gantries)
         wrists = [model.joint(f"wrist_{axis}") for axis in AXES]
         bent = [int(joint.qposadr[0]) for joint in wrists]
         stiff = np.array([float(joint.stiffness[0]) for joint in wrists])
 
         def look() -> None:
             most = float(np.abs(data.qpos[bent] * stiff).max())
-            touch = data.ncon > 0 and bool((arm_of[data.contact.geom].prod(axis=1) == 2).any())
+            touch = touching()
             if most > self.heard.most_n or touch:
                 self.heard = replace(
                     self.heard,

@@ -111,3 +111,4 @@ def _sweep(job: JobName) -> Sweep[JobRow]:
 CHESS_TRIALS: Final = _sweep("chess")
 HANDOVER_TRIALS: Final = _sweep("handover")
 INSERTION_TRIALS: Final = _sweep("insert")
+PRCO_TRIALS: Final = _sweep("prco")

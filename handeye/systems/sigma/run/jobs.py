@@ -13,6 +13,7 @@ PROGRAMS: Final[dict[JobName, str]] = {
     "chess": "chess.mal",
     "handover": "handover_pieces.mal",
     "insert": "insert.mal",
+    "prco": "prco.mal",
 }
 
 

@@ -16,7 +16,7 @@ from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 
 ArmName = Literal["none", "wired", "gantries"]
-JobName = Literal["chess", "handover", "insert"]
+JobName = Literal["chess", "handover", "insert", "prco"]
 TaskName = Literal["mal", "gantries", JobName]
 MOST_PIECES: Final = 12
 LONGEST_STATEMENT_US: Final = 1_000_000

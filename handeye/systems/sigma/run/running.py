@@ -314,6 +314,8 @@ def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness[Any] | None]":
     else:
         spec = scene(world)
     gantries = Gantries(spec, world)
+    if isinstance(task, JobTask):
+        task.equip(world, setup.plan.pieces, gantries)
     if witness is not None:
         witness.watch(gantries)
     bus = WiredBus(plant=gantries, seed=setup.world.seed, clock_spread=world.clock_spread)

@@ -1,0 +1,1 @@
+"""The plate of the pump: arm 1 lays it on its base and puts in two pins, and arm 2 drives six screws."""

@@ -1,0 +1,50 @@
+"""The screwdriver of arm 2 as a device of its hand microcomputer."""
+
+from collections.abc import Sequence
+from typing import Final
+
+from handeye.cell.mechanism import Mechanism
+from handeye.core.errors import BadFile
+from handeye.core.record import Record
+from handeye.systems.sigma.protocol import DEVICES, NUMBERS
+
+SPEED: Final = 20.0  # rad/s, 190 turns a minute
+_SPEEDS: Final = {1: SPEED, 2: -SPEED}
+_HAND: Final = NUMBERS["HAND2"]
+
+
+class DriverState(Record, frozen=True, kw_only=True):
+    """The value to which the program has set the screwdriver."""
+
+    value: int = 0
+
+
+class HandDriver(Mechanism[DriverState]):
+    """A motor that drives screws in while its device is 1, and out while it is 2. Its bit is a permanent magnet."""
+
+    name = "screwdriver"
+    kind = DriverState
+    magnet = True
+
+    def __init__(self) -> None:
+        self._state = DriverState()
+
+    @property
+    def speed(self) -> float:
+        """Speed of the spindle, rad/s; positive drives a screw in."""
+        return _SPEEDS.get(self._state.value, 0.0)
+
+    def actuated(self, number: int, devices: Sequence[int]) -> None:
+        """Take over the outputs of a hand microcomputer."""
+        if number == _HAND:
+            self._state = DriverState(value=devices[DEVICES["DRIVER"]])
+
+    def state(self) -> DriverState:
+        return self._state
+
+    def check(self, state: DriverState) -> None:
+        if not 0 <= state.value <= 0xFFFF:
+            raise BadFile("the screwdriver cannot be set to such a value")
+
+    def restore(self, state: DriverState) -> None:
+        self._state = state
