@@ -75,6 +75,7 @@ CHEAP = {
     "trials handover": "trials handover --n ✓",
     "trials insert": "trials insert --n ✓",
     "trials prco": "trials prco --n ✓",
+    "trials follow": "trials follow --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

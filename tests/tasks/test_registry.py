@@ -33,8 +33,8 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
         ("water_pmup", "there is no task `water_pmup`; did you mean `water_pump`?"),
         (
             "clock",
-            "there is no task `clock`; there are `bucket`, `chess`, `gantries`, `handover`, "
-            "`insert`, `insertion`, `mal`, `ml`, `palletise`, `prco`, `water_pump`",
+            "there is no task `clock`; there are `bucket`, `chess`, `follow`, `gantries`, `handover`, "
+            "`insert`, `insertion`, `mal`, `ml`, `palletise`, `prco`, `rectilinear`, `water_pump`",
         ),
     ],
 )

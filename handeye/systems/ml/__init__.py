@@ -8,18 +8,25 @@ ENTRY = Entry(
     title="ML",
     help="Run programs of guarded motions in ML, above a real-time level that watches every 10 ms (IBM, 1975).",
     system="handeye.systems.ml.run.system:ML",
-    can=("levels", "console"),
+    can=("levels", "console", "video"),
     reasons={
         "plans": "`handeye ml run FILE.ml` runs its programs",
         "undo": "its motions are not recorded; `back` in the stepper returns to an earlier state of the run",
     },
     commands="""
 ml = handeye.systems.ml.cli.commands:ml: MOS and ML (IBM, 1975): guarded motions, and a level that watches all sensors every 10 ms.
+trials follow = handeye.systems.ml.cli.follow:follow_trials: Follow an outline by touch in many worlds: success rate, errors of touches.
 """,  # noqa: E501 - a command a line
-    tasks={"ml": "handeye.systems.ml.run.task:ML_TASK"},
+    tasks={
+        "ml": "handeye.systems.ml.run.task:ML_TASK",
+        "rectilinear": "handeye.systems.ml.bench.hardware:RECTILINEAR",
+        "follow": "handeye.systems.ml.follow.task:FOLLOW",
+    },
     languages={
         ".ml": "handeye.systems.ml.language.language:LANGUAGE",
         ".sym": "handeye.systems.ml.language.language:SYMBOLIC_LANGUAGE",
     },
+    sweeps={"follow": "handeye.systems.ml.run.job_trials:FOLLOW_TRIALS"},
     events="handeye.systems.ml.happenings:EVENTS",
+    files=("follow.json",),
 )

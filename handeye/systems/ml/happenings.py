@@ -5,6 +5,7 @@ from typing import ClassVar
 from handeye.core.plain_text import printable
 from handeye.core.units import Measures
 from handeye.program.events import Importance, SystemEvent
+from handeye.systems.ml.follow.happenings import FOLLOW_EVENTS
 from handeye.systems.ml.realtime.happenings import REALTIME_EVENTS
 
 
@@ -45,4 +46,4 @@ class Nullified(SystemEvent, frozen=True, kw_only=True):
         return f"{where} moves nothing, because {which} on"
 
 
-EVENTS = (Printed, Traced, Nullified, *REALTIME_EVENTS)
+EVENTS = (Printed, Traced, Nullified, *REALTIME_EVENTS, *FOLLOW_EVENTS)

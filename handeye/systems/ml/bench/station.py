@@ -59,7 +59,7 @@ class Station:
         self.arm = RectilinearArm(self.bench, world)
         switched = dict.fromkeys(RIGHT.tools, _nothing) | dict(tools or {})
         self.outputs = BenchOutputs(self.bench, "outputs", switched)
-        self.others = tuple(others)
+        self.others: Sequence[Mechanism[Any]] = others
 
     def machine(self, tell: Callable[[SystemEvent], None] = lambda _: None) -> Machine:
         """Return the machine of the station, with a new real-time level."""

@@ -16,6 +16,7 @@ from handeye.core.files import check_new, write_whole
 from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
+from handeye.systems.ml.cli.follow import follow
 from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.language.check import checked
 
@@ -218,7 +219,7 @@ def _session(file: Path | None = None, *typed: str) -> int:
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, assemble, words)
+_COMMANDS: Final = (run, check, assemble, words, follow)
 ml.default(console)
 for _command in _COMMANDS:
     ml.command(_command)

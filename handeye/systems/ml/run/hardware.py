@@ -9,6 +9,7 @@ from handeye.core.variation import WorldSpec
 from handeye.execution.servo import ServoPeriod
 from handeye.ports.axes import Channel
 from handeye.program.events import SystemEvent
+from handeye.results.result import Result
 from handeye.systems.ml.level import Side
 from handeye.systems.ml.machine.perfect import PerfectMemory, perfect_machine
 from handeye.systems.ml.realtime.machine import Machine
@@ -69,6 +70,10 @@ class Hardware(ABC):
     @property
     def figures(self) -> Mapping[str, float]:
         """Further figures of the job."""
+        return {}
+
+    def files(self, world: WorldSpec, result: Result) -> Mapping[str, bytes]:
+        """Return the files that the job adds to the folder of a finished run."""
         return {}
 
 

@@ -91,6 +91,11 @@ class RunningMl(RunningSystem):
         return self._hardware.cell
 
     @property
+    def hardware(self) -> Hardware:
+        """The machine of the run, with its job."""
+        return self._hardware
+
+    @property
     def joints(self) -> tuple[str, ...]:
         return tuple(self._hardware.joints)
 

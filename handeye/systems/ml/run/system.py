@@ -1,17 +1,22 @@
 """Defines MOS and ML as a system. It builds runs, and provides the words for them."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Final
 
 from handeye.core.resources import plans
 from handeye.core.source import read_source
 from handeye.program.events import Choice
+from handeye.results.result import Result
+from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, RunCallbacks, StepperWords, System
 from handeye.systems.ml import ENTRY
+from handeye.systems.ml.follow.page import kept_page
 from handeye.systems.ml.machine.spec import GRAM_FORCE, RANGE_COUNT
 from handeye.systems.ml.machine.surroundings import Stimulus
+from handeye.systems.ml.run.jobs import PROGRAMS, job_plan
 from handeye.systems.ml.run.plan import MlPlan, decode, encode, listing, sound
 from handeye.systems.ml.run.running import RunningMl
 from handeye.systems.ml.run.state import MlState
@@ -67,8 +72,17 @@ class MlSystem(System):
         return RunningMl(setup, around)
 
     def own_plan(self, task: str) -> MlPlan:
+        if task in PROGRAMS:
+            return job_plan(task)
         text = read_source(plans() / OWN).text
         return MlPlan(name=OWN, text=text, stimuli=WORKED_EXAMPLE)
+
+    def files(self, runner: Runner, pause: Pause, result: Result) -> Mapping[str, bytes]:
+        assert isinstance(runner.system, RunningMl)
+        return runner.system.hardware.files(runner.setup.world, result)
+
+    def page(self, folder: Path) -> bytes | None:
+        return kept_page(folder)
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {

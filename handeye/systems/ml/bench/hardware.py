@@ -1,0 +1,75 @@
+"""A station as the hardware of a run, and the task of a program that moves the arm over an empty table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Final, Literal
+
+from handeye.core.units import MILLIMETRES
+from handeye.core.variation import Variation, WorldSpec
+from handeye.judge.finding import Findings
+from handeye.systems.ml.bench.arm import AXES
+from handeye.systems.ml.bench.station import CAMERA, Station, scene
+from handeye.systems.ml.bench.world import ALONE, ArmWorld
+from handeye.systems.ml.run.hardware import Hardware, StationTask, Tell
+from handeye.tasks.interface import Words
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.snapshot_cell import SnapshotCell
+    from handeye.cell.truth import Truth
+    from handeye.execution.servo import ServoPeriod
+    from handeye.systems.ml.run.plan import MlPlan
+
+
+class StationHardware(Hardware):
+    """The arm of a station."""
+
+    def __init__(self, station: Station, tell: Tell) -> None:
+        self.station, self._arm = station, station.arm
+        self.machine = station.machine(tell)
+        self.joints, self.channels = [*self._arm.joints], self._arm.traced
+
+    @cached_property
+    def cell(self) -> SnapshotCell:
+        return self.station.cell()
+
+    @property
+    def servo_period(self) -> ServoPeriod:
+        return self._arm.servo_period
+
+    def signal(self, interlock: str, *, on: bool) -> None:
+        self._arm.signal(interlock, on=on)
+
+
+class ArmTask(StationTask):
+    """The arm over an empty table. It has no referee."""
+
+    name = "rectilinear"
+    words = Words(product="the program", done="The program has ended.")
+    camera = CAMERA
+    force_axes = "the axes of the hand"
+    measures = MILLIMETRES
+    joint_kinds: Mapping[str, Literal["revolute", "prismatic"]] = {spec.name: spec.kind for spec in AXES[:-2]}
+
+    def variation(self) -> Variation:
+        return ALONE
+
+    def world(self, spec: WorldSpec) -> ArmWorld:
+        """Return the world of a specification."""
+        return ArmWorld(spec, self.variation())
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return scene(self.world(spec)).compile()
+
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        errors = self.world(world)
+        return StationHardware(Station(scene(errors), errors), tell)
+
+    def judge(self, truth: Truth) -> Findings:
+        return {}
+
+
+RECTILINEAR: Final = ArmTask()

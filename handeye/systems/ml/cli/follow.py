@@ -1,0 +1,65 @@
+"""The commands of the curve follower, for one world and for many worlds."""
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.systems.ml.cli.jobs import (
+    ANY_RUN,
+    JobOptions,
+    JobSeed,
+    NumberOfWorlds,
+    carry_out,
+    carry_out_trials,
+)
+from handeye.systems.ml.follow.names import OutlineName
+
+Outline = Annotated[OutlineName, Parameter(help="The plate that lies on the table.")]
+
+
+def follow(
+    *,
+    outline: Outline = "square",
+    seed: JobSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: JobOptions = ANY_RUN,
+) -> int:
+    """Follow the outline of a plate by touch: the program of the paper, with a wand that feels whether it touches.
+
+    `plans/curve_follower.ml` is figure 5 of the paper as printed, and never ends by itself. It runs on the simulated
+    arm until it has come around the plate once, or is lost. A referee then compares its touches with the true outline,
+    and looks whether the plate has moved.
+
+    Exit code 0: right; 1: the follower is lost, or the program was stopped; 3: the circuit is closed, and the referee
+    disagrees; 2: bad input; 130: interrupted.
+    """
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out(job_plan("follow", outline), seed, errors, options)
+
+
+def follow_trials(
+    *,
+    n: NumberOfWorlds = 10,
+    seed: FirstSeed = 0,
+    outline: Outline = "square",
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Follow an outline in many worlds: how often the circuit is closed and right, and the errors of the touches.
+
+    Each trial is that of `handeye ml follow`. Ctrl-C ends the batch and prints what has finished; with --out it can be
+    continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the circuit is closed, and the referee
+    disagrees.
+    """
+    from handeye.systems.ml.run.job_trials import FOLLOW_TRIALS
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out_trials(
+        FOLLOW_TRIALS, job_plan("follow", outline), n, seed, errors, options,
+        title=f"follow, outline {outline}", again=f"--outline {outline}",
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""The first job: figure 5 of the paper follows the outline of an object by touch."""

@@ -1,0 +1,111 @@
+"""Detects from touches and turns that a follower has closed its circuit, or that it is lost. The program of the paper
+does neither: it runs on for ever.
+
+When a circuit is closed, left turns outnumber right turns by four. A follower that misses its wall turns left four
+times without a touch, and is back where it was: a square of one step, which counts as no turn at all. It tries again,
+and as each motion ends a little elsewhere, it often finds the wall. If it does not, it is lost.
+"""
+
+from collections.abc import Sequence
+from math import hypot
+from typing import Final, Literal
+
+from msgspec.structs import replace
+
+from handeye.core.plain_text import counted
+from handeye.core.record import Record
+
+STEP: Final = 1000.0  # units of the slides
+ROUND: Final = 4  # turns of a circuit
+NEAR: Final = 1.5 * STEP  # from the first touch, at most, of the touch that closes a circuit
+IDLE: Final = 40  # squares without a touch after which a follower is lost
+LONGEST: Final = 3000  # statements in which it closes a circuit, or is lost
+
+Point = tuple[float, float]
+Heading = tuple[int, int]
+Turn = Literal["", "left", "right"]
+
+
+class Felt(Record, frozen=True, kw_only=True):
+    """What a follower has felt, as its computer knows it. Places are x and y, in units of the slides."""
+
+    touches: tuple[Point, ...] = ()
+    left: int = 0  # turns
+    right: int = 0
+    idle: int = 0  # squares without a touch
+    missed: int = 0  # left turns since the last touch
+    heading: Heading = (0, 0)  # forward step along x and y
+    statements: int = 0
+    noticed: tuple[int, int] = (0, 0)  # two words of the cycle in which the last touch was noticed
+
+    @property
+    def turns(self) -> int:
+        """Left turns less right turns, without those of squares in which nothing was touched."""
+        return self.left - self.right - ROUND * self.idle
+
+    @property
+    def closed(self) -> bool:
+        """True if the last touch closes a circuit."""
+        return bool(
+            self.turns >= ROUND and not self.missed and _apart(self.touches[0], self.touches[-1]) <= NEAR
+        )
+
+    @property
+    def lost(self) -> bool:
+        """True if the follower has no hope to find the object, or does not come back to where it began."""
+        return self.missed >= ROUND * IDLE or self.statements >= LONGEST
+
+    @property
+    def text(self) -> str:
+        """The end of the run in words."""
+        felt = (
+            f"{counted(len(self.touches), 'touch')}, {counted(self.left, 'left turn')}, "
+            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} without a touch"
+        )
+        if self.closed:
+            return f"the circuit is closed: {felt}"
+        why = (
+            f"it has touched nothing in {counted(self.missed // ROUND, 'square')}"
+            if self.missed >= ROUND * IDLE
+            else f"the circuit is open after {counted(self.statements, 'statement')}"
+        )
+        return f"the follower is lost: {why} ({felt})"
+
+
+def followed(felt: Felt, forward: Sequence[int], touch: Point, noticed: tuple[int, int]) -> Felt:
+    """Return what is felt after a statement.
+
+    Args:
+        forward: the present forward step of the program, along x and y.
+        touch: where the wand touched last.
+        noticed: the cycle in which this was noticed; (0, 0) if it has not touched yet.
+    """
+    statements = felt.statements + 1
+    if noticed != felt.noticed:
+        touches = (*felt.touches, touch)
+        return replace(felt, touches=touches, missed=0, statements=statements, noticed=noticed)
+    heading: Heading = (forward[0], forward[1])
+    if not _straight(heading):  # a turn takes two statements
+        return replace(felt, statements=statements)
+    turn = _turn(felt.heading, heading)
+    left, right = felt.left + (turn == "left"), felt.right + (turn == "right")
+    missed = felt.missed + 1 if turn == "left" else felt.missed
+    idle = felt.idle + (turn == "left" and missed % ROUND == 0)
+    return replace(
+        felt, left=left, right=right, idle=idle, missed=missed, heading=heading, statements=statements
+    )
+
+
+def _straight(heading: Heading) -> bool:
+    return (heading[0] == 0) != (heading[1] == 0)
+
+
+def _turn(was: Heading, now: Heading) -> Turn:
+    """Return the turn from one heading to another, in the frame of the slides, whose z points down."""
+    if now == (was[1], -was[0]):
+        return "left" if _straight(was) else ""
+    return "right" if now == (-was[1], was[0]) and _straight(was) else ""
+
+
+def _apart(one: Point, other: Point) -> float:
+    return hypot(one[0] - other[0], one[1] - other[1])

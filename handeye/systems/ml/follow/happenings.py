@@ -1,0 +1,16 @@
+"""Defines the event with which a follower has done its work."""
+
+from handeye.core.units import Measures
+from handeye.program.events import SystemEvent
+
+
+class CircuitClosed(SystemEvent, frozen=True, kw_only=True):
+    """A follower has come around the object once."""
+
+    text: str
+
+    def sentence(self, measures: Measures) -> str:
+        return self.text
+
+
+FOLLOW_EVENTS = (CircuitClosed,)

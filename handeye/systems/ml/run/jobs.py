@@ -1,0 +1,25 @@
+"""Sets up the runs of jobs: a program, and the station on which it works."""
+
+from typing import Final
+
+from handeye.core.resources import plans
+from handeye.core.source import read_source
+from handeye.core.variation import WorldSpec
+from handeye.runs.setup import Setup
+from handeye.systems.ml import ENTRY
+from handeye.systems.ml.run.plan import MlPlan
+
+PROGRAMS: Final = {"follow": "curve_follower.ml"}
+USUAL: Final = {"follow": "square"}  # variant of a job where none is named
+
+
+def job_plan(job: str, variant: str = "") -> MlPlan:
+    """Return the plan of a job's own program."""
+    name = PROGRAMS[job]
+    text = read_source(plans() / name).text
+    return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant or USUAL[job])
+
+
+def job_setup(plan: MlPlan, world: WorldSpec) -> Setup:
+    """Return the setup of a run that a referee judges."""
+    return Setup(system=ENTRY.name, plan=plan, world=world, camera="auto", judged=True)
