@@ -13,6 +13,7 @@ from handeye.cli.seeds import Seeds, following, seeds_of
 from handeye.cli.sweeps import ANY, SweepOptions, carry_out_sweep
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
+from handeye.core.entries import entries, loaded
 from handeye.core.errors import BadArgument
 from handeye.runs.setup import Setup
 
@@ -79,7 +80,8 @@ def faults(
 
     chosen_seeds = seeds_of(n, world.seed, seeds, usual=1)
     spec = world.errors.spec(chosen_seeds[0])
-    catalogue = with_panic(world.work.faults(spec))
+    own = _own_trials(world.work.name)
+    catalogue = world.work.faults(spec) if own else with_panic(world.work.faults(spec))
     if every and only:
         raise BadArgument("--all cannot be given with --only")
     if listed and (stage is not None or options.out is not None):
@@ -90,6 +92,22 @@ def faults(
     if listed:
         return _list(catalogue, kinds, json=options.json)
     options.check()
+    if own:
+        if stage is not None or checkpoints is not None or camera != "auto":
+            raise BadArgument("--stage, --checkpoints and --camera are for programs of the Stanford arm")
+        sweep, work = loaded(own)(world.work.name, spec)
+        return carry_out_sweep(
+            sweep,
+            work,
+            [
+                Case(trials=(k,), seed=s, condition=each.name)
+                for each in kinds
+                for k, s in enumerate(chosen_seeds)
+            ],
+            head_of(sweep, spec, seeds=() if following(chosen_seeds) else tuple(chosen_seeds)),
+            options,
+            title=f"{world.work.name} with one fault at a time, in worlds from {spec} on",
+        )
     plan, camera = plan_or_own(None, world.task), camera_here(camera)
     first = None if stage is None else stage_of(plan.program)(stage)
     given = usual(catalogue, kinds, first, len(plan.program.stages))
@@ -110,6 +128,11 @@ def faults(
         title=f"{plan.program.name} with one fault at a time, in worlds from {spec} on",
         plan=plan,
     )
+
+
+def _own_trials(task: str) -> str:
+    """The place of the trials of faults that the system of a task has of its own; empty if it has none."""
+    return next((entry.faults for entry in entries().values() if task in entry.tasks), "")
 
 
 def _sound(setup: Setup, folder: Path, seeds: Sequence[int], jobs: int) -> None:

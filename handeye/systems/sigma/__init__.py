@@ -8,7 +8,7 @@ ENTRY = Entry(
     title="SUPERSIGMA",
     help="Write parallel tasks in MAL, and try every order in which they may run (Milan, 1981).",
     system="handeye.systems.sigma.run.system:SIGMA",
-    can=("levels", "video", "console", "chaos"),
+    can=("faults", "levels", "video", "console", "chaos"),
     reasons={
         "plans": "`handeye sigma run FILE.mal` runs its programs",
         "undo": "its motors cannot undo their motions; `back` in the stepper returns to an earlier state of the run",
@@ -35,5 +35,6 @@ trials insert = handeye.systems.sigma.cli.insert:insert_trials: Find holes by fo
         "insert": "handeye.systems.sigma.run.job_trials:INSERTION_TRIALS",
         "prco": "handeye.systems.sigma.run.job_trials:PRCO_TRIALS",
     },
+    faults="handeye.systems.sigma.run.fault_trials:fault_trials",
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

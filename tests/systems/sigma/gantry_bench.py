@@ -4,8 +4,8 @@ from mal_bench import Ran, go_on
 
 from handeye.core.variation import WorldSpec
 from handeye.program.events import SystemEvent
-from handeye.systems.sigma.bus.faults import defect
 from handeye.systems.sigma.bus.wired import WiredBus
+from handeye.systems.sigma.gantries.faults import every_fault, gantries_of
 from handeye.systems.sigma.gantries.machine import Gantries, scene
 from handeye.systems.sigma.gantries.world import GantryWorld
 from handeye.systems.sigma.mal.compiler import program_of
@@ -26,8 +26,14 @@ class Machine:
         if block:  # its x, y and height, mm
             x, y, high = (float(word) / 1000 for word in block.split())
             spec.worldbody.add_geom(type=6, size=[0.01, 0.01, high / 2], pos=[x, y, high / 2])
-        self.gantries = Gantries(spec, self.world, compensated=compensated)
-        self.bus = WiredBus(plant=self.gantries, defects=[defect(f) for f in faults], seed=seed or 0)
+        planted = [every_fault()[name] for name in faults]
+        defects = [each for fault in planted for each in fault.bus]
+        self.gantries = (
+            gantries_of(spec, self.world, planted)
+            if planted
+            else Gantries(spec, self.world, compensated=compensated)
+        )
+        self.bus = WiredBus(plant=self.gantries, defects=defects, seed=seed or 0)
 
     def run(self, text: str) -> Ran:
         """A program carried out, as far as it goes."""

@@ -108,6 +108,16 @@ def test_origin_lets_the_rotor_rest_before_it_turns_round_so_that_no_pole_is_los
     assert machine.gantries.memory.slipped[0] == 0
 
 
+def test_a_motor_that_turns_round_at_once_loses_no_pole() -> None:
+    machine = Machine(0)
+    for steps in (1000, -390, 200, -8, 5):
+        machine.bus.send(protocol.move("X1", steps))
+        assert machine.bus.wait_free(0, LONG) is Status.FREE
+    machine.rest()
+    assert machine.gantries.memory.slipped[0] == 0
+    assert machine.count("X1") == 807
+
+
 @pytest.mark.slow
 def test_origin_ends_the_doubt() -> None:
     text = "10 ORIGIN Z1\n20 LIMIT Z1, 30\n30 ON ABORT GOTO 50\n40 MOVE Z1 TO 195 SLOW 30\n50 ORIGIN Z1\n"

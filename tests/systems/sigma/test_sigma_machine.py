@@ -7,6 +7,7 @@ from mal_bench import TWO_TASKS, begun, carried_out, go_on, mal
 
 from handeye.core.mutable_records import copied
 from handeye.systems.sigma.machine.perfect import PerfectMotors
+from handeye.systems.sigma.mal.interleavings import interleavings
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.protocol import NUMBERS, STEP_MM
 
@@ -110,6 +111,15 @@ def test_a_handler_of_one_axis_leaves_the_others_alone() -> None:
     assert carried_out(text).fault.startswith("ABORT X1 RAIL")
 
 
+def test_stop_with_a_text_stops_the_program_as_failed() -> None:
+    ran = carried_out('10 IF A = 0 THEN STOP "NO PIECE"\n20 PRINT "GOING ON"\n')
+    assert (ran.fault, ran.printed) == ("the task MAIN, line 10: NO PIECE", [])
+    ran.vm.proceed()
+    go_on(ran)
+    assert (ran.fault, ran.printed) == ("", ["GOING ON"])
+    assert interleavings(ran.vm.program, 100).findings == ()
+
+
 TWICE = "10 ORIGIN X1, Y1\n20 MOVE X1 TO 50\n30 ORIGIN X1, Y1\n40 PRINT POS(X1)"
 
 
@@ -127,6 +137,19 @@ def test_origin_finds_out_whether_a_motor_has_lost_steps(lost: int, told: str) -
         ran.vm.retry()
         go_on(ran)
     assert ran.printed == ["0"]
+
+
+def test_origin_finds_out_whether_a_motor_has_missed_a_command() -> None:
+    ran = begun(TWICE)
+    machine = ran.vm.machine
+    assert isinstance(machine, PerfectMotors)
+    while ran.vm.memory.counts.get("X1") != round(50 / STEP_MM):
+        go_on(ran, 1)
+    machine.memory.motors[NUMBERS["X1"]].count -= 1
+    go_on(ran)
+    assert ran.fault == "line 30: WRONGCOUNT: X1 has counted 49.95 mm, and was sent to 49.99 mm"
+    ran.vm.retry()
+    assert go_on(ran).printed == ["0"]
 
 
 def test_a_motor_at_its_rail_moves_away_from_it_and_not_towards_it() -> None:

@@ -23,8 +23,9 @@ from handeye.cli.common import (
 from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
 from handeye.cli.sweeps import SweepOptions, carry_out_sweep
 from handeye.cli.videos import drawing
-from handeye.cli.world_options import OwnErrorOptions
+from handeye.cli.world_options import Faults, OwnErrorOptions, broken
 from handeye.core.errors import CannotWrite, InvalidInput
+from handeye.tasks import any_task
 
 if TYPE_CHECKING:
     from handeye.systems.sigma.run.job_trials import JobRow
@@ -48,6 +49,7 @@ class JobOptions:
     details: Details = False
     out: Out = None
     video: Annotated[Path | None, Parameter(help="Video of the run, .webp, .webm or .mp4, 14 s long.")] = None
+    fault: Faults = None
     overwrite: Overwrite = False
     no_keep: NoKeep = False
     breaks: Break = None
@@ -86,7 +88,8 @@ def carry_out(plan: "MalPlan", seed: int, errors: OwnErrorOptions, options: JobO
 
     out, video = options.out, options.video
     check_kept(options.no_keep, out)
-    setup = job_setup(plan, errors.of(plan.job).spec(seed))
+    world = broken(errors.of(plan.job).spec(seed), options.fault, any_task(plan.job))
+    setup = job_setup(plan, world)
     with TemporaryDirectory() as aside:
         folder = out
         if video is not None:

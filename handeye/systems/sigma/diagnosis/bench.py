@@ -33,12 +33,12 @@ SWAPPED: Final[tuple[MachineKind, ...]] = (
 _SCAN: Final = 1000 * PS
 _CLOSES: Final = 100_000 * PS  # ps after which fingers touch a block; a sound hand is done after 150 ms
 _SLOW: Final = 4  # times as long
-_DIM: Final = 0.6  # of the light of a sound lamp
-_CUT: Final = 0.5  # of it, below which the photodiode sees none
+DIM: Final = 0.6  # of the light of a sound lamp
+CUT: Final = 0.5  # of it, below which the photodiode sees none
 _SPRING: Final = 1000.0  # N/m of the spring balance
-_HALF: Final = 0.5  # of the pull-out force, with one phase
-_SAG: Final = 0.4  # of the pull-out force that a sagging supply leaves
-_MANY: Final = 3  # motors at once that make it sag
+HALF: Final = 0.5  # of the pull-out force, with one phase
+SAG: Final = 0.4  # of the pull-out force that a sagging supply leaves
+MANY: Final = 3  # motors at once that make it sag
 _START_N: Final = Drive(mass=1.0).start_force
 _TOP_N: Final = Drive(mass=1.0).top_force
 _CLOCKS: Final = 0.005  # by which clocks are off at most, as a share
@@ -138,8 +138,8 @@ class Machine(IdealMachine):
 
     def _slipped(self, number: int, train: Any, most: int, *, complete: bool) -> int:
         """Return the number of steps by which a rotor lags behind after a pulse train."""
-        share = _HALF if self.fault("phase", number) else 1.0
-        share *= _SAG if self.fault("supply") and most >= _MANY else 1.0
+        share = HALF if self.fault("phase", number) else 1.0
+        share *= SAG if self.fault("supply") and most >= MANY else 1.0
         load, least = self.pulls.get(number, 0.0), _START_N * share
         if load > least:  # the balance gives way as far as the motor does
             return math.ceil((load - least) / _SPRING / STEP / POLE) * POLE
@@ -181,8 +181,8 @@ class Machine(IdealMachine):
     def beam(self, number: int) -> bool:
         if (stuck := self.fault("beam", number)) is not None:
             return bool(stuck.level)
-        lamp = _DIM if self.fault("lamp", number) else 1.0
-        return lamp * self.light.get(number, 1.0) < _CUT
+        lamp = DIM if self.fault("lamp", number) else 1.0
+        return lamp * self.light.get(number, 1.0) < CUT
 
     def actuate(self, number: int, devices: Sequence[int]) -> None:
         before = self.memory.devices.get(number, (0,))[DEVICES["HAND"]]

@@ -1,7 +1,7 @@
 """Twenty faults that can be planted, each with the part that has it. A seed determines the place and the kind
 of a fault."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Final, Literal, NamedTuple, TypeVar
 
 import numpy as np
@@ -60,6 +60,22 @@ class Draw:
         return options[0] if self._rng is None else options[int(self._rng.integers(len(options)))]
 
 
+class _InTurn(Draw):
+    """Chooses by the numbers of the options, which are given in advance; from there on, always the first."""
+
+    def __init__(self, numbers: Sequence[int]) -> None:
+        super().__init__(None)
+        self._left = [*numbers]
+        self.numbers, self.sizes, self.words = list[int](), list[int](), list[str]()
+
+    def one(self, options: Sequence[Option]) -> Option:
+        number = self._left.pop(0) if self._left else 0
+        self.numbers.append(number)
+        self.sizes.append(len(options))
+        self.words.append(str(options[number]))
+        return options[number]
+
+
 class Fault(NamedTuple):
     """A kind of fault that can be planted."""
 
@@ -115,9 +131,10 @@ def _address(name: str, draw: Draw) -> Planted:
 
 
 def _status(name: str, draw: Draw) -> Planted:
-    who, line, level = draw.one(_NAMES), draw.one("AB"), draw.one((1, 0))
-    told = f"status line {line} of {who} is stuck {'high' if level else 'low'}"
-    return _bus(f"status-{line.lower()}", f"status line {line} of {who}", told, NUMBERS[who], level)(name)
+    who, line, level = draw.one(_NAMES), draw.one("AB"), draw.one(("high", "low"))
+    told = f"status line {line} of {who} is stuck {level}"
+    part, stuck = f"status line {line} of {who}", int(level == "high")
+    return _bus(f"status-{line.lower()}", part, told, NUMBERS[who], stuck)(name)
 
 
 def _interrupt(name: str, _: Draw) -> Planted:
@@ -143,20 +160,22 @@ def _phase(name: str, draw: Draw) -> Planted:
 
 
 def _switch(name: str, draw: Draw) -> Planted:
-    who, end, level = draw.one(AXES), draw.one(("low", "high")), draw.one((0, 1))
-    told = f"the {end} switch of {who} is stuck {'on' if level else 'off'}"
-    return _machine(name, f"{end} switch of {who}", told, "switch", who, ("low", "high").index(end), level)
+    who, end, level = draw.one(AXES), draw.one(("low", "high")), draw.one(("off", "on"))
+    told = f"the {end} switch of {who} is stuck {level}"
+    return _machine(
+        name, f"{end} switch of {who}", told, "switch", who, ("low", "high").index(end), int(level == "on")
+    )
 
 
 def _wrist(draw: Draw) -> tuple[int, int]:
-    return draw.one(ARMS), draw.one((0, 1, 2))
+    return draw.one(ARMS), COMPONENTS.index(draw.one(COMPONENTS))
 
 
 def _gauge(name: str, draw: Draw) -> Planted:
-    (arm, which), level = _wrist(draw), draw.one((0, 1))
+    (arm, which), level = _wrist(draw), draw.one(("dead", "offset"))
     part = f"gauge {COMPONENTS[which]} of wrist {arm}"
-    told = f"the {part} {f'reads {OFFSET_N:g} N too much' if level else 'is dead'}"
-    return _machine(name, part, told, "gauge", f"FORCE{arm}", which, level)
+    told = f"the {part} {'is dead' if level == 'dead' else f'reads {OFFSET_N:g} N too much'}"
+    return _machine(name, part, told, "gauge", f"FORCE{arm}", which, int(level == "offset"))
 
 
 def _accelerometer(name: str, draw: Draw) -> Planted:
@@ -178,9 +197,9 @@ def _converter(name: str, draw: Draw) -> Planted:
 
 
 def _beam(name: str, draw: Draw) -> Planted:
-    arm, level = draw.one(ARMS), draw.one((1, 0))
-    told = f"the beam of hand {arm} always reads {'cut' if level else 'free'}"
-    return _machine(name, f"beam of hand {arm}", told, "beam", f"HAND{arm}", 0, level)
+    arm, level = draw.one(ARMS), draw.one(("cut", "free"))
+    told = f"the beam of hand {arm} always reads {level}"
+    return _machine(name, f"beam of hand {arm}", told, "beam", f"HAND{arm}", 0, int(level == "cut"))
 
 
 def _lamp(name: str, draw: Draw) -> Planted:
@@ -229,6 +248,18 @@ def planted(name: str, seed: int | None = None) -> Planted:
         raise NoSuchName(f"no fault is called {quoted(name)}; there are {', '.join(FAULTS)}")
     rng = None if seed is None else random_numbers(seed, f"diagnosis {name}")
     return FAULTS[name].plant(name, Draw(rng))
+
+
+def variants(name: str) -> Iterator[tuple[str, Planted]]:
+    """Yield the fault called `name` at each of its places and of each of its kinds, with the words that choose it,
+    such as `dead.X1`. The usual one comes first."""
+    numbers: list[int] | None = []
+    while numbers is not None:
+        draw = _InTurn(numbers)
+        found = FAULTS[name].plant(name, draw)
+        yield ".".join([name, *draw.words]), found
+        last = [n for n, size in enumerate(draw.sizes) if draw.numbers[n] + 1 < size]
+        numbers = [*draw.numbers[: last[-1]], draw.numbers[last[-1]] + 1] if last else None
 
 
 def drawn(seed: int) -> Planted:

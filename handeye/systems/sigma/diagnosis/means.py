@@ -32,6 +32,7 @@ _OWN: Final = 355.0  # microseconds of a question for three bytes that pass by t
 _REPEATS: Final = 5
 _COUNT: Final = 0x1234
 _MISREAD: Final = 0x02FF  # the count of a late riser that has taken the wrong command
+_RESTED: Final = 2_500  # microseconds after which a motor turns round at once
 _LATE: Final = range(16, 33, 2)  # microseconds after the beginning of a command
 
 
@@ -143,7 +144,7 @@ def strobe(at: Technician) -> Strobe:
     for after in _LATE:
         steps = -steps
         bus.send(protocol.set_position("Z2", _COUNT))
-        pause(bus, 200)
+        pause(bus, _RESTED)
         bus.send(protocol.move("Z2", steps))
         pause(bus, takes - after)
         bus.send(Command.of(frame))

@@ -6,7 +6,7 @@ from typing import Final, Literal
 
 from handeye.core.mutable_records import MutableRecord
 from handeye.ports.microbus import Command, Status
-from handeye.systems.sigma.firmware.device import Crystal, Device
+from handeye.systems.sigma.firmware.device import PS, Crystal, Device
 from handeye.systems.sigma.motors.pulses import (
     CURVES,
     RELEASE,
@@ -28,7 +28,10 @@ switch.
 COUNTING: Final[frozenset[State]] = frozenset({"still", "moving", "stopping"})
 """States in which the count of a motor stays valid."""
 _BITS: Final = 16
-REST: Final = 20_000  # microseconds in which a rotor comes to rest before ORIGIN turns it round
+TURN: Final = (
+    2_000  # microseconds for which a motor pauses before it turns round, so that its rotor keeps step
+)
+REST: Final = 20_000  # microseconds of this pause in ORIGIN, where the motor stops by the steepest ramp
 
 
 class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
@@ -39,6 +42,7 @@ class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
     train: Train | None = None
     began: int = 0  # ps
     sense: int = 1  # of the train, 1 or -1
+    ended: int = -REST * PS  # ps, when the last train ended
     pulses: int = 0  # sent to the driver before the train, forward less backward
     zero: int = 0  # of them where the count is 0
     at_abort: int = 0  # count when the last abort began, or where ORIGIN ended, before it became 0
@@ -147,13 +151,14 @@ class Motor(Device):
 
     def _start(self, state: State, train: Train, sense: int, at: int) -> None:
         memory = self.memory
-        memory.state, memory.train, memory.sense, memory.began = state, train, sense, at
+        begins = at if sense == memory.sense else max(at, memory.ended + self.crystal.micros(TURN))
+        memory.state, memory.train, memory.sense, memory.began = state, train, sense, begins
         memory.status = Status.BUSY
 
     def _halt(self, at: int) -> float:
         """End the pulse train. Returns the speed until then (steps/s)."""
         memory, speed = self.memory, abs(self.speed(at))
-        memory.pulses, memory.train, memory.state = self.sent(at), None, "still"
+        memory.pulses, memory.train, memory.state, memory.ended = self.sent(at), None, "still", at
         return speed
 
     def _seek(self, at: int) -> None:

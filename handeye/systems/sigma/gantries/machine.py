@@ -62,7 +62,7 @@ _WRISTED: Final = tuple(NUMBERS[f"FORCE{axis[1]}"] for axis in AXES)
 _HAND: Final = {NUMBERS[f"HAND{arm}"]: index for index, arm in enumerate(ARMS)}
 _N: Final = len(AXES)
 _HIGH: Final = 2  # rows of six: forces one way and the other, high ends, low ends, rotors ahead, and behind
-_ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
+ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
 _LEVELS: Final = 4 * _N
 _ALL: Final = 6 * _N
 _SERVOS: Final = _N + len(ARMS)  # a job may have more motors, which follow these
@@ -187,8 +187,12 @@ class Gantries(Plant[GantryMemory]):
         train = memory.train, memory.began, memory.pulses
         self._motors[index] = motor
         if self._trains[index] != train:
-            self._trains[index], self._fields[index] = train, _field(motor, self._step)
+            self._trains[index], self._fields[index] = train, self._field(index, motor)
             self._plan()
+
+    def _field(self, index: int, motor: Motor) -> Field:
+        """Return the position of a motor's field from now on."""
+        return _field(motor, self._step)
 
     def resumed(self) -> None:
         self._step = self._first = round(self.bench.now / float(self.bench.tick))
@@ -211,7 +215,7 @@ class Gantries(Plant[GantryMemory]):
     @property
     def felt(self) -> Array:
         """Present force on the wrists along each axis (N, shape (6,))."""
-        return np.asarray(self._felt[:_N] @ self.bench.data.sensordata + self._still[:_N])
+        return self._sense()[:_N]
 
     @property
     def period(self) -> ServoPeriod:
@@ -256,7 +260,7 @@ class Gantries(Plant[GantryMemory]):
             places[:there, index], places[there:, index] = field.places[gone : gone + there], field.places[-1]
             speeds[:there, index] = field.speeds[gone : gone + there]
         places = (places + POLE * np.array(self.memory.slipped)) * STEP + self._begin
-        pull = pull_out(speeds) * self._pull
+        pull = self._pulls(speeds)
         self._ctrl = np.empty((rows, _SERVOS))
         self._ctrl[:, :_N] = places + self._lead * speeds * STEP
         self._ctrl[:, _N:] = [0.0 if closed else OPEN for closed in self.memory.grips]
@@ -270,6 +274,14 @@ class Gantries(Plant[GantryMemory]):
         self._limits[:, :_LEVELS] = np.concatenate((force, force, *ends))
         self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + strains, strains - places
 
+    def _pulls(self, speeds: Table) -> Table:
+        """Return the greatest force of each motor (N) at these speeds (steps/s)."""
+        return pull_out(speeds) * self._pull
+
+    def _sense(self) -> Array:
+        """Return the values that are compared with the limits."""
+        return np.asarray(self._felt @ self.bench.data.sensordata + self._still)
+
     def _draw(self) -> None:
         """Let the fields pull the rotors for one physics step."""
         if not self._whole and self._step - self._first > self._last:
@@ -282,7 +294,7 @@ class Gantries(Plant[GantryMemory]):
 
     def _look(self) -> None:
         """Detect what a physics step has changed."""
-        sensed = self._felt @ self.bench.data.sensordata + self._still
+        sensed = self._sense()
         self._step += 1
         np.maximum(self._peaks, np.abs(sensed[:_N]), out=self._peaks)
         levels = (sensed > self._limits[self._row]).tobytes()
@@ -294,7 +306,7 @@ class Gantries(Plant[GantryMemory]):
         for index in range(_LEVELS):
             if levels[index] != self._known[index]:
                 kind, axis = divmod(index, _N)
-                pin: Pin = _ENDS.get(kind, "force")
+                pin: Pin = ENDS.get(kind, "force")
                 number = _WRISTED[axis] if pin == "force" else NUMBERS[AXES[axis]]
                 self._seen[number, pin] = Level(number, pin, bool(levels[index]))
         if self._strained or any(levels[_LEVELS:]):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final, Literal
 
+from handeye.core.faults import Catalogue
 from handeye.core.units import MILLIMETRES
 from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
@@ -31,6 +32,11 @@ class GantryTask(AnyTask):
 
     def variation(self) -> Variation:
         return VARIATION
+
+    def faults(self, world: WorldSpec) -> Catalogue:
+        from handeye.systems.sigma.gantries.faults import catalogue
+
+        return catalogue()
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         return scene(GantryWorld(spec)).compile()

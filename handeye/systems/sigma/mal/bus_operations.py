@@ -185,6 +185,8 @@ class BusOperations:
             self.memory.stopped.pop(what.to, None)
         if command.op == Op.ORIGIN:
             sure = what.to in self.memory.originated and what.to not in self.memory.doubtful
+            if sure:
+                self._compare(name, what.to)
             others = {*self.memory.certain} - {what.to}
             self.memory.certain = tuple(sorted(others | {what.to} if sure else others))
             self.memory.counts[what.to] = 0
@@ -192,6 +194,17 @@ class BusOperations:
             self.memory.doubtful = tuple(axis for axis in self.memory.doubtful if axis != what.to)
         self._transmit(name, command, means or _meaning(command))
         self.machine.send(command)
+
+    def _compare(self, name: str, axis: str) -> None:
+        """Raise Trap if a motor has counted other steps than the program has commanded, because its microcomputer
+        missed or misread a command."""
+        sent = self.memory.counts.get(axis, 0)
+        count = protocol.signed(self.ask(name, protocol.position(axis)))
+        if count != sent:
+            self.memory.counts[axis] = count
+            raise Trap(
+                f"WRONGCOUNT: {axis} has counted {count * STEP_MM:.2f} mm, and was sent to {sent * STEP_MM:.2f} mm"
+            )
 
     def _transmit(self, name: str, command: Command, means: str) -> None:
         self.memory.commands += 1

@@ -26,7 +26,7 @@ from handeye.systems.sigma.mal.syntax import (
 Op = Literal[
     "PUSHC", "PUSHV", "POPV", "ADD", "SUB", "MUL", "DIV", "NEG", "EQ", "NE", "LT", "GT", "LE", "GE", "AND", "OR",
     "NOT", "ABS", "INT", "SGN", "SQR", "POS", "STAT", "FORCE", "CRASHPOS", "BEAM", "TIME",
-    "JMP", "JZ", "NEXTLINE", "GO", "CALL", "RET", "FOR", "NEXT", "END", "HALT",
+    "JMP", "JZ", "NEXTLINE", "GO", "CALL", "RET", "FOR", "NEXT", "END", "HALT", "FAIL",
     "START", "KILL", "SETF", "CLRF", "WAITF", "TAKEF", "SLEEP",
     "GOAL", "SPEEDS", "CMD", "BUSYWAIT", "ORIG", "FOUND", "LIMSPEED", "CURVE", "THRESHOLD", "ACT",
     "OUT", "TAB", "EOL", "IN", "TRAP", "RESUME",
@@ -220,6 +220,10 @@ class _Compiler:
                 self._emit("CMD")
                 self._emit("BUSYWAIT", names)
                 self._emit("FOUND", names)
+            case "STOP" if statement.items:
+                (text,) = statement.items
+                assert isinstance(text, Text)
+                self._emit("FAIL", text.text)
             case "ACTUATE":
                 self._value(statement.values[0])
                 self._emit("ACT", names[0])

@@ -269,7 +269,8 @@ class _Search:
         memory = state.memory
         if memory.fault is not None:
             line = self.program.line_of(memory.fault.address).number
-            self._find("stops", memory.fault.told, [line], key)
+            if memory.fault.kind != "fail":  # which the program wants
+                self._find("stops", memory.fault.told, [line], key)
             return
         if not memory.tasks:
             self.ends.add(

@@ -77,7 +77,7 @@ class TaskMemory(MutableRecord, kw_only=True):
 class Fault(Record, frozen=True, kw_only=True):
     """The reason why a program has stopped."""
 
-    kind: Literal["trap", "abort", "deadlock", "input", "break"]
+    kind: Literal["trap", "abort", "deadlock", "input", "break", "fail"]
     task: str
     address: Address  # of the statement
     told: str

@@ -191,6 +191,11 @@ class Operations(BusOperations):
         for name in (*self.memory.tasks,):
             self.end(name)
 
+    def _do_fail(self, name: str, task: TaskMemory, instruction: Instruction) -> None:
+        line = self.program.line_of(task.pc)
+        told = f"the task {name}, line {line.number}: {text_of(instruction)}"
+        self.memory.fault, task.amid = Fault(kind="fail", task=name, address=line.begin, told=told), False
+
     def _do_start(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         for name in names_of(instruction):
             if name in self.memory.tasks:

@@ -130,6 +130,11 @@ class _Parser(ExpressionReader):
     def _bare(self, word: str) -> Statement:
         return Statement(word=word, span=self._end)
 
+    def _stop(self, word: str) -> Statement:
+        if self._next is None or self._next.kind != "text":
+            return self._bare(word)
+        return Statement(word=word, span=self._end, items=(Text(self._take().text),))
+
     def _remark(self, word: str) -> Statement:
         self._at = len(self._tokens)
         return self._bare(word)
@@ -265,7 +270,7 @@ _FORMS: Final[dict[str, Callable[[_Parser, str], Statement]]] = {
     "NEXT": _Parser._of_name,
     "PRINT": _Parser._print,
     "INPUT": _Parser._of_name,
-    "STOP": _Parser._bare,
+    "STOP": _Parser._stop,
     "END": _Parser._bare,
     "TASK": _Parser._of_name,
     "START": _Parser._of_tasks,

@@ -47,7 +47,7 @@ Expression = Number | Variable | Unary | Binary | Call
 
 
 class Text(NamedTuple):
-    """A text in quotes, in PRINT."""
+    """A text in quotes, in PRINT and STOP."""
 
     text: str
 
@@ -75,7 +75,7 @@ class Statement:
     slow: Expression | None = None
     straight: bool = False  # LINE
     waits: bool = True  # not NOWAIT
-    items: tuple["Text | Expression | str", ...] = ()  # of PRINT; a separator as it is
+    items: tuple["Text | Expression | str", ...] = ()  # of PRINT and STOP; a separator as it is
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

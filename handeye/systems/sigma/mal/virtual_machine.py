@@ -132,7 +132,7 @@ class VirtualMachine:
         """Continue after the statement at which the program has stopped."""
         fault = self._unfault()
         task = self.memory.tasks.get(fault.task)
-        if fault.kind in ("trap", "abort") and task is not None:
+        if fault.kind in ("trap", "abort", "fail") and task is not None:
             self._abandon(task, self._operations.behind(fault.address))
         self.settle()
 
@@ -140,7 +140,7 @@ class VirtualMachine:
         """Repeat the statement at which the program has stopped."""
         fault = self._unfault()
         task = self.memory.tasks.get(fault.task)
-        if fault.kind in ("trap", "abort") and task is not None:
+        if fault.kind in ("trap", "abort", "fail") and task is not None:
             self._abandon(task, fault.address)
         self.settle()
 

@@ -41,7 +41,11 @@ WORDS: Final[dict[str, Word]] = {
         '60 PRINT "PIECES", PIECES',
     ),
     "INPUT": Word("statement", "INPUT name", "Wait for a number from the console.", "10 INPUT HEIGHT"),
-    "STOP": Word("statement", "STOP", "End the program with all its tasks.", "90 STOP"),
+    "STOP": Word(
+        "statement", "STOP [text]",
+        "End the program with all its tasks. With a text, the program stops as failed, and the text says why.",
+        '90 STOP "NO PIECE IS FOUND"',
+    ),
     "END": Word("statement", "END", "End this task. The program ends with its last task.", "70 END"),
     "TASK": Word(
         "statement", "TASK name",

@@ -59,7 +59,7 @@ class RunningMal(RunningSystem):
         assert isinstance(setup.plan, MalPlan)
         self._setup, self._around, self._plan = setup, around, setup.plan
         self._listing = listing(setup.plan)
-        self._early: list[SystemEvent] = []
+        self._early: list[AnyEvent] = []
         self._begun = False
         self._machine: PerfectMotors | WiredBus = PerfectMotors()
         self._gantries: Gantries | None = None
@@ -116,6 +116,9 @@ class RunningMal(RunningSystem):
     def _tell(self, event: SystemEvent) -> None:
         if self._witness is not None and isinstance(event, Printed):
             self._witness.hear(event.text)
+        self._emit(event)
+
+    def _emit(self, event: AnyEvent) -> None:
         if self._begun:
             self._around.emit(event)
         else:
@@ -136,6 +139,7 @@ class RunningMal(RunningSystem):
         )  # fmt: skip
         self.vm.begin()
         self._stand()
+        self._call()
         self._begun = True
         return [started, *self._early]
 
@@ -174,7 +178,7 @@ class RunningMal(RunningSystem):
         more = f"; `type {fault.task} 5` in the stepper gives 5" if fault.kind == "input" else ""
         state.stopped = OperatorCalled(time=self.time, message=printable(f"{fault.told}{more}"))
         state.at, state.onward = None, self.vm.program.line_at[fault.address]
-        self._around.emit(state.stopped)
+        self._emit(state.stopped)
 
     def _close(self, status: str) -> None:
         if self._state.stage is not None:
@@ -303,8 +307,9 @@ class RunningMal(RunningSystem):
 
 def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness[Any] | None]":
     """Return the bus of the simulated machine, the gantries, and the witness of the job on their board."""
+    from handeye.systems.sigma.gantries.faults import gantries_of, planted_in
     from handeye.systems.sigma.gantries.job import JobTask
-    from handeye.systems.sigma.gantries.machine import Gantries, scene
+    from handeye.systems.sigma.gantries.machine import scene
     from handeye.systems.sigma.gantries.world import GantryWorld
 
     assert isinstance(setup.plan, MalPlan)
@@ -313,10 +318,12 @@ def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness[Any] | None]":
         spec, witness = task.board(world, setup.plan.pieces)
     else:
         spec = scene(world)
-    gantries = Gantries(spec, world)
+    planted = planted_in(setup.world)
+    gantries = gantries_of(spec, world, planted)
     if isinstance(task, JobTask):
         task.equip(world, setup.plan.pieces, gantries)
     if witness is not None:
         witness.watch(gantries)
-    bus = WiredBus(plant=gantries, seed=setup.world.seed, clock_spread=world.clock_spread)
+    defects = [defect for each in planted for defect in each.bus]
+    bus = WiredBus(plant=gantries, defects=defects, seed=setup.world.seed, clock_spread=world.clock_spread)
     return bus, gantries, witness

@@ -14,6 +14,7 @@ from handeye.systems.sigma.run.jobs import PROGRAMS, job_plan
 from handeye.systems.sigma.run.plan import MalPlan, decode, encode, listing, sound
 from handeye.systems.sigma.run.running import RunningMal
 from handeye.systems.sigma.run.state import MalState
+from handeye.tasks import any_task
 
 OWN_PIECES: Final = 2  # of a board where no number is given
 OWN: Final = "handover.mal"  # the program that is run where none is named
@@ -55,6 +56,12 @@ class SigmaSystem(System):
         self.check(setup)
         sound(setup.plan)  # type: ignore[arg-type]  # as `check` has found
         return RunningMal(setup, around)
+
+    def check(self, setup: Setup) -> None:
+        super().check(setup)
+        task, world = any_task(setup.task), setup.world
+        task.variation().check(world)
+        task.faults(world).check(world.faults)
 
     def own_plan(self, task: str) -> MalPlan:
         for job in PROGRAMS:
