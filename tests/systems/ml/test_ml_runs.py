@@ -7,9 +7,11 @@ import pytest
 from run_bench import FELT, HELD, NEAR, begin, lines, printed, program, ran
 
 from handeye.core.errors import BadFile, Refused
+from handeye.execution.servo import ServoPeriod
 from handeye.program.events import LineTyped, OperatorCalled, StepFinished
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
+from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.ml.happenings import Nullified
@@ -185,6 +187,23 @@ def test_a_state_that_does_not_fit_the_program_is_refused() -> None:
     other = Checkpoint(setup=begin("10 STOP").setup, snapshot=kept.snapshot, events=kept.events)
     with pytest.raises(BadFile, match=r"^the state of the run does not fit this program$"):
         Runner(other)
+
+
+def test_every_cycle_of_the_tables_is_watched_in_ml_units() -> None:
+    seen: list[dict[str, tuple[float, ...]]] = []
+
+    class Watching(Observer):
+        def tick(self, period: ServoPeriod) -> None:
+            seen.append({channel.name: values for channel, values in period.sensed.channels.items()})
+
+    runner = Runner(begin(program("guarded_move"), HELD, NEAR, FELT), observers=lambda _: [Watching()])
+    advance(runner)
+    first = next(n for n, moment in enumerate(seen) if moment["flag"][4])
+    assert seen[first]["reading"][4] == 500
+    assert seen[first]["strategic"][2] == seen[first]["position"][2] == 2787
+    assert seen[first - 1]["strategic"][2] == 4000
+    assert [moment["position"][2] for moment in seen[first - 2 : first]] == [2630, 2709]
+    assert len(seen) == 121
 
 
 LEFT_AND_RIGHT = (

@@ -35,6 +35,7 @@ class Hardware(ABC):
     machine: Machine
     joints: Sequence[str] = ()
     channels: Sequence[Channel] = ()
+    watched: int = 1  # cycles between two moments that a trace keeps
 
     @property
     def cell(self) -> "SnapshotCell | None":

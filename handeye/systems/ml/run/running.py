@@ -2,17 +2,21 @@
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from msgspec.structs import replace
 
 from handeye.core.entries import refusal
 from handeye.core.errors import BadFile, InvalidInput, Refused
 from handeye.core.plain_text import printable
 from handeye.core.versions import versions
-from handeye.execution.servo import Halted
+from handeye.execution.servo import Halted, ServoPeriod
 from handeye.execution.state import ReversalOrder
 from handeye.planfile.store import written_digest
 from handeye.ports.axes import Channel
 from handeye.ports.camera import Renderer
+from handeye.ports.workcell import Sensed
 from handeye.program.events import (
     AnyEvent,
     Choice,
@@ -40,6 +44,7 @@ from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.level import Side
 from handeye.systems.ml.machine.rectilinear import INTERLOCKS
 from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
+from handeye.systems.ml.run.channels import level_channels, level_values
 from handeye.systems.ml.run.hardware import Hardware, PerfectHardware, StationTask
 from handeye.systems.ml.run.plan import MlPlan, encode, listing, stored
 from handeye.systems.ml.run.state import MlState
@@ -48,8 +53,6 @@ from handeye.tasks import any_task
 
 if TYPE_CHECKING:
     from handeye.cell.snapshot_cell import SnapshotCell
-
-WATCHED: Final = 2  # cycles between two moments that a trace keeps
 
 
 class RunningMl(RunningSystem):
@@ -101,7 +104,7 @@ class RunningMl(RunningSystem):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        return tuple(self._hardware.channels)
+        return (*self._hardware.channels, *level_channels(self.machine.levels))
 
     @property
     def state(self) -> MlState:
@@ -153,9 +156,15 @@ class RunningMl(RunningSystem):
         state.statements += 1
         self._pass()
         self._around.emit(StepFinished(time=self.time, step=number, hand=None, planned=None, gap=None))
-        self._stand()
-        self._end(turn.memory.executing)
-        self._call()
+        ending = self._hardware.ending(turn.memory.executing) if self._stopped is None else None
+        if ending is not None and ending.done:
+            for each in self.interpreters.values():
+                each.end()
+        if ending is None or ending.done:
+            self._stand()
+            self._call()
+        else:
+            self._stop(ending.text, turn.memory.executing)
 
     def _poll(self) -> None:
         if self._around.halt():
@@ -166,8 +175,17 @@ class RunningMl(RunningSystem):
         while (waiting := self._unfinished) and not any([each.ready() for each in waiting]):  # noqa: C419 - asks all
             self._poll()
             self.machine.cycle()
-            if self.machine.now % WATCHED == 0 and (period := self._hardware.servo_period) is not None:
-                self._around.watch(period)
+            if self.machine.now % self._hardware.watched == 0:
+                self._watch()
+
+    def _watch(self) -> None:
+        """Report the present state of the machine and of the tables."""
+        period = self._hardware.servo_period
+        if period is None:
+            nothing = np.empty(0)
+            period = ServoPeriod(sensed=Sensed(time=self.time, q=nothing, qd=nothing), effort=nothing)
+        channels = {**period.sensed.channels, **level_values(self.machine.levels)}
+        self._around.watch(replace(period, sensed=replace(period.sensed, channels=channels)))
 
     @property
     def _unfinished(self) -> list[Interpreter]:
@@ -200,18 +218,6 @@ class RunningMl(RunningSystem):
     def _stopped(self) -> Interpreter | None:
         """The interpreter whose program was stopped, if there is one."""
         return next((each for each in self.interpreters.values() if each.memory.stopped), None)
-
-    def _end(self, executed: int) -> None:
-        """Ask the job whether it is at its end."""
-        ending = self._hardware.ending(executed) if self._stopped is None else None
-        if ending is None:
-            return
-        for each in self.interpreters.values():
-            each.end()
-        if ending.done:
-            self._stand()
-        else:
-            self._stop(ending.text, executed)
 
     def _call(self) -> None:
         """Call the operator if a program was stopped."""
