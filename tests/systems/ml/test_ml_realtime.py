@@ -172,7 +172,8 @@ def test_an_event_half_way_stops_all_motors() -> None:
     assert 1000 <= held[3] <= 1079
     assert held[2] == -held[3]
     assert 1100 < held[9] < 1300
-    assert arm.seen(Froze)[0].positions[3] == held[3]
+    (froze,) = arm.seen(Froze)
+    assert (froze.positions[3], froze.moving) == (held[3], (2, 3, 9))
 
 
 def test_a_second_sensor_that_is_crossed_later_is_recorded_too() -> None:

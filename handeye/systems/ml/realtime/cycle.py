@@ -149,8 +149,14 @@ class Cycles:
             self._cross(number)
         if crossed:
             self._memory.CY[0].forces = wrap(self._memory.CY[0].forces + 1)
+            places = {motor.number: line.position for _, motor, line in self._motors}
+            moving = [
+                m.number
+                for _, m, line in self._motors
+                if abs(line.position - line.strategic) > line.tolerance
+            ]
             self._hold()
-            self._told(Froze, positions={motor.number: line.position for _, motor, line in self._motors})
+            self._told(Froze, positions=places, moving=tuple(moving))
             self._post("force")
         self.check_interlocks()
         if self.enabled and (found := danger(self._memory, self.spec)) is not None:

@@ -29,10 +29,11 @@ class Froze(LevelEvent, frozen=True, kw_only=True):
     """All motors were commanded to stay where they are."""
 
     positions: dict[int, int]  # by motor
+    moving: tuple[int, ...] = ()  # motors that were not at their goals
 
     def sentence(self, measures: Measures) -> str:
-        places = ", ".join(f"{motor} at {position}" for motor, position in self.positions.items())
-        return f"all motors of the {self.arm} arm freeze: {places}"
+        places = ", ".join(f"motor {motor} at {self.positions[motor]}" for motor in self.moving)
+        return f"all motors of the {self.arm} arm freeze: {places or 'none was moving'}"
 
 
 class Posted(LevelEvent, frozen=True, kw_only=True):

@@ -43,7 +43,7 @@ class MlSystem(System):
     words = StepperWords(
         about=(
             "A step is one statement with all its cycles of 10 ms; the arrow stands before the statement that comes",
-            "next. `type LINE` executes a line of ML between two statements, for example `type FILE MT 3 8 10`.",
+            "next. `type right FILE MT 3 8 10` executes a line of ML for the right arm between two statements.",
         ),
         places=(
             "PLACE is the number of a statement (288), or the first word of a statement (DMOTOR).",
