@@ -122,19 +122,19 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
     assert [path.name for path in Path().iterdir()] == ["job.al"]
 
 
-SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
+SEED = "a seed must be a whole number from 0 to 9007199254740991 (2^53 - 1)"
 
 
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("assemble", "--seed", "-1"), f"{SEED}; -1 is not"),
+        (("assemble", "--seed", "-1"), f"{SEED}, not -1"),
         (("assemble", "--seed", "x"), "--seed: `x` is not a whole number"),
         (("assemble", "--camera", "film"), "--camera must be one of auto, gl, ray, not `film`"),
         (("trials", "assembly", "--seeds", "9-3"), "`9-3` is neither"),
         (("trials", "assembly", "--seeds", "9" * 5000), "is neither"),
         (("trials", "assembly", "--seeds", "١-٣"), "is neither"),
-        (("trials", "assembly", "--seeds", "9" * 19), f"{SEED}; {'9' * 19} is not"),
+        (("trials", "assembly", "--seeds", "9" * 19), f"{SEED}, not {'9' * 19}"),
         (("trials", "assembly", "--seeds", "3,,4"), "`` is neither"),
         (("trials", "assembly", "--seeds", "0-5,3"), "--seeds names 3 twice"),
         (
@@ -142,7 +142,7 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
             "the number of trials must be at most 1,000,000",
         ),
         *(
-            ((*words, "--seed", str(2**53 - 1), "--n", "2"), f"{SEED}; 9007199254740992 is not")
+            ((*words, "--seed", str(2**53 - 1), "--n", "2"), f"{SEED}, not 9007199254740992")
             for words in (
                 ("trials", "assembly"),
                 ("trials", "dismantling"),
@@ -153,7 +153,7 @@ SEED = "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1"
                 ("faults",),
             )
         ),
-        (("bench", "insertion", "--seed", str(2**53 - 1), "--n", "11"), f"{SEED}; 9007199254740992 is not"),
+        (("bench", "insertion", "--seed", str(2**53 - 1), "--n", "11"), f"{SEED}, not 9007199254740992"),
         (("trials", "assembly", "--seeds", "3", "--n", "2"), "--seeds replaces --n and --seed"),
         (
             ("trials", "assembly", "--n", "3", "--only", "3"),
@@ -230,7 +230,7 @@ def test_a_picture_that_cannot_be_is_told_by_the_size_that_was_typed(
 ) -> None:
     code, _, err = command("render", "-o", "it.png", *words)
     assert (code, err) == (
-        2, f"handeye: a picture of {size} is not possible; a side has 8 to 2048 pixels\n"
+        2, f"handeye: a picture of {size} is not possible; each side must have 8 to 2048 pixels\n"
     )  # fmt: skip
 
 

@@ -88,7 +88,7 @@ def test_a_run_that_is_dropped_leaves_nothing(start: Checkpoint) -> None:
     "words", [("show",), ("report",), ("resume",), ("video",), ("trace", "show"), ("compare",)]
 )
 def test_without_a_run_commands_say_how_to_make_one(command: Command, words: tuple[str, ...]) -> None:
-    sentence = "handeye: there is no run in runs; give the folder of a run, or make one: handeye assemble\n"
+    sentence = "handeye: there is no run in runs; give the folder of a run, or make a run: handeye assemble\n"
     assert command(*words) == (2, "", sentence)
 
 

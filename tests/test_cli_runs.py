@@ -77,7 +77,7 @@ def test_a_stage_alone_without_a_checkpoint_has_the_earlier_ones_carried_out_fir
     code, out, err = command("run", planned(SCRIPT), "--stage", "once", "--json")
     assert (code, json.loads(out)["paused"]) == (0, True)
     assert done(out) == {"to and fro": "done", "once more": "done", "feel": "not reached"}
-    assert "no checkpoint of “once more” for this plan and world: running the steps before it" in err
+    assert "no checkpoint of “once more” for this plan and world: running the earlier steps" in err
 
 
 def test_a_stage_alone_begins_at_its_checkpoint_if_there_is_one(

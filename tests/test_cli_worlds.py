@@ -154,7 +154,7 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
         (("--set", "base.x=far"), "base.x cannot be `far`, which is not a number"),
         (
             ("--seed", str(LARGEST_SEED + 1)),
-            "a seed is a whole number from 0 to 9007199254740991, or 2^53 - 1; 9007199254740992 is not",
+            "a seed must be a whole number from 0 to 9007199254740991 (2^53 - 1), not 9007199254740992",
         ),
     ],
 )

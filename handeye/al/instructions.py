@@ -49,12 +49,15 @@ _POSITION = name_of("position", Refers.POSITION)
 _AXES = vector(x=ONE, y=ONE, z=ONE)
 _PICTURE = name_of("picture", Refers.PICTURE)
 _PART = name_of("part", Refers.PART)
-_VALUE = count("value", 0, MAX_COUNT, f"a counter can be set to 0 to {MAX_COUNT}")
+_VALUE = count("value", 0, MAX_COUNT, f"a counter can be set to a value from 0 to {MAX_COUNT}")
 _ZERO_WHY = "the meaning of other numbers in 1977 is lost; only 0, which changes nothing, is certain"
 _ZERO = Operand(name="0", takes=(Number,), units=(ONE,), low=0.0, high=0.0, why=_ZERO_WHY, optional=True)
 _FORCE = Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR)
 _STOP_FORCE = replace(
-    _FORCE, takes=(Vector, Number, Name), low=MIN_POSITIVE, why=f"it must be at least {MIN_POSITIVE:g} oz"
+    _FORCE,
+    takes=(Vector, Number, Name),
+    low=MIN_POSITIVE,
+    why=f"the force must be at least {MIN_POSITIVE:g} oz",
 )
 _COMPARED = (_PART, name_of("before", Refers.PICTURE), name_of("after", Refers.PICTURE))
 
@@ -80,8 +83,8 @@ _MEANINGS: Final = {
     "VIA": "pass these positions during the next MOVE, in this order, without stopping",
     "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side to which angle O "
     "points, 2 the other finger, 3 either finger; error 25 if the motion ends without a touch",
-    "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if it never reaches "
-    "this torque",
+    "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if the torque is "
+    "never reached",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
     "OPEN": "open or close the fingers to this gap (in)",
     "CLOSE": "close on a part; error 2 if there is no part or the part is thinner than the minimum (in), error 7 if "
@@ -111,9 +114,10 @@ _MEANINGS: Final = {
     "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
     "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance is "
     "outside the range",
-    "HEIGHT": "check how much higher (in) the hand ended the last motion than the motion before the SAVE of this name; "
-    "error 9 if this height is outside the range",
-    "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, 0 is off",
+    "HEIGHT": "check how much higher (in) the hand stopped in the last motion than in the motion before the SAVE of "
+    "this "
+    "name; error 9 if this height is outside the range",
+    "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, and 0 stops the screwdriver",
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",
     "AIM": "point the camera at a position or a part, and focus",
@@ -125,7 +129,7 @@ _MEANINGS: Final = {
     "REQUIRE": "read a file of instructions as if its lines were here; the path is relative to the file that contains "
     "the REQUIRE",
     "STAGE": "begin a stage of the work; reports use this name",
-    "DEFINE": "begin a macro, which a blank line ends; each call gives operands for its parameters, if it has any",
+    "DEFINE": "begin a macro, which ends at a blank line; each call gives one operand for each parameter of the macro",
 }
 _GROUPS: Final = {
     MOTIONS: ("MOVE", "CHANGE", "PLACE", "PARK", "TURN", "RESTORE"),

@@ -159,7 +159,7 @@ class _Parser:
         """Add a parameter to the open macro. Raises Mistake if the token cannot be a parameter."""
         if token.kind is not NAME:
             said = "the macro names its parameters; a call gives the numbers and vectors"
-            message = f"a parameter is a name, not {quoted(token.text)}"
+            message = f"a parameter must be a name, not {quoted(token.text)}"
             raise Mistake("wrong-operand", message, token.span, help=said)
         name = _name(token)
         is_taken = taken(name.text)

@@ -176,7 +176,9 @@ def _rule(on_stop: object) -> Operator:
     with suppress(InvalidInput):  # whose sentence speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
-        raise BadArgument(f"on_stop is `abort`, `retry:N` with N of 1 or more, or `unwind`; not {on_stop!r}")
+        raise BadArgument(
+            f"on_stop must be `abort`, `retry:N` with N of 1 or more, or `unwind`, not {on_stop!r}"
+        )
     return operator
 
 

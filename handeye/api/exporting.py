@@ -15,7 +15,9 @@ def exported(given: object, shown: Callable[[], ExportedState], part: object, *,
     """Write an export; `shown` returns the state to export, and the other arguments are those of `Run.export`."""
     from handeye.results.export import export  # with libraries that take a while to load
 
-    path = given_file(given, "the destination of an export is a folder, or a file that ends in .glb")
+    path = given_file(
+        given, "the destination of an export must be a folder, or a file whose name ends in .glb"
+    )
     if part is not None and not isinstance(part, str):
         raise BadArgument(f"give a part by its name, not by {part!r}")
     try:

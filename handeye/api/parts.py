@@ -35,7 +35,9 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
         maker = None
     else:
         if not callable(camera):
-            raise BadArgument(f"a camera is `auto`, `gl`, `ray`, or a function of a scene; not {camera!r}")
+            raise BadArgument(
+                f"a camera must be `auto`, `gl`, `ray`, or a function of a scene, not {camera!r}"
+            )
         name = name_of(camera)
         maker = _named(lambda model: ReplacedCamera(name, camera, model), camera)
     return Parts(search=None if search is None else _checked_search(search), camera=maker)
@@ -56,7 +58,7 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
         return None
     if not callable(given):
         raise BadArgument(
-            f"a referee is a function of the truth of a cell, or a table of limits; not {given!r}"
+            f"a referee must be a function of the truth of a cell, or a table of limits, not {given!r}"
         )
     name = name_of(given)
     return _named(lambda truth: checked_findings(name, given(truth)), given)
@@ -64,7 +66,9 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
 
 def _checked_search(search: SearchPattern) -> SearchPattern:
     if not callable(search):
-        raise BadArgument(f"a search is a function from the number of a place to the place; not {search!r}")
+        raise BadArgument(
+            f"a search must be a function from the number of a place to the place, not {search!r}"
+        )
 
     name = name_of(search)
 

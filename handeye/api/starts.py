@@ -59,7 +59,7 @@ class RunRequest:
         if isinstance(self.world, WorldSpec):
             checked_seed(self.world.seed)
             return self.world
-        raise BadArgument(f"a world is a handeye.World, not {self.world!r}")
+        raise BadArgument(f"a world must be a handeye.World, not {self.world!r}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

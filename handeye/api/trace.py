@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from handeye.video.making import Video
 
 FRAME_HEIGHT_PX: Final = 640
-_WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(time) takes one."
+_WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(time) takes a photograph."
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -82,7 +82,7 @@ class Trace(recorded.Trace):
             camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
             captions=captions,
         )  # fmt: skip
-        file = given_file(path, "a video is written to a file that ends in .webp, .webm or .mp4")
+        file = given_file(path, "the name of a video must end in .webp, .webm or .mp4")
         try:
             return make_video(self, file, wanted, overwrite=overwrite)
         except Taken:

@@ -214,7 +214,7 @@ def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRend
     if kind == "gl":
         return OpenGlRenderer(model)
     if kind != "auto":
-        raise NoSuchName(f"no renderer `{kind}`; choose `auto`, `gl` or `ray`")
+        raise NoSuchName(f"there is no renderer `{kind}`; choose `auto`, `gl` or `ray`")
     try:
         return OpenGlRenderer(model)
     except InvalidInput:

@@ -141,7 +141,7 @@ def check_size(width: int, height: int) -> None:
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise BadArgument(
-            f"a picture of {width} x {height} is not possible; a side has {SMALLEST} to {LARGEST} pixels"
+            f"a picture of {width} x {height} is not possible; each side must have {SMALLEST} to {LARGEST} pixels"
         )
 
 

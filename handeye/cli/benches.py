@@ -76,7 +76,7 @@ def insertion(
     ] = None,
     search: Annotated[
         Literal["gentle", "1973"],
-        Parameter(help="Search pattern: that of the bench's own program, or that of the 1973 listing."),
+        Parameter(help="Search pattern of the bench's own program, or of the 1973 listing."),
     ] = "gentle",
     options: SweepOptions = ANY,
 ) -> int:

@@ -81,12 +81,12 @@ def positive(count: int, what: str) -> None:
 
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
-PictureFile = Annotated[Path, Parameter(name=["--out", "-o"], help="The picture, PNG.")]
+PictureFile = Annotated[Path, Parameter(name=["--out", "-o"], help="File for the picture, .png.")]
 Overwrite = Annotated[bool, Parameter(help="Replace existing files.")]
 SceneCamera = Annotated[
     str | None,
     Parameter(
-        help="A camera of the scene. Default: the one that shows the whole cell, `studio` for the pump."
+        help="A camera of the scene. Default: the camera that shows the whole cell, `studio` for the pump."
     ),
 ]
 Size = Annotated[str, Parameter(help="Width and height in pixels.")]

@@ -23,7 +23,7 @@ def register(app: App) -> None:
 
     def install_completion(
         shell: Annotated[
-            Shell | None, Parameter(help="The shell. Default: the one in the variable SHELL.")
+            Shell | None, Parameter(help="The shell. Default: the shell that the variable SHELL names.")
         ] = None,
     ) -> int:
         """Make the Tab key complete commands and options in bash, zsh or fish.

@@ -14,7 +14,7 @@ PAGE: Final = "demo.html"
 
 def demo(
     *,
-    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The page to write, .html.")] = Path(PAGE),
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the page, .html.")] = Path(PAGE),
     overwrite: Overwrite = False,
     no_browser: Annotated[bool, Parameter(help="Write the page without opening it.")] = False,
 ) -> int:

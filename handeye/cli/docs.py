@@ -19,7 +19,7 @@ _ENTRY: Final = re.compile(r"^- \[.*?\]\((?P<page>[\w/.-]+\.md)\): (?P<sentence>
 def docs(
     topic: Annotated[
         str | None,
-        Parameter(help="A page, such as `tutorial`, `faults` or `search`. Default: list the pages."),
+        Parameter(help="Name of a page, such as `tutorial`, `faults` or `search`. Default: list the pages."),
     ] = None,
     /,
     *,

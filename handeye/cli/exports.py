@@ -53,7 +53,7 @@ def glb(
     run: State = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The file, .glb.")],
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the solids, .glb.")],
     overwrite: Overwrite = False,
     part: Annotated[str, Parameter(help="What to export: the whole `cell`, or the `pump`.")] = "cell",
     json: Json = False,
@@ -102,7 +102,7 @@ def plot(
     run: RunOrTrace = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The plot: .png, .svg or .pdf.")],
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the plot: .png, .svg or .pdf.")],
     overwrite: Overwrite = False,
     stage: Annotated[
         str | None, Parameter(help="Only this stage, given by its number, its name, or part of its name.")
@@ -118,7 +118,7 @@ def plot(
     kind = KINDS.get(output.suffix.lower())
     if kind is None:
         raise BadArgument(
-            f"a plot is a file whose name ends in {', '.join(KINDS)}; {quoted(output.name)} does not"
+            f"the name of a plot must end in {', '.join(KINDS)}, which {quoted(output.name)} does not"
         )
     check_place(output, kind, overwrite=overwrite)
     recorded = read_recorded(run_or_newest(run))
@@ -171,7 +171,7 @@ def thin(
     run: RunOrTrace = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--out", "-o"], help="The thinned trace, .mcap.")],
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the thinned trace, .mcap.")],
     overwrite: Overwrite = False,
 ) -> int:
     """Shrink a trace to about a tenth of its size, for sharing: it keeps the motion that is needed to show the run.

@@ -28,7 +28,7 @@ def faults(
         Parameter(help="Try only this fault or group of faults; may be repeated.", consume_multiple=False),
     ] = None,
     every: Annotated[
-        bool, Parameter(name="--all", help="Try all faults, not only those of the matrix.")
+        bool, Parameter(name="--all", help="Try all faults, not only the faults of the matrix.")
     ] = False,
     listed: Annotated[
         bool, Parameter(name="--list", help="List the faults and the expected outcome of each; run nothing.")

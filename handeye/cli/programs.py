@@ -14,7 +14,7 @@ from handeye.tasks import known_any, named, planned, task
 if TYPE_CHECKING:
     from handeye.tasks.interface import Task
 
-_LEAVE_OUT: Final = "leave out --task, or give the right one"
+_LEAVE_OUT: Final = "leave out --task, or give the right task"
 
 
 def compiled(file: Path, work: "Task | None" = None) -> Plan:

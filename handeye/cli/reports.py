@@ -41,7 +41,8 @@ def report(
         Path | None,
         Parameter(
             name=["--out", "-o"],
-            help="The page, .html; by default report.html in the folder of the run, or next to the trace; with "
+            help="File for the page (.html); by default report.html in the folder of the run, or next to the trace; "
+            "with "
             "`--demo`, demo.html in this folder.",
         ),
     ] = None,

@@ -169,8 +169,8 @@ def run(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder of checkpoints, or of a run: --from and --stage begin from its checkpoints, and new ones "
-            "are saved there."
+            help="Folder of checkpoints, or of a run: --from and --stage begin from its checkpoints, and new "
+            "checkpoints are saved there."
         ),
     ] = None,
     on_stop: OnStop = None,
@@ -403,7 +403,6 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
         note(
-            f"no checkpoint of “{wanted}” for this plan and world: running the steps before it, from "
-            f"{reached}"
+            f"no checkpoint of “{wanted}” for this plan and world: running the earlier steps, from {reached}"
         )
     return found or start

@@ -41,16 +41,16 @@ class SweepOptions:
         Parameter(
             name=["--out", "-o"],
             help="Folder of the batch. Each trial is saved as it ends, so that the same command continues an "
-            "interrupted batch; figures.html is written at the end. If it is a file, only the page (.html) or the "
+            "interrupted batch; figures.html is written at the end. If --out is a file, only the page (.html) or the "
             "table of trials (.csv) is written.",
         ),
     ] = None
     tables: Annotated[
         Literal["csv", "parquet"] | None,
-        Parameter(help="With --out: also write the figures as tables, to the folder `tables` in it."),
+        Parameter(help="With --out: also write the figures as tables, to its folder `tables`."),
     ] = None
     overwrite: Annotated[
-        bool, Parameter(help="Replace the file given by --out; of a folder, discard the trials in it.")
+        bool, Parameter(help="Replace the file given by --out; if --out is a folder, discard its trials.")
     ] = False
     json: Json = False
 

@@ -85,7 +85,7 @@ ATTEMPTS: Final = AttemptOptions()
 def base_vision_trials(
     *,
     n: Annotated[
-        WholeNumber, Parameter(help="Number of poses: first the pose of the world, then random ones.")
+        WholeNumber, Parameter(help="Number of poses: first the pose of the world, then random poses.")
     ] = 100,
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,

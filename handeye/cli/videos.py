@@ -26,7 +26,7 @@ def video(
         Path | None,
         Parameter(
             name=["--out", "-o"],
-            help="The video: .webp, .webm, or .mp4 (which needs the extra `mp4`). "
+            help="File for the video: .webp, .webm, or .mp4 (which needs the extra `mp4`). "
             "Default: video.webp in the folder of the run, or next to the trace.",
         ),
     ] = None,

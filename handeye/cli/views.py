@@ -40,7 +40,7 @@ def view(
             "script."
         ),
     ] = None,
-    port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0: any free port.")] = 0,
+    port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0 for any free port.")] = 0,
     world: WorldOptions = ANY_WORLD,
     fault: Faults = None,
     camera: Camera = "auto",
@@ -73,7 +73,7 @@ def view(
         return _play(file, port)
     untold = not (demo or world.chosen or world.task or fault or camera != "auto" or out is not None)
     if file is None and untold and (newest := newest_run()) is not None:
-        note(f"showing the newest run, {newest}; `handeye view water_pump` steps a new one")
+        note(f"showing the newest run, {newest}; `handeye view water_pump` steps a new run")
         return _play(newest, port)
     link = Link()
     with Server(link, port) as server:

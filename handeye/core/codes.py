@@ -111,7 +111,7 @@ CODES: Final[dict[str, Code]] = {
     "modifier-misplaced": _error(
         "a modifier is before a motion that it cannot modify", "FORCE [0 0 -9]\nMOVE T"
     ),
-    "modifier-twice": _error("a motion has two modifiers of one kind", "STOP 50\nTORQUE 9\nMOVE T"),
+    "modifier-twice": _error("a motion has two modifiers of the same kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
     "never-saved": _warning(
         "no SAVE of the difference can be executed before a RESTORE", "MOVE T\nRESTORE H"
@@ -124,7 +124,9 @@ CODES: Final[dict[str, Code]] = {
         "a parameter has the name of an instruction, of another word of the language, of an axis or of a label",
         "DEFINE PRESS X\nCHANGE X 1\n\nPARK\nPRESS Z",
     ),
-    "parameter-twice": _error("a macro has two parameters of one name", "DEFINE A S S\nMOVE S\n\nA T T"),
+    "parameter-twice": _error(
+        "a macro has two parameters with the same name", "DEFINE A S S\nMOVE S\n\nA T T"
+    ),
     "part-not-described": _error(
         "the taught file lacks data that vision needs to find a part",
         "LOOK V\nGENERAL GASKET V",
@@ -237,7 +239,7 @@ CODES: Final[dict[str, Code]] = {
     "unused-vector": _warning("a vector is defined but never used", "VECT D [0 0 1]\nPARK"),
     "vector-size": _error("a vector has too few or too many numbers", "CHANGE [0 0] 1"),
     "vector-twice": _error(
-        "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
+        "two vectors have the same name, or a vector has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
     ),
     "wait-for-time": _warning(
         "a WAIT seems to be intended as a delay, but WAIT calls the operator", "PARK\nWAIT 2"

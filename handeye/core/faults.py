@@ -131,7 +131,7 @@ class Catalogue:
     def __init__(self, *kinds: FaultKind, matrix: Sequence[str] = ()) -> None:
         """`matrix` names the faults with which a program is tested by default; all faults if it is empty."""
         self.kinds = {kind.name: kind for kind in kinds}
-        assert len(self.kinds) == len(kinds), "two faults have one name"
+        assert len(self.kinds) == len(kinds), "two faults have the same name"
         self.matrix = tuple(matrix) or tuple(self.kinds)
         assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that does not exist"
 

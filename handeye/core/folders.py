@@ -50,7 +50,7 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
     if inside and not overwrite:
         raise Taken(f"{path} already holds {kind.name}; --overwrite replaces it")
     if path.exists() and path.samefile(Path.cwd()):
-        raise CannotWrite(f"{path} is the current folder, which cannot be replaced; choose another")
+        raise CannotWrite(f"{path} is the current folder, which cannot be replaced; choose another folder")
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:

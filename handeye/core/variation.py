@@ -268,5 +268,5 @@ def checked_seed(seed: object) -> int:
     number = whole(seed)
     if number is None or not 0 <= number <= LARGEST_SEED:
         told = repr(seed) if number is None or abs(number) < _LONG else "a longer one"
-        raise BadArgument(f"a seed is a whole number from 0 to {LARGEST_SEED}, or 2^53 - 1; {told} is not")
+        raise BadArgument(f"a seed must be a whole number from 0 to {LARGEST_SEED} (2^53 - 1), not {told}")
     return number

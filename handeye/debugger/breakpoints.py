@@ -73,7 +73,9 @@ def step_number(text: str, listing: Listing) -> int:
         raise BadArgument(f"{quoted(text)} is neither the number of a step nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
-        raise BadArgument(f"several steps have the label {quoted(text)}: {where}; give the number of one")
+        raise BadArgument(
+            f"several steps have the label {quoted(text)}: {where}; give the number of one of them"
+        )
     return found[0]
 
 

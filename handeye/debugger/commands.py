@@ -215,7 +215,9 @@ def checkpoint(session: DebugSession, rest: str) -> CommandResult:
         return CommandResult(file=str(path), said=f"saved to {path}")
     kept = session.keep(session.runner.checkpoint())
     if kept is None:
-        raise Refused("this run has no folder for checkpoints; `checkpoint FILE` writes one to a file")
+        raise Refused(
+            "this run has no folder for checkpoints; `checkpoint FILE` writes a checkpoint to a file"
+        )
     return CommandResult(file=str(kept), said=f"saved to {kept}")
 
 

@@ -171,7 +171,7 @@ def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
     """Write the contents of a plan, or of the stage with the given number (from 1), as lines of text."""
     count = counted(sum(len(s.steps) for s in found.stages), "step")
     out = [
-        f"{one_line(found.name)}, planned for the {found.arm} arm at {found.speed:g} of its speed: "
+        f"{one_line(found.name)}, planned for the {found.arm} arm at {found.speed:g} of full speed: "
         f"{counted(len(found.stages), 'stage')}, {count}, {counted(found.motions, 'motion')}, {found.seconds:.1f} s"
     ]
     shown = [s for s in found.stages if stage in (None, s.number)]

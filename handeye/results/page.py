@@ -177,7 +177,7 @@ def period(result: Result) -> HistoricalTiming | None:
 
 
 def camera(result: Result) -> Text:
-    """Return a line on the camera: its renderer, and the accuracy of its calibration."""
+    """Return a line about the camera: its renderer, and the accuracy of its calibration."""
     seen = result.camera
     if seen.residual_in is None:
         return Text(f"camera: {seen.renderer}; not used", "dim")

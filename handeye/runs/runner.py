@@ -108,7 +108,7 @@ class Runner:
         begun = () if start.snapshot is not None else self.system.begin()
         if begun and begun[0].time:
             raise BadArgument(
-                f"the system {self.kind.name} begins a run at {begun[0].time:g} s; a run begins at 0"
+                f"the system {self.kind.name} begins a run at {begun[0].time:g} s; a run must begin at 0 s"
             )
         self.started = self.system.switched_on
         if start.snapshot is not None:

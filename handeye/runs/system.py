@@ -306,7 +306,7 @@ class StepperWords:
     """The words with which the stepper's manual describes runs of a system."""
 
     about: tuple[str, ...] = (
-        "The program runs one step at a time; the arrow marks the next one.",
+        "The program runs one step at a time; the arrow marks the next step.",
     )  # lines on what a step is
     places: tuple[str, ...] = (
         "PLACE is a line, a label, the first word of a step, or a stage. WHAT is one of",
@@ -398,8 +398,8 @@ class System(ABC):
         """Return the possible answers to the present call of the operator, each with its effect."""
         return {
             "proceed": "proceed: continue after the step that called the operator",
-            "retry": "retry what was to be done",
-            "skip": "skip it",
+            "retry": "retry: execute the step again",
+            "skip": "skip: leave the step out",
         }
 
     # -- the way of a run -----------------------------------------------------------------------------

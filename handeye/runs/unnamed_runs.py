@@ -86,7 +86,9 @@ def newest_runs(number: int) -> list[Path]:
     found = list(islice(_newest_first(_runs(home)), number))
     if len(found) < number:
         there = "no run" if not found else "only one run"
-        raise BadFile(f"there is {there} in {home}; give the folder of a run, or make one: handeye assemble")
+        raise BadFile(
+            f"there is {there} in {home}; give the folder of a run, or make a run: handeye assemble"
+        )
     return found
 
 

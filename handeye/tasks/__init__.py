@@ -46,7 +46,7 @@ def register(task: AnyTask) -> None:
     arm's limits, or if another task or arm has the name.
     """
     if not isinstance(task, AnyTask):
-        raise BadArgument(f"a task is an instance of a class derived from handeye.Task, not {task!r}")
+        raise BadArgument(f"a task must be an instance of a class derived from handeye.Task, not {task!r}")
     name = getattr(task, "name", None)
     if not isinstance(name, str) or not name.strip():
         raise BadArgument(f"a task needs a text as its name, not {name!r}")

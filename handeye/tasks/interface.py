@@ -238,7 +238,9 @@ class Task(AnyTask):
     def check_arm(self, plan: Plan) -> None:
         """Raise Refused if a plan was not made for this task's arm."""
         if (plan.arm, plan.arm_digest) != (self.arm.name, digest(self.arm)):
-            raise Refused(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
+            raise Refused(
+                f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); make the plan again"
+            )
         joints = len(self.arm.joints)
         if plan.joint_counts not in ((), (joints,)):
             raise Refused(

@@ -97,7 +97,9 @@ def _do(repl: Repl, rest: str) -> Answer:
     """Execute the collected lines or, if `rest` names one, an instruction, macro or program."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
-            raise Refused("nothing is collected; type instructions, or `DO OPEN 3` to run one immediately")
+            raise Refused(
+                "nothing is collected; type instructions, or `DO OPEN 3` to run one instruction immediately"
+            )
         return repl.carry_out(repl.typed("\n".join(repl.functions)))
     definitions = lasting(repl.functions)
     name = rest.split(";")[0].strip()

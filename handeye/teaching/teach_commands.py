@@ -61,7 +61,9 @@ class TeachSession:
         self.warned = True
         if self.over:
             return answer(self.teacher.workplace)
-        raise Refused(f"not saved: {', '.join(unsaved)}; `save` them, or `quit` again")
+        raise Refused(
+            f"not saved: {', '.join(unsaved)}; `save` saves them, and a second `quit` leaves without saving"
+        )
 
 
 # -- moving ---------------------------------------------------------------------------------------------
@@ -108,9 +110,9 @@ def _float(teacher: Teacher, words: list[str]) -> Answer:
 def _push(teacher: Teacher, words: list[str]) -> Answer:
     axis, force, seconds = _exactly(words, 3, "push x 5 2")
     if not 0 < _number(seconds) <= MAX_PUSH_S:
-        raise BadArgument(f"a push lasts at most {MAX_PUSH_S:g} s, not {quoted(seconds)}")
+        raise BadArgument(f"a push can last at most {MAX_PUSH_S:g} s, not {quoted(seconds)}")
     if abs(_number(force)) > 200:
-        raise BadArgument(f"a push is at most 200 oz, not {quoted(force)}")
+        raise BadArgument(f"a push can be at most 200 oz, not {quoted(force)}")
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
     return answer(
@@ -199,10 +201,12 @@ def _along(axis: str, size: float) -> Vector3:
     return x, y, z
 
 
-_TABLE_HELP: Final = "move the hand along an axis of the table, or turn it about one: `table turn z 10`"
+_TABLE_HELP: Final = (
+    "move the hand along an axis of the table, or turn the hand about an axis: `table turn z 10`"
+)
 _HAND_HELP: Final = (
-    "move the hand along one of its own axes (z is its pointing direction), or turn it about an axis: "
-    "`hand turn y 5`"
+    "move the hand along one of its own axes (z is its pointing direction), or turn the hand about "
+    "an axis: `hand turn y 5`"
 )
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="j3 +1", act=_joint, help="move a joint by this much; without a sign, to this value"),

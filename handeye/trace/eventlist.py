@@ -32,7 +32,7 @@ def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
             raise BadFile(f"line {number} of {path} is not an event: {error}") from None
     if events and isinstance(events[0], RunStarted) and events[0].time:
         raise BadFile(
-            f"{path} begins at {events[0].time:.2f} s, as in earlier versions of handeye; a run must begin at 0"
+            f"{path} begins at {events[0].time:.2f} s, as in earlier versions of handeye; a run must begin at 0 s"
         )
     return events
 

@@ -90,7 +90,7 @@ class Table:
         ]
         if (rest := self.rows - SHOWN_ROWS) > 0:
             others = f"table[{SHOWN_ROWS}:{2 * SHOWN_ROWS}]"
-            shown.append(line(f"… and {rest} more; a slice, as {others}, shows others"))
+            shown.append(line(f"… and {rest} more; a slice, such as {others}, shows other rows"))
         return page(*shown)
 
 

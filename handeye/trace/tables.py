@@ -92,7 +92,7 @@ def _forces(trace: Trace) -> Table:
         ),
         Column(
             name="value",
-            about="what the guard measures: N, N m, or finger switches",
+            about="value that the guard measures, in N or N m, or the finger switches",
             values=forces.value[rows],
         ),
         Column(name="limit", about="its limit", values=forces.limit[rows]),
@@ -227,7 +227,7 @@ def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _
     check_folder(path, EXPORT, overwrite=True)
     written = _WRITERS[kind]
     files = {f"{table.name}.{kind}": written(table) for table in made}
-    lines = [_BEGINS, f"{units}; an empty cell has no figure.", *_told(made, kind), ""]
+    lines = [_BEGINS, f"{units}; an empty cell has no value.", *_told(made, kind), ""]
     write_folder(path, {README: "\n".join(lines).encode(), **files})
 
 

@@ -167,7 +167,7 @@ class Trace:
                 motion.
         """
         if not isinstance(time, (int, float, np.number)):
-            raise BadArgument(f"a time is a number of seconds, not {time!r}")
+            raise BadArgument(f"a time must be a number of seconds, not {time!r}")
         begin, end = self.covers
         if not begin - SHOWN <= time <= end + SHOWN:
             raise BadArgument(f"{self.name} covers {begin:.2f} to {end:.2f} s; {time:g} s is outside")

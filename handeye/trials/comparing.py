@@ -57,7 +57,9 @@ def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch,
         if head.kind != first_head.kind:
             raise Refused(f"{name} holds trials of another kind: {head.kind}, not {first_head.kind}")
         if head.world.drawing != first_head.world.drawing:
-            raise Refused(f"{name} comes from another version of handeye, whose seeds give other worlds")
+            raise Refused(
+                f"{name} comes from another version of handeye, in which the same seeds give different worlds"
+            )
     first, *others = (_trials(head, rows) for head, rows in batches)
     return tuple(beside(name, first, other) for name, other in zip(names[1:], others, strict=True))
 

@@ -321,7 +321,7 @@ INSERTION: Final = Sweep(
     noun="insertion",
     details=_details,
     summary=lambda _: [
-        "A hole is given by its clearance in diameter, its chamfer, and the standard deviation of its position "
+        "A hole is given by its diametral clearance, its chamfer, and the standard deviation of its position "
         "along each axis. Column `peak` is the largest contact force in any physics step, taken from the "
         "simulator; column `felt` is the largest force that the hand's sensor measured. Times are simulated."
     ],

@@ -167,5 +167,5 @@ def _spec(world: int | World) -> WorldSpec:
     if isinstance(world, World):
         return world.spec
     if isinstance(world, (str, bytes)):
-        raise BadArgument(f"a world is a seed or a handeye.World, not {world!r}")
+        raise BadArgument(f"a world must be a seed or a handeye.World, not {world!r}")
     return WorldSpec(seed=checked_seed(world))

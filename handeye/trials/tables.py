@@ -15,7 +15,7 @@ ROWS: Final = Kind("table of trials", b"trial,seed,condition,", ending=".csv")
 
 
 def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures, camera: str = "") -> tuple[Table, ...]:
-    """Return one table per subject: trials, the subjects of the kind, measured values, conditions and failures.
+    """Return the tables of a batch: its trials, the details of its kind of trials, its conditions and its failures.
     Empty tables are left out."""
     made = [trials(sweep, rows, camera)]
     made += [_of_records(each.name, each.title, each.rows) for each in sweep.details(rows) if each.rows]

@@ -139,7 +139,7 @@ def characterise(
     _settings(polarity, step, beyond)
     length = _number(reach, "the reach of a beam is a number of pixels")
     if length <= 0:
-        raise BadArgument(f"the reach of a beam is a number of pixels above 0, not {length:g}")
+        raise BadArgument(f"the reach of a beam must be above 0 pixels, not {length:g}")
     u, v = place.tolist()
     return characteriser.characterise(
         scan, (u, v), float(step), length, polarity=polarity, wide=bool(wide), beyond=float(beyond)
@@ -159,9 +159,11 @@ def _settings(polarity: object, step: object, beyond: object) -> None:
     """Raise BadArgument unless the arguments are a polarity and differences of intensity."""
     known = isinstance(polarity, int | np.integer) and not isinstance(polarity, bool)
     if not known or polarity not in (BRIGHTER, DARKER):
-        raise BadArgument(f"the polarity is BRIGHTER ({BRIGHTER}) or DARKER ({DARKER}), not {polarity!r:.40}")
+        raise BadArgument(
+            f"the polarity must be BRIGHTER ({BRIGHTER}) or DARKER ({DARKER}), not {polarity!r:.40}"
+        )
     if _number(step, "the step is a difference of intensity") <= 0:
-        raise BadArgument(f"the step is a difference of intensity above 0, not {step!r:.40}")
+        raise BadArgument(f"the step of intensity must be above 0, not {step!r:.40}")
     _number(beyond, "the least intensity beyond an edge must be a number")
 
 

@@ -42,16 +42,16 @@ def quadrilateral(given: object) -> Array:
     """Convert an argument to the corners (u, v) of a convex quadrilateral, shape (4, 2). Raises BadArgument if it
     is not one.
     """
-    said = "a window has four corners (u, v) in order, shape (4, 2)"
+    said = "a window must have four corners (u, v) in order, shape (4, 2)"
     found = places(given, said)
     if found.shape != (4, 2):
-        raise BadArgument(f"{said}; the given ones have shape {found.shape}")
+        raise BadArgument(f"{said}, not {found.shape}")
     (du, dv), (eu, ev) = (np.roll(found, -k, axis=0).T - np.roll(found, 1 - k, axis=0).T for k in (1, 2))
     turns = du * ev - dv * eu
     if not ((turns > 0).all() or (turns < 0).all()):
         corners = ", ".join(f"({u:g}, {v:g})" for u, v in found.tolist())
         raise BadArgument(
-            f"the corners of a window go around a convex quadrilateral in order; {corners} do not"
+            f"the corners of a window must go around a convex quadrilateral in order, unlike {corners}"
         )
     return found
 
@@ -65,7 +65,7 @@ def _intensities(picture: object) -> NDArray[np.float32]:
     if picture.ndim != 2 or not picture.size:
         hint = "; convert it to grey levels" if picture.ndim == 3 else ""
         raise BadArgument(
-            f"a picture has rows and columns of pixels, but this one has shape {picture.shape}{hint}"
+            f"a picture must have rows and columns of pixels, but the given picture has shape {picture.shape}{hint}"
         )
     if picture.dtype.kind not in "buif":
         raise BadArgument(f"the pixels of a picture must be numbers, not of type {picture.dtype}")

@@ -88,7 +88,7 @@ def test_macro_without_a_blank_line_is_reported() -> None:
         ("DEFINE GRASP nil", "`nil` is a word of the language", None),
         (
             "DEFINE GRASP S 50",
-            "a parameter is a name, not `50`",
+            "a parameter must be a name, not `50`",
             "the macro names its parameters; a call gives the numbers and vectors",
         ),
     ],

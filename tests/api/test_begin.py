@@ -64,14 +64,20 @@ def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
         ({"at": 9}, r"^there is no stage 9; the program has stages 1 to 4$"),
         ({"at": "never"}, r"^the run never reaches “never” from where it starts$"),
         ({"at": ["shut"]}, r"^a place must be a text or a line number, not \['shut'\]$"),
-        ({"seed": -1}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; -1 is not$"),
-        ({"seed": "3"}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; '3' is not$"),
-        ({"seed": 1.5}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; 1\.5 is not$"),
+        ({"seed": -1}, r"^a seed must be a whole number from 0 to 9007199254740991 \(2\^53 - 1\), not -1$"),
+        ({"seed": "3"}, r"^a seed must be a whole number from 0 to 9007199254740991 \(2\^53 - 1\), not '3'$"),
+        (
+            {"seed": 1.5},
+            r"^a seed must be a whole number from 0 to 9007199254740991 \(2\^53 - 1\), not 1\.5$",
+        ),
         (
             {"seed": np.array([1, 2])},
-            r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; array\(\[1, 2\]\) is not$",
+            r"^a seed must be a whole number from 0 to 9007199254740991 \(2\^53 - 1\), not array\(\[1, 2\]\)$",
         ),
-        ({"seed": True}, r"^a seed is a whole number from 0 to 9007199254740991, or 2\^53 - 1; True is not$"),
+        (
+            {"seed": True},
+            r"^a seed must be a whole number from 0 to 9007199254740991 \(2\^53 - 1\), not True$",
+        ),
         ({"seed": 1 << 53}, r"^a seed is .*; 9007199254740992 is not$"),
         ({"seed": 10**5000}, r"^a seed is .*; a longer one is not$"),
         ({"seed": 1, "world": handeye.World(1)}, r"^give a seed or a world, not both: "),
@@ -115,7 +121,7 @@ def test_a_folder_that_was_made_for_nothing_is_gone(tmp_path: Path) -> None:
 @pytest.mark.parametrize("word", ["ask", "retry", "retry:0", "", None])
 def test_nobody_is_there_to_be_asked(word: object) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^on_stop is `abort`, `retry:N` with N of 1 or more, or `unwind`; not "
+        InvalidInput, match=r"^on_stop must be `abort`, `retry:N` with N of 1 or more, or `unwind`, not "
     ):
         handeye.assemble(script="OPEN 1\n", on_stop=word)
 

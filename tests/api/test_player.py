@@ -46,7 +46,7 @@ def test_its_scripts_run_and_reach_nothing_of_the_notebook(trace: Trace) -> None
 def test_the_report_is_in_the_frame_and_asks_for_no_photographs(trace: Trace) -> None:
     _, inside = framed(trace._repr_html_())
     assert inside.one("script").text.count("OPEN 1") == 1
-    assert "trace.frame(time) takes one" in inside.text
+    assert "trace.frame(time) takes a photograph" in inside.text
 
 
 def test_it_says_what_it_weighs(trace: Trace) -> None:

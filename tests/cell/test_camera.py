@@ -211,7 +211,7 @@ def test_defocus_takes_the_edges_out_of_a_picture():
 
 
 def test_an_unknown_renderer_is_refused():
-    with pytest.raises(InvalidInput, match=r"^no renderer `film`; choose `auto`, `gl` or `ray`$"):
+    with pytest.raises(InvalidInput, match=r"^there is no renderer `film`; choose `auto`, `gl` or `ray`$"):
         make_renderer("film", scene().model)
 
 

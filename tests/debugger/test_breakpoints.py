@@ -188,6 +188,6 @@ def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: 
 
 def test_a_label_that_stands_for_several_steps_is_no_step(macro: Plan) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^several steps have the label `LM`: 0, 2; give the number of one$"
+        InvalidInput, match=r"^several steps have the label `LM`: 0, 2; give the number of one of them$"
     ):
         step_number("LM", macro.program)

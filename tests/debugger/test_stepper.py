@@ -605,7 +605,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("retry", "`retry` answers a call of the operator, but no call is waiting for an answer"),
         ("skip", "`skip` answers a call of the operator, but no call is waiting for an answer"),
         ("abort", "`abort` answers a call of the operator, but no call is waiting for an answer"),
-        ("checkpoint", "this run has no folder for checkpoints; `checkpoint FILE` writes one to a file"),
+        ("checkpoint", "this run has no folder for checkpoints; `checkpoint FILE` writes a checkpoint to a file"),
         ("help me", "there is no command `me`; `help` lists them"),
     ],
 )  # fmt: skip

@@ -110,7 +110,7 @@ def test_the_result_of_another_run_is_left_out_and_told_of(ended: Path, name: st
     other = msgspec.structs.replace(kept_run(ended).result, **{name: OTHERS[name]})
     (ended / RESULT).write_bytes(to_json(other))
     kept = kept_run(ended)
-    assert [fault.partition(": ")[0] for fault in kept.faults] == [f"{ended / RESULT} belongs to another run"]
+    assert [fault.partition(",")[0] for fault in kept.faults] == [f"{ended / RESULT} belongs to another run"]
     assert (getattr(kept.result, name) != OTHERS[name], kept.left) == (True, False)
     assert not has_ended(ended, open_again(ended)[1], judged=False)
 

@@ -198,7 +198,7 @@ def test_a_system_that_begins_a_run_at_another_time_is_refused(monkeypatch: pyte
         return [msgspec.structs.replace(begun, time=3.0) for begun in began(self)]
 
     monkeypatch.setattr(CounterMachine, "begin", late)
-    with pytest.raises(BadArgument, match=r"^the system toy begins a run at 3 s; a run begins at 0$"):
+    with pytest.raises(BadArgument, match=r"^the system toy begins a run at 3 s; a run must begin at 0 s$"):
         Runner(begin_toy())
 
 

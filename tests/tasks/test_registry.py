@@ -73,7 +73,7 @@ def test_no_other_task_takes_the_name_of_one() -> None:
 def test_a_plan_for_another_arm_is_refused_by_the_task() -> None:
     plan = msgspec.structs.replace(begin("OPEN 1").setup.plan, arm_digest="0" * 12)
     assert task().arm is STANFORD
-    with pytest.raises(InvalidInput, match=r"another arm \(Stanford, 0+\); plan it again$"):
+    with pytest.raises(InvalidInput, match=r"another arm \(Stanford, 0+\); make the plan again$"):
         task().check_arm(plan)
 
 
@@ -101,20 +101,20 @@ def test_a_task_that_cannot_be_one_is_refused(words: dict[str, object], sentence
 @pytest.mark.parametrize("wrong", [None, "water_pump", WaterPump])
 def test_what_is_no_task_is_refused(wrong: object) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^a task is an instance of a class derived from handeye\.Task, not "
+        InvalidInput, match=r"^a task must be an instance of a class derived from handeye\.Task, not "
     ):
         register(wrong)
 
 
 def test_an_equal_arm_may_be_made_known_again() -> None:
     robots.register(replace(STANFORD))
-    with pytest.raises(InvalidInput, match=r"^there is an arm called `Stanford` already$"):
+    with pytest.raises(InvalidInput, match=r"^there is already an arm called `Stanford`$"):
         robots.register(replace(STANFORD, servo=replace(STANFORD.servo, period=STANFORD.servo.period / 2)))
 
 
 @pytest.mark.parametrize(
     ("wrong", "sentence"),
-    [(3, r"^an arm is an ArmModel, not 3$"), (replace(STANFORD, name=""), r"^an arm needs a name$")],
+    [(3, r"^an arm must be an ArmModel, not 3$"), (replace(STANFORD, name=""), r"^an arm needs a name$")],
 )
 def test_an_arm_that_cannot_be_one_is_refused(wrong: object, sentence: str) -> None:
     with pytest.raises(InvalidInput, match=sentence):
@@ -148,8 +148,14 @@ def test_a_task_whose_module_fails_is_told_in_a_sentence(
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ({"camera": "front"}, "does not have the camera `front` that the task names; it has `studio`"),
-        ({"photographs": ("end",)}, "does not have the camera `end` that the task names; it has `studio`"),
+        (
+            {"camera": "front"},
+            "does not have the camera `front` that the task names; its cameras are `studio`",
+        ),
+        (
+            {"photographs": ("end",)},
+            "does not have the camera `end` that the task names; its cameras are `studio`",
+        ),
     ],
 )
 def test_a_scene_without_a_camera_that_its_task_names_is_refused(

@@ -162,7 +162,11 @@ def test_undo_takes_back_names_and_motions_one_by_one(pupil: TeachSession) -> No
 
 
 def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
-    assert say(pupil, "here NEW", "quit") == "not saved: NEW; `save` them, or `quit` again"
+    assert (
+        say(pupil, "here NEW", "quit")
+        == "not saved: NEW; `save` saves them, and a second `quit` leaves without "
+        "saving"
+    )
     assert not pupil.over
     say(pupil, "quit")
     assert pupil.over
@@ -178,8 +182,8 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
         ("table x inf", "`inf` is not a number"),
         ("here 1A", "`1A` is not a name: letters, digits and _, no digit first"),
         ("here A of LID", "there is no part `LID`; there are BASE, PUMP"),
-        ("push x 900 1", "a push is at most 200 oz, not `900`"),
-        ("push x 5 900", "a push lasts at most 60 s, not `900`"),
+        ("push x 900 1", "a push can be at most 200 oz, not `900`"),
+        ("push x 5 900", "a push can last at most 60 s, not `900`"),
     ],
 )
 def test_what_is_said_wrong_is_told_in_a_sentence(pupil: TeachSession, line: str, said: str) -> None:

@@ -44,7 +44,10 @@ def test_do_tells_a_modifier_alone_how_it_goes_with_its_motion(command: Command)
 @pytest.mark.parametrize(
     ("more", "advice"),
     [
-        ((), "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from it"),
+        (
+            (),
+            "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from the saved cell",
+        ),
         (("--keep", "a.checkpoint"), "`handeye do --from a.checkpoint` continues from there"),
     ],
 )

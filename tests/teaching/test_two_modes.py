@@ -180,7 +180,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("DO", "nothing is collected; type instructions, or `DO OPEN 3` to run one immediately"),
+        ("DO", "nothing is collected; type instructions, or `DO OPEN 3` to run one instruction immediately"),
         ("DO PRK", "there is no instruction, macro or program `PRK`; did you mean `PARK`?"),
         ("LIST all", "`LIST` takes no operand; remove `all`"),
         ("PROCEED", "`proceed` answers a call of the operator, but no call is waiting for an answer"),

@@ -21,7 +21,7 @@ def trace(tmp_path: Path) -> Trace:
 
 
 def test_what_is_no_time_is_refused(trace: Trace) -> None:
-    with pytest.raises(InvalidInput, match=r"^a time is a number of seconds, not '3'$"):
+    with pytest.raises(InvalidInput, match=r"^a time must be a number of seconds, not '3'$"):
         trace.at("3")
 
 

@@ -131,7 +131,7 @@ def test_of_a_trace_that_was_cut_short_it_is_said_and_the_exit_code_says_so(
     assert (code, out[:14], err) == (
         1,
         "told: joints (",
-        "a.mcap was cut short; only the part that it holds is written\n",
+        "a.mcap was cut short; only the recorded part is written\n",
     )
 
 

@@ -170,7 +170,7 @@ def test_a_trial_of_a_seed_that_is_not_the_batch_s_is_refused(tmp_path: Path) ->
 
 @pytest.mark.parametrize("seed", [-1, 2**53])
 def test_a_seed_that_there_is_none_of_is_refused_wherever_it_is_read(tmp_path: Path, seed: int) -> None:
-    with pytest.raises(InvalidInput, match=rf"^a seed is a whole number from 0 to .*; {seed} is not$"):
+    with pytest.raises(InvalidInput, match=rf"^a seed must be a whole number from 0 to .*, not {seed}$"):
         Case(trials=(0,), seed=seed)
     folder = opened(tmp_path)
     folder.close()

@@ -47,8 +47,8 @@ def test_trials_have_what_is_taught_and_a_search_and_a_referee_of_their_own() ->
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ({"worlds": ["3"]}, r"^a world is a seed or a handeye\.World, not '3'$"),
-        ({"worlds": [-1]}, r"^a seed is a whole number from 0 to .*; -1 is not$"),
+        ({"worlds": ["3"]}, r"^a world must be a seed or a handeye\.World, not '3'$"),
+        ({"worlds": [-1]}, r"^a seed must be a whole number from 0 to .*, not -1$"),
         ({"worlds": 3}, r"^worlds must be a sequence of seeds or worlds, not 3$"),
         (
             {"worlds": [1], "jobs": 2, "search": spiral},

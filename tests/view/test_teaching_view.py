@@ -123,7 +123,10 @@ def test_the_panic_button_stops_the_arm_and_lines_that_come_meanwhile_are_refuse
 def test_nobody_leaves_unsaved_names_unasked(tmp_path: Path) -> None:
     lesson = Lesson.begun(tmp_path)
     lesson.go(("here FIRST", "quit", "quit"))
-    assert lesson.all("answer")[-2:] == ["not saved: FIRST; `save` them, or `quit` again", ""]
+    assert lesson.all("answer")[-2:] == [
+        "not saved: FIRST; `save` saves them, and a second `quit` leaves without saving",
+        "",
+    ]
     assert not (tmp_path / "job.toml").exists()
 
 

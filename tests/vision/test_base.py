@@ -144,7 +144,7 @@ def test_a_part_without_region_cannot_be_looked_for():
 def test_a_part_with_one_hole_cannot_be_located():
     general = locate_general(*wide(POSES[0]), PART)
     single = type(PART)(at=PART.at, holes=PART.holes[:1])
-    with pytest.raises(InvalidInput, match=r"^a part can be located only by two of its holes"):
+    with pytest.raises(InvalidInput, match=r"^two holes are needed to locate a part"):
         locate_specific(*close(POSES[0]), single, general)
 
 

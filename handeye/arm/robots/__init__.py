@@ -18,7 +18,7 @@ def robot(name: str) -> ArmModel | None:
 def register(arm: ArmModel) -> None:
     """Register an arm under its name. Raises BadArgument if the name belongs to an arm with other values."""
     if not isinstance(arm, ArmModel):
-        raise BadArgument(f"an arm is an ArmModel, not {arm!r}")
+        raise BadArgument(f"an arm must be an ArmModel, not {arm!r}")
     if not arm.name:
         raise BadArgument("an arm needs a name")
     if not same_arm(_ROBOTS.setdefault(arm.name, arm), arm):

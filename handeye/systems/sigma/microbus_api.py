@@ -146,7 +146,7 @@ class Microbus:
         last = self._bus.now if end is None else _microseconds(end)
         if last <= first:
             raise BadArgument(
-                f"a diagram must end after its beginning; this one would be from {begin:g} s to {last / 1e6:g} s"
+                f"a diagram must end after its beginning, not go from {begin:g} s to {last / 1e6:g} s"
             )
         return first, last
 
@@ -168,5 +168,5 @@ def _command(name: str | int, op: Op, detail: int, value: int) -> Command:
 
 def _microseconds(seconds: float) -> int:
     if not 0 <= seconds <= _LONGEST_WAIT:
-        raise BadArgument(f"a time on the bus is 0 to {_LONGEST_WAIT} s, not {seconds:g} s")
+        raise BadArgument(f"a time on the bus must be between 0 and {_LONGEST_WAIT} s, not {seconds:g} s")
     return round(seconds * _MICROSECONDS)

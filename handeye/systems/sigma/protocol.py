@@ -95,7 +95,7 @@ def number_of(name: str | int) -> int:
     """Return the number of a microcomputer. Raises NoSuchName."""
     if isinstance(name, int):
         if not 0 <= name <= 0xFF:
-            raise BadArgument(f"microcomputers have numbers from 0 to 255, not {name}")
+            raise BadArgument(f"the number of a microcomputer must be between 0 and 255, not {name}")
         return name
     if name.upper() not in NUMBERS:
         raise NoSuchName(f"no microcomputer is called {quoted(name)}; there are {', '.join(NUMBERS)}")

@@ -329,7 +329,7 @@ class PlanSystem(System):
     words = StepperWords(
         about=(
             "The script runs one step at a time. A step is a line that acts, together with the",
-            "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow marks the next one.",
+            "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow marks the next step.",
         ),
         places=(
             "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",

@@ -10,7 +10,7 @@ ENTRY = Entry(
     system="handeye.systems.trig.run.system:TAUGHT",
     can=("undo", "compare", "faults", "levels", "video", "chaos"),
     reasons={
-        "python": "`handeye resume` continues one",
+        "python": "`handeye resume` continues a run",
         "plans": "its programs are taught in the world in which they run; use `handeye trig palletise`, "
         "`handeye trig bucket` and `handeye trig run FILE`",
     },

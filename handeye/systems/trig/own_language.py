@@ -16,7 +16,7 @@ from handeye.systems.trig.run.plan import typed
 REFUSED: Final = "line-refused"
 UNSOUND: Final = "program-unsound"
 _CODES: Final = {
-    REFUSED: "a line of a script fails, even on an arm without physics; the lines after it were not checked",
+    REFUSED: "a line of a script fails, even on an arm without physics; the following lines were not checked",
     UNSOUND: "the file is not a valid program of the command W",
 }
 

@@ -63,11 +63,11 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
     """Yield the differences between an interrupted run and the same run without interruptions, one sentence
     each."""
     if carried.runner.events != unbroken.runner.events:
-        yield "events differ from those without interruptions"
+        yield "the events differ from the events without interruptions"
     if _bytes(carried.folder) != _bytes(unbroken.folder):
-        yield "the trace differs from the one without interruptions"
+        yield "the trace differs from the trace without interruptions"
     if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
-        yield "the state differs from the one without interruptions"
+        yield "the state differs from the state without interruptions"
     if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
         yield f"it ended with {carried.pause.kind}, but without interruptions with {unbroken.pause.kind}"
 

@@ -14,7 +14,8 @@ from handeye.trials.sweep import Standing, TrialRow
 
 
 class Contact(Record, frozen=True, kw_only=True):
-    """One contact operation. It lasts from the motion to its position until the hand moves to another position."""
+    """One contact operation. The operation begins with the motion to the position `at`, and ends when the hand moves
+    to another position."""
 
     operation: str
     at: str  # The position

@@ -51,7 +51,7 @@ def test_with_a_long_strobe_the_late_riser_takes_a_command_that_was_never_sent(c
     [
         ("dead:Y1", "NOANSWER 1"),
         ("clock:Y1:200", "Y1 takes"),
-        ("stuck-high:0:3", "X1 does not act on 00 01 07 01 02, which was sent to it"),
+        ("stuck-high:0:3", "X1 does not act on 00 01 07 01 02, which was sent to X1"),
         ("dead-interface", "NOANSWER"),
         ("slow-lines:8", "takes FF"),
         ("address:X1:1", "X1 acts on 01 05 00 00 00, which was sent to Y1"),
@@ -250,7 +250,7 @@ def test_the_log_from_python_is_that_of_the_port() -> None:
         (lambda bus: bus.command("X1"), "a move in steps must be between 1 and 65535, not 0"),
         (lambda bus: bus.command("X1", "POSITION"), "POSITION asks; use ask"),
         (lambda bus: bus.ask("X1", "MOVE"), "the answer to MOVE has no known length"),
-        (lambda bus: bus.pause(-1), "a time on the bus is 0 to 86400 s, not -1 s"),
+        (lambda bus: bus.pause(-1), "a time on the bus must be between 0 and 86400 s, not -1 s"),
         (lambda bus: bus.diagram(1, 0), "a diagram must end after its beginning"),
         (lambda _: handeye.Microbus(faults=["dead:Q"]), "no microcomputer is called `Q`"),
         (lambda _: handeye.Microbus(clock_spread=2), "the clock error must be a fraction from 0 to 1"),

@@ -54,7 +54,7 @@ def test_a_drawn_board_has_room_for_a_hand_between_its_pieces_and_no_height_near
                 assert one.line != two.line or two.x - one.x > one.radius + two.radius + 29.9
             assert all(30 < piece.x - piece.radius + 0.01 < 365 for piece in pieces)
             assert {piece.goal for piece in pieces} <= {*BY_HEIGHT}
-    with pytest.raises(BadArgument, match="a board has 1 to 12 pieces, not 13"):
+    with pytest.raises(BadArgument, match="a board must have 1 to 12 pieces, not 13"):
         drawn(GantryWorld(), 13)
 
 

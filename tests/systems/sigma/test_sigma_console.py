@@ -62,7 +62,7 @@ def test_a_program_stops_before_a_line_and_goes_on() -> None:
     typed("10 ORIGIN X1\n20 MOVE X1 TO 50\n30 PRINT POS(X1)\nBREAK 30")
     assert typed("RUN")[0].startswith("BREAK before line 30, in the task MAIN, at ")
     assert typed("STATUS")[0] == "  0  X1      0-0  free               49.9875 mm"
-    assert typed("CONT") == ["49.9875", "2 commands in 0.450 s; the computer was idle for 99% of it"]
+    assert typed("CONT") == ["49.9875", "2 commands in 0.450 s; the computer was idle for 99% of the time"]
     assert typed("CONT") == ["no program is running; RUN starts it"]
     assert typed("BREAK\nRUN")[0] == "49.9875"
 

@@ -68,7 +68,7 @@ def test_pieces_are_drawn_near_their_places_and_a_plan_keeps_their_job() -> None
         pieces = drawn(GantryWorld(WorldSpec(seed=seed)), MOST)
         assert all(abs(piece.x - 50) <= 1 and abs(piece.height - 40) <= 0.5 for piece in pieces)
         assert [round(piece.y / 60) for piece in pieces] == [1, 2, 3, 4]
-    with pytest.raises(BadArgument, match="a hand-over has 1 to 4 pieces, not 5"):
+    with pytest.raises(BadArgument, match="a hand-over must have 1 to 4 pieces, not 5"):
         drawn(GantryWorld(), 5)
     plan = job_plan("handover", 2)
     assert decode(encode(plan), "kept") == plan

@@ -314,10 +314,10 @@ def test_a_study_that_loses_steps_has_exit_code_1(command: Command) -> None:
     ("words", "why"),
     [
         ("--mass 0", "a moved mass must be above 0 and at most 1000 kg, not 0"),
-        ("--steps 0", "a move has 1 to 65535 steps, not 0"),
+        ("--steps 0", "a move must have 1 to 65535 steps, not 0"),
         ("--curve 9", "there is no curve 9; the curves are 0 to 4"),
-        ("--slow 900", "a constant speed is 1 to 562.5 mm/s, not 900"),
-        ("--load nan", "a load is 0 N or more"),
+        ("--slow 900", "a constant speed must be between 1 and 562.5 mm/s, not 900"),
+        ("--load nan", "a load must be 0 N or more"),
         ("--stop-after 5000", "the stop must be within that time, not after 5 s"),
     ],
 )

@@ -90,7 +90,8 @@ def test_a_minus_goes_the_other_way_of_a_relative_position() -> None:
     assert (typist.active.negate, typist.at) == (True, (0, 0, 300))
     typist.type("MA CENTER\nX 0 RECORD")
     assert (
-        refused(typist, "M -CENTER") == "CENTER is an absolute position; only a relative one has an opposite"
+        refused(typist, "M -CENTER")
+        == "CENTER is an absolute position; only a relative position has an opposite"
     )
     assert "NEW is not defined" in refused(typist, "M -NEW")
 
@@ -192,7 +193,7 @@ def test_the_kill_switch_records_nothing() -> None:
         ("GOPOS", "`GOPOS [-]POS` needs the name of a position"),
         ("LOOP A", "`LOOP STEP COUNT` needs a whole number"),
         ("LOOP S1 many", "`many` is not a whole number"),
-        ("LOOP S1 -1", "a loop goes back 0 times or more, not -1"),
+        ("LOOP S1 -1", "the count of a loop must be 0 or more, not -1"),
         ("LOOP S1 1000000000000", "`1000000000000` is more than 999999999"),
         ("L NOWHERE", "there is no step `NOWHERE`; known: `S1`"),
         ("M 1A", "`1A` is not a name: a name is a letter, then letters, digits, `-` and `_`"),

@@ -291,7 +291,7 @@ def test_python_takes_up_only_runs_of_plans(tmp_path: Path) -> None:
     for out in (None, path):
         with pytest.raises(
             InvalidInput,
-            match=r"TRIG cannot continue its runs from Python: `handeye resume` continues one$",
+            match=r"TRIG cannot continue its runs from Python: `handeye resume` continues a run$",
         ):
             handeye.begin(path, out=out)
 

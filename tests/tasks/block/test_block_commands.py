@@ -69,7 +69,7 @@ def test_a_task_that_contradicts_the_plan_is_refused(command: Command) -> None:
     told(command, "plan", *BLOCK, "block.al")
     assert command("run", PLAN, "--task", "water_pump") == (
         2, "", f"handeye: {PLAN} is a plan for the task `block`, not for `water_pump`; "
-        "leave out --task, or give the right one\n",
+        "leave out --task, or give the right task\n",
     )  # fmt: skip
 
 

@@ -128,7 +128,7 @@ def test_no_part_looks_larger_than_the_metal_it_is_made_of(bench):
     ("text", "message"),
     [
         ("a = 1", "the dimension `a` needs value, unit and source"),
-        ('a = { value = 1, unit = "ft", source = "x" }', "the dimension `a` has the unit 'ft'"),
+        ('a = { value = 1, unit = "ft", source = "x" }', "the dimension `a` has the unknown unit 'ft'"),
         ('a = { value = 1, unit = "in" }', "the dimension `a` has no source"),
         ('a = { value = "x", unit = "in", source = "x" }', "the value of the dimension `a` is not a number"),
         ("a = ", "the dimensions cannot be read"),

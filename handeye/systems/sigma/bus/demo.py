@@ -116,7 +116,10 @@ def verdict(shown: Demonstration) -> list[str]:
             f"{name_of(event.number)} acts on {spaced(event.frame)}, which was sent to {name_of(event.frame[0])}"
         )
     if shown.deaf:
-        out.append(f"{name_of(COMMAND.number)} does not act on {spaced(COMMAND.frame)}, which was sent to it")
+        out.append(
+            f"{name_of(COMMAND.number)} does not act on {spaced(COMMAND.frame)}, which was sent to "
+            f"{name_of(COMMAND.number)}"
+        )
     if shown.failed:
         out.append(shown.failed)
     elif shown.found != shown.wanted:

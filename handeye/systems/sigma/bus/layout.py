@@ -74,7 +74,9 @@ class Layout(Record, frozen=True, kw_only=True):
             )
         for segment, towards in enumerate(self.behind[1:], start=1):
             if not 0 <= towards < segment:
-                raise BadArgument(f"segment {segment} must be behind an earlier one, not behind {towards}")
+                raise BadArgument(
+                    f"segment {segment} must be behind an earlier segment, not behind segment {towards}"
+                )
         numbers = [place.number for place in self.places]
         for place in self.places:
             if numbers.count(place.number) > 1:

@@ -60,7 +60,7 @@ class Piece(Record, frozen=True, kw_only=True):
 def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
     """Draw the pieces of a board. Raises BadArgument if there are too many."""
     if not 1 <= count <= MOST_PIECES:
-        raise BadArgument(f"a board has 1 to {MOST_PIECES} pieces, not {count}")
+        raise BadArgument(f"a board must have 1 to {MOST_PIECES} pieces, not {count}")
     numbers, pieces = world.numbers("pieces"), list[Piece]()
     first = int(numbers.integers(len(LINES)))
     for line in range(len(LINES)):

@@ -35,7 +35,7 @@ class Chess(JobTask):
     """Find pieces along three lines, measure their heights, and put each on the line for its height."""
 
     name = "chess"
-    words = Words(product="the board", done="Each piece stands on the line of its height.")
+    words = Words(product="the board", done="Each piece stands on the line for its height.")
 
     usual = 8
 

@@ -44,7 +44,7 @@ bus = App(
 class DrawingOptions:
     """Options for a drawing."""
 
-    out: Annotated[Path | None, Parameter(name=["--out", "-o"], help="The drawing to write, .svg.")] = None
+    out: Annotated[Path | None, Parameter(name=["--out", "-o"], help="File for the drawing, .svg.")] = None
     overwrite: Overwrite = False
 
     def check(self) -> None:

@@ -47,7 +47,7 @@ def chess(
 
 def _check_pieces(pieces: int) -> None:
     if not 1 <= pieces <= MOST_PIECES:
-        raise BadArgument(f"a board has 1 to {MOST_PIECES} pieces, not {pieces}")
+        raise BadArgument(f"a board must have 1 to {MOST_PIECES} pieces, not {pieces}")
 
 
 def chess_trials(

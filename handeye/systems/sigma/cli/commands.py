@@ -59,7 +59,8 @@ Arm = Annotated[
     Parameter(
         name="--arm",
         help="The machine: `none` has perfect motors; `wired` has ten microcomputers with their firmware, on a bus "
-        "whose wires they sample with their own clocks. Nothing stands in the way of either. `gantries` has the same "
+        "whose wires they sample with their own clocks. Neither of these machines has obstacles. `gantries` has the "
+        "same "
         "microcomputers, and the simulated machine: two gantries over an empty board.",
     ),
 ]
@@ -102,7 +103,9 @@ def run(
     if not 0 <= statement_us <= LONGEST_STATEMENT_US:
         raise BadArgument(f"--statement-us must be between 0 and {LONGEST_STATEMENT_US}, not {statement_us}")
     if seed and arm != "gantries":
-        raise BadArgument(f"--seed is for `--arm gantries`: the machine of `--arm {arm}` has no errors")
+        raise BadArgument(
+            f"--seed applies only to `--arm gantries`: the machine of `--arm {arm}` has no errors"
+        )
     source = read_source(file)
     plan = MalPlan(name=file.name, text=source.text, arm=arm, statement_us=statement_us)
     if not reported(source):

@@ -224,7 +224,7 @@ class Console:
             self._tell(vm.memory.fault.told)
             return
         sent = counted(vm.memory.commands, "command")
-        self._tell(f"{sent} in {vm.time:.3f} s; the computer was idle for {vm.idle:.0%} of it")
+        self._tell(f"{sent} in {vm.time:.3f} s; the computer was idle for {vm.idle:.0%} of the time")
 
     def _answered(self, vm: VirtualMachine) -> bool:
         """Ask the user for the number for which a task waits. Returns False at the end of the input."""

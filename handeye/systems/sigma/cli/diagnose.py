@@ -31,7 +31,8 @@ def diagnose(
     seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Seed of the world: draws the fault of a game, or the place of each fault. Default: 0 for a game; "
+            help="Seed of the world: it determines the fault of a game, or the place of each fault. Default: 0 for "
+            "a game; "
             "without a game, each fault is at its usual place."
         ),
     ] = None,

@@ -18,9 +18,9 @@ from handeye.systems.sigma.protocol import AXES, COMPONENTS, NUMBERS, name_of
 
 ARMS: Final = (1, 2)
 UNDECIDED: Final = (
-    "every test passes; from here, no test shows a line A of a wrist or hand that is stuck low, since it never rises, "
-    "a line B of a wrist that is stuck high, since a wrist is always busy, or one of the two lowest bits of a "
-    "converter, which change a reading by .1 N at most"
+    "every test passes; no test can show three faults: line A of a wrist or hand stuck low, because it never rises; "
+    "line B of a wrist stuck high, because a wrist is always busy; and one of the two lowest bits of a converter, "
+    "because they change a reading by .1 N at most"
 )
 _NEAR_N: Final = 0.15  # that a sound wrist reads wrong at most, its load known to .1 N
 _OFFSET_SPREAD_N: Final = 0.11  # over all loads, of a gauge that only has an offset

@@ -79,7 +79,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
             it; 0: the hands meet.
     """
     if speed is not None and not SLOWEST <= speed <= FASTEST:
-        raise BadArgument(f"a constant speed is from {SLOWEST:g} to {FASTEST:g} mm/s, not {speed:g}")
+        raise BadArgument(f"a constant speed must be between {SLOWEST:g} and {FASTEST:g} mm/s, not {speed:g}")
     world = GantryWorld()
     gantries = Gantries(scene(world), world)
     bus = WiredBus(plant=gantries, defects=[] if reflex else [defect("no-reflex")])

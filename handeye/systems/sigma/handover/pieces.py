@@ -41,7 +41,7 @@ def pin(name: str) -> str:
 def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
     """Return the pieces of a world. Raises BadArgument if there are too many."""
     if not 1 <= count <= MOST:
-        raise BadArgument(f"a hand-over has 1 to {MOST} pieces, not {count}")
+        raise BadArgument(f"a hand-over must have 1 to {MOST} pieces, not {count}")
     numbers, pieces = world.numbers("handover"), list[Piece]()
     for number in range(1, count + 1):
         name = f"piece_{number}"

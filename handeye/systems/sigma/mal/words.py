@@ -139,7 +139,8 @@ WORDS: Final[dict[str, Word]] = {
         "function", "CRASHPOS(axis)",
         "The place of the axis when it was last aborted, mm, as the motor answers.",
     ),
-    "STATUS": Word("function", "STATUS(axis)", "0 free, 1 busy, 2 stopped at its rail, 3 stopped by a force."),
+    "STATUS": Word("function", "STATUS(axis)", "0 free, 1 busy, 2 stopped at the end of its rail, 3 stopped by a "
+    "force."),
     "BEAM": Word(
         "function", "BEAM(arm)",
         "The answer of the arm's hand: 1 if an object cuts the light beam of the hand, 0 if not.",

@@ -115,13 +115,15 @@ def _check(mass: float, steps: int, curve: int, slow: float | None, load: float)
     if not 0 < mass <= _HEAVIEST:
         raise BadArgument(f"a moved mass must be above 0 and at most {_HEAVIEST:g} kg, not {mass:g}")
     if not 1 <= steps <= LONGEST_MOVE:
-        raise BadArgument(f"a move has 1 to {LONGEST_MOVE} steps, not {steps}")
+        raise BadArgument(f"a move must have 1 to {LONGEST_MOVE} steps, not {steps}")
     if not 0 <= curve < len(CURVES):
         raise BadArgument(f"there is no curve {curve}; the curves are 0 to {len(CURVES) - 1}")
     if slow is not None and not 1 <= slow <= CURVES[1].top * STEP_MM:
-        raise BadArgument(f"a constant speed is 1 to {CURVES[1].top * STEP_MM:g} mm/s, not {slow:g}")
+        raise BadArgument(
+            f"a constant speed must be between 1 and {CURVES[1].top * STEP_MM:g} mm/s, not {slow:g}"
+        )
     if not (math.isfinite(load) and load >= 0):
-        raise BadArgument(f"a load is 0 N or more, not {load:g}")
+        raise BadArgument(f"a load must be 0 N or more, not {load:g}")
 
 
 def _kind(train: Train, slow: float | None) -> Literal["short", "medium", "long", "constant"]:
@@ -176,7 +178,7 @@ def verdict(found: AxisStudy) -> list[str]:
         )
     if found.kept:
         out.append(
-            f"the rotor follows each pulse, at most {found.lag:.2f} steps behind or ahead; it would slip at "
+            f"the rotor follows each pulse, at most {found.lag:.2f} steps behind or ahead; the rotor would slip at "
             "2 steps"
         )
     elif not found.lost:

@@ -91,7 +91,7 @@ def _summary(rows: Sequence[JobRow]) -> list[str]:
         return []
     return [
         f"on average {means['commands']:.0f} commands and questions in {means['simulated_s']:.1f} s: "
-        f"{means['commands_per_second']:.1f} a second, {means['bus_saturation']:.2%} of what the bus carries; "
+        f"{means['commands_per_second']:.1f} a second, {means['bus_saturation']:.2%} of what the bus can carry; "
         f"the computer is idle for {means['computer_idle']:.0%} of the time"
     ]
 

@@ -70,7 +70,7 @@ def lines(found: BusRun, log: Sequence[AnyBusEvent]) -> list[str]:
     out = [
         found.message or ENDED,
         f"{counted(found.commands, 'command')} in {found.seconds:.3f} s: {found.per_second:.2f} a second, "
-        f"{found.saturation:.3%} of what the bus carries",
+        f"{found.saturation:.3%} of what the bus can carry",
         f"the computer is idle for {found.idle:.1%} of the time",
     ]
     if found.misread:

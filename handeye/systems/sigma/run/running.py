@@ -235,7 +235,7 @@ class RunningMal(RunningSystem):
             raise BadFile("the state of the run does not fit this program")
         machine = state.bus if isinstance(self._machine, WiredBus) else state.machine
         if machine is None:
-            raise BadFile("the state of the run is of another machine")
+            raise BadFile("the state of the run belongs to another machine")
         put_back(self._state, state)
         self._machine.remember(machine)
         self._begun = True

@@ -73,7 +73,7 @@ class SigmaSystem(System):
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {
             "proceed": "proceed: continue after this statement",
-            "retry": "retry: execute it again",
+            "retry": "retry: execute this statement again",
             "skip": "skip: end the program here",
         }
 

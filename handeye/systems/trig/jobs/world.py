@@ -41,7 +41,7 @@ VARIATION: Final = Variation(
         Noise(0.3),
         5.0,
         "Standard deviation of a stack's position along X and Y. "
-        "No source: our choice, as if a person places the stack at a mark.",
+        "No source: our choice, for a stack that a person places at a mark.",
     ),
     _quantity(
         ALIGNED,
@@ -62,7 +62,7 @@ VARIATION: Final = Variation(
         "",
         Range(0.3, 0.5),
         2.0,
-        "Coefficient of friction of blocks and platter. No source: our choice, dry aluminium.",
+        "Coefficient of friction of blocks and platter. No source: our choice, for dry aluminium.",
     ),
     _quantity(
         SLIDES,

@@ -30,7 +30,7 @@ class TrigCommand:
 
 
 ARM: Final = "drive the arm without changing the program"
-STEPS: Final = "add a step below the active one"
+STEPS: Final = "add a step below the active step"
 CHANGES: Final = "change steps"
 POSITIONS: Final = "define positions"
 CURSOR: Final = "move the cursor"
@@ -153,7 +153,7 @@ TABLE: Final = (
         help="write the program to a file"),
     TrigCommand(
         usage="R FILE", group=RUNS, takes=("file",), needs=1, act=program_commands.read,
-        help="read a program from a file, replacing this one",
+        help="read a program from a file, replacing the present program",
     ),
     TrigCommand(
         usage="EX FILE", group=RUNS, takes=("file",), needs=1, act=program_commands.leave_written,

@@ -50,9 +50,9 @@ class Session:
         found = self.program.positions.get(name or "")
         if found is None:
             known = suggestion(name or "", filter(is_named, self.program.positions))
-            raise NoSuchName(f"there is no position {quoted(name or '')}; {known or 'M teaches one'}")
+            raise NoSuchName(f"there is no position {quoted(name or '')}; {known or 'M teaches a position'}")
         if negate and not found.relative:
-            raise Refused(f"{name} is an absolute position; only a relative one has an opposite")
+            raise Refused(f"{name} is an absolute position; only a relative position has an opposite")
         return found
 
     def step(self, name: str) -> Node:

@@ -1,4 +1,4 @@
-"""Commands that add a step below the active one, and commands that change or delete steps. Moves and hand steps
+"""Commands that add a step below the active step, and commands that change or delete steps. Moves and hand steps
 are executed at once when they are added.
 """
 
@@ -106,7 +106,7 @@ def loop(session: Session, given: Arguments) -> None:
     if target.id == TOP:
         raise Refused(f"a loop goes back to a step; {target_hint(session)}")
     if wanted < 0:
-        raise BadArgument(f"a loop goes back 0 times or more, not {wanted}")
+        raise BadArgument(f"the count of a loop must be 0 or more, not {wanted}")
     program = session.program
     branch = session.open_branch(None)
     node = insert_loop(program.graph, program.cursor, branch, target.id, wanted)
@@ -156,7 +156,7 @@ def rename(session: Session, given: Arguments) -> None:
         raise Refused("a loop step has no name: its line shows the step to which it goes back")
     other = session.program.graph.named(name)
     if other is not None and other is not node:
-        raise BadArgument(f"another step is called {name}; GOTO {name} shows which")
+        raise BadArgument(f"another step is already called {name}; GOTO {name} shows it")
     if name.startswith("*"):
         raise BadArgument("only the top has a name that begins with `*`; choose a name such as GET-BLOCK")
     node.name = name
@@ -169,7 +169,7 @@ def change_position(session: Session, given: Arguments) -> None:
     position = session.position(given.position)
     if node.position is None:
         raise Refused(
-            "the active step has no position to change, because it neither goes to a position nor saves one"
+            "the active step has no position to change, because it neither goes to a position nor saves a position"
         )
     if node.type == "savpos" and position.relative:
         raise Refused(f"{given.position} is relative; SAVPOS saves an absolute place")
@@ -251,7 +251,7 @@ def active_step(session: Session) -> Node:
         raise Refused(
             "the program is empty; M teaches its first step"
             if empty
-            else "the top is not a step; N goes to the first one"
+            else "the top is not a step; N goes to the first step"
         )
     return session.program.active
 
@@ -259,7 +259,7 @@ def active_step(session: Session) -> Node:
 def _guarded(session: Session, what: str) -> Node:
     node = active_step(session)
     if node.type != "guarded":
-        raise Refused(f"the active step is not guarded and has no {what}; MG adds a guarded one")
+        raise Refused(f"the active step is not guarded and has no {what}; MG adds a guarded step")
     return node
 
 

@@ -241,7 +241,7 @@ def _program(content: bytes) -> TrigProgram:
     if sorted(node.id for node in nodes) != [*range(len(nodes))] or [
         n.id for n in nodes if n.type == "top"
     ] != [TOP]:
-        raise _Fault("is not valid: its steps are not numbered one by one from the top")
+        raise _Fault("is not valid: its steps are not numbered consecutively from the top")
     graph.fill(nodes)
     positions = {name: _position(name, fields) for name, fields in file.positions.items()}
     program = TrigProgram(graph=graph, positions=positions, unread=_unread(fields, _File))

@@ -99,7 +99,7 @@ def typed(text: str, name: str) -> TrigProgram:
         nonlocal asked
         asked += 1
         if asked > PATIENCE:
-            raise Refused("a run in it does not end")
+            raise Refused("a run of the script does not end")
         return False
 
     script = Script(text.splitlines(), halted=ask)

@@ -288,7 +288,7 @@ class RunningJob(RunningSystem):
 
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, TaughtState):
-            raise BadFile("the state of the run is not that of a taught program")
+            raise BadFile("the state of the run does not belong to a taught program")
         session = self.job.session
         state.check(session.program, len(self._steps))
         put_back(self._state, state)

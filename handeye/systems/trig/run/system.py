@@ -34,7 +34,7 @@ class TaughtSystem(System):
     plan = TaughtPlan
     state = TaughtState
     words = StepperWords(
-        about=("The program runs one step at a time, as it was taught; the arrow marks the next one.",),
+        about=("The program runs one step at a time, as it was taught; the arrow marks the next step.",),
         places=("PLACE is a line (8), the name of a step, or what steps do (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={

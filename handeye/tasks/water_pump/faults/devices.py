@@ -294,7 +294,7 @@ def _sight() -> Iterator[DeviceFault]:
     wrong = ExpectedDetection(errors=(PICTURE_WRONG,), at_setup=True)
     yield _fault(
         "picture.frozen",
-        "Every picture repeats the first one after the fault began.",
+        "Every picture repeats the first picture that was taken after the fault began.",
         PICTURE,
         Stuck(),
         wrong,
