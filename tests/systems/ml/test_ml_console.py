@@ -142,3 +142,27 @@ def test_help_lists_all_commands_and_exit_leaves() -> None:
     assert len(typed("HELP")) == 106 + 9 + 1
     typed("EXIT")
     assert typed.console.over
+
+
+@pytest.mark.ml_row(40)
+def test_left_and_right_choose_the_arm_that_moves() -> None:
+    typed = Typed()
+    assert typed("LEFT")[0] == "M12: there is no left arm"
+    typed.console = Console(typed.printed.append, left=True)
+    typed("ENABLE\nLEFT\nENABLE\nMOTOR 3 500")
+    assert typed("MT 3 1\nRIGHT\nMT 3 1") == ["500", "0"]
+    assert typed("LEFT\nMOTOR 12 5")[0] == "M09: the left arm has no motor 12"
+
+
+def test_a_program_keeps_its_registers_while_it_commands_the_other_arm() -> None:
+    typed = Typed()
+    typed.console = Console(typed.printed.append, left=True)
+    text = "10 ENABLE\n20 LEFT\n30 ENABLE\n40 LOOPI 3 1\n50 RIGHT\n60 DMOTOR 3 10\n70 LEFT\n80 DMOTOR 3 20\n90 NEXTI"
+    assert typed(f"{text}\nRUN\nMT 3 1\nRIGHT\nMT 3 1") == ["60", "30"]
+
+
+def test_the_host_starts_the_interpreter_of_the_arm_language(monkeypatch: pytest.MonkeyPatch) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("handeye.cli.teaching.repl", lambda: opened.append("repl"))
+    assert Typed()("VMCNTL") == []
+    assert opened == ["repl"]

@@ -20,7 +20,7 @@ from handeye.systems.ml.language.parser import statement_of
 from handeye.systems.ml.language.syntax import VARIABLES, Parameter, Reference, Statement, statement_text
 from handeye.systems.ml.level import Level, Side
 
-CYCLE_S: Final = 0.01
+CYCLES_PER_SECOND: Final = 100
 Value = int | str
 
 
@@ -41,6 +41,7 @@ class Interpreter:
         host, and then ML works without its commands.
         """
         self.levels, self.program, self.host = levels, program, host
+        self._own = levels[side]  # whose registers and clock the program uses, whatever arm it commands
         self.memory = BackgroundMemory(side=side)
         self.joystick = joystick
         self._tell = tell
@@ -53,6 +54,11 @@ class Interpreter:
     def level(self) -> Level:
         """The real-time level to which commands refer."""
         return self.levels[self.memory.side]
+
+    @property
+    def _emergency(self) -> str:
+        """The emergency that has stopped the arm of the program, or the arm that it commands; empty if none has."""
+        return self.level.stopped or self._own.stopped
 
     @property
     def running(self) -> bool:
@@ -69,10 +75,8 @@ class Interpreter:
 
     def run(self, first: int | None = None) -> None:
         """Start the stored program at a statement, or at its first one. Raises MlError (M07, M14)."""
-        if self.level.stopped:
-            raise MlError(
-                "M14", f"the arm was stopped by an emergency: {self.level.stopped}; ENABLE it first"
-            )
+        if why := self._emergency:
+            raise MlError("M14", f"the arm was stopped by an emergency: {why}; ENABLE it first")
         if first is None and not self.program.numbers:
             raise MlError("M07", "no program is stored")
         first = self.program.numbers[0] if first is None else first
@@ -80,7 +84,7 @@ class Interpreter:
         memory = self.memory
         for line in (1, 2, 3):
             for word in range(1, 6):
-                self.level.write("RG", line, word, 0)
+                self.set_register(line, word, 0)
         memory.at, memory.stopped, memory.onward, memory.trying = first, "", 0, False
 
     def end(self) -> None:
@@ -90,8 +94,8 @@ class Interpreter:
     def ready(self) -> bool:
         """Return True, and end the wait, if no statement waits any longer. Stops the program in an emergency."""
         memory, level = self.memory, self.level
-        if level.stopped and self.running:
-            self._stop(level.stopped)
+        if self.running and (why := self._emergency):
+            self._stop(why)
             return True
         if memory.waits == "joy" and not jog(self):
             return False
@@ -108,7 +112,7 @@ class Interpreter:
         if not number:
             return
         memory.executing, memory.at = number, self.program.after(number)
-        self.level.statement(number)
+        self._own.statement(number)
         try:
             self._execute(self.program.statement(number))
         except InvalidInput as error:
@@ -130,7 +134,7 @@ class Interpreter:
         if self.memory.waits:
             raise BadArgument("a statement is still being executed")
         executing, self.memory.executing = self.memory.executing, 0
-        self.level.statement(0)
+        self._own.statement(0)
         try:
             self._execute(line.statement)
         except InvalidInput:
@@ -142,8 +146,9 @@ class Interpreter:
         Raises MlError (M14) while the cause of an emergency persists.
         """
         memory = self.memory
-        if self.level.stopped:
-            self.level.enable()
+        for level in (self._own, self.level):
+            if level.stopped:
+                level.enable()
         memory.at = memory.onward if onward else memory.executing
         memory.stopped, memory.onward = "", 0
 
@@ -163,7 +168,7 @@ class Interpreter:
 
     def _count(self) -> None:
         """Count the statement, and wait for the next cycle if the computer has no more time in this one."""
-        memory, level = self.memory, self.level
+        memory, level = self.memory, self._own
         if memory.cycle != level.now:
             memory.cycle, memory.share = level.now, 0
         memory.share += 1
@@ -175,7 +180,7 @@ class Interpreter:
     @property
     def time(self) -> float:
         """Seconds since the beginning."""
-        return self.level.now * CYCLE_S
+        return self._own.now / CYCLES_PER_SECOND
 
     def tell(self, event: SystemEvent) -> None:
         self._tell(event)
@@ -204,10 +209,10 @@ class Interpreter:
         self.level.write("VR", _variable(number), 1, value)
 
     def register(self, line: int, word: int) -> int:
-        return self.level.read("RG", line, word)
+        return self._own.read("RG", line, word)
 
     def set_register(self, line: int, word: int, value: int) -> None:
-        self.level.write("RG", line, word, value)
+        self._own.write("RG", line, word, value)
 
     def _value(self, parameter: Parameter) -> Value:
         if not isinstance(parameter, Reference):

@@ -36,11 +36,18 @@ def run(
         WholeNumber | None,
         Parameter(help="The statement at which the program begins. Default: the first one."),
     ] = None,
+    left: Annotated[
+        WholeNumber | None,
+        Parameter(
+            help="The statement at which the program of the left arm begins, which runs at the same time. "
+            "Default: there is no left arm."
+        ),
+    ] = None,
     sense: Annotated[
         list[str] | None,
         Parameter(
-            help="A reading of a sensor, such as 8=1200, or 5=500@3:2750: while motor 3 is at 2750 or farther. Give "
-            "--sense for each."
+            help="A reading of a sensor (8=1200) or of an interlock (panic=1). `5=500@3:2750` holds while motor 3 is "
+            "at 2750 or farther from 0, and `door=1@.5s` from .5 s on. Give --sense for each."
         ),
     ] = None,
     json: Json = False,
@@ -67,9 +74,9 @@ def run(
     check_kept(no_keep, out)
     stimuli = tuple(sensed(each) for each in sense or ())
     source = read_source(file)
-    if not reported(source):
+    if not reported(source, two_arms=left is not None):
         return 2
-    plan = MlPlan(name=file.name, text=source.text, first=first, stimuli=stimuli)
+    plan = MlPlan(name=file.name, text=source.text, first=first, left=left, stimuli=stimuli)
     sound(plan)
     setup = Setup(system="ml", plan=plan, world=WorldSpec(seed=0), camera="auto", judged=True)
     return work(
@@ -92,9 +99,9 @@ class Printer(Observer):
             self._put(event.text)
 
 
-def reported(source: Source) -> bool:
+def reported(source: Source, *, two_arms: bool = False) -> bool:
     """Print the mistakes of a program. Returns True if there are no errors."""
-    found = checked(source)[1]
+    found = checked(source, two_arms=two_arms)[1]
     show(found, source, json=False)
     return not has_errors(found)
 
@@ -172,14 +179,20 @@ def words(word: str | None = None, /) -> int:
 
 
 def console(
-    file: Annotated[Path | None, Parameter(help="A program in ML to load at the start, `.ml`.")] = None, /
+    file: Annotated[Path | None, Parameter(help="A program in ML to load at the start, `.ml`.")] = None,
+    /,
+    *,
+    left: Annotated[
+        bool,
+        Parameter(help="Install a left arm, which LEFT and RIGHT choose. It is slower and has fewer motors."),
+    ] = False,
 ) -> int:
     """Open the terminal of 1975: lines with a number are stored, and all others are executed at once. ENABLE switches
     the pump on, RUN and TRY run the program, EXIT leaves, and HELP lists the commands.
 
     Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
     """
-    return _session(file)
+    return _session(file, left=left)
 
 
 def try_program(file: MlFile, /) -> int:
@@ -190,7 +203,7 @@ def try_program(file: MlFile, /) -> int:
     return _session(file, "ENABLE", "TRY")
 
 
-def _session(file: Path | None = None, *typed: str) -> int:
+def _session(file: Path | None, *typed: str, left: bool = False) -> int:
     """Execute some lines, then those that the user types. Returns the exit code."""
     from handeye.cli.panic_button import PanicButton
     from handeye.cli.prompt import typed_lines
@@ -204,7 +217,7 @@ def _session(file: Path | None = None, *typed: str) -> int:
                 say(prompt.rstrip())
             return next(typed_lines(prompt if terminal else "", panic.aside, lambda: ()), None)
 
-        session = Console(say, asked, panic)
+        session = Console(say, asked, panic, left=left)
         if file is not None:
             session.load(read_source(file))
         lines = typed_lines("READY " if terminal else "", panic.aside, session.words)

@@ -27,7 +27,7 @@ _JOYSTICK: Final = (
 
 
 class FileHost(Host):
-    """A host that keeps programs in files of the current folder."""
+    """A host that keeps programs in files of the current folder, and has the arm language of 1973."""
 
     def read(self, name: str) -> str:
         return read_source(_path(name)).text
@@ -37,25 +37,36 @@ class FileHost(Host):
         check_new(path)
         write_whole(path, text.encode())
 
+    def interpreter(self) -> None:
+        """Open `handeye repl`, until its end."""
+        from handeye.cli.teaching import repl
+
+        repl()
+
 
 def _path(name: str) -> Path:
     return Path(name if name.lower().endswith(ENDING) else f"{name}{ENDING}")
 
 
 class Console:
-    """A session at the terminal, with a right arm whose motors are perfect."""
+    """A session at the terminal, with arms whose motors are perfect."""
 
     def __init__(
         self,
         say: Callable[[str], None],
         ask: Callable[[str], str | None] = lambda _: None,
         halted: Callable[[], bool] = lambda: False,
+        *,
+        left: bool = False,
     ) -> None:
-        """Begin a session with the pump off. `ask` shows a prompt and returns what the user types, or None at the
-        end of the input. `halted` is True when the panic button has been pressed.
+        """Begin a session with the pump off, with a right arm and, if `left`, also a left one. `ask` shows a prompt
+        and returns what the user types, or None at the end of the input. `halted` is True when the panic button has
+        been pressed.
         """
         self._say, self._ask, self._halted = say, ask, halted
-        self._machine, self._arms = perfect_machine(self._hear_event)
+        self._machine, self._arms = perfect_machine(
+            self._hear_event, sides=("right", "left") if left else ("right",)
+        )
         self._program = StoredProgram()
         self._mos = Interpreter(
             "right", self._machine.levels, self._program, self._hear_event, FileHost(), joystick=True
@@ -98,10 +109,17 @@ class Console:
             if self._mos.memory.waits == "joy":
                 self._guide()
             if self._halted():
-                self._arms["right"].switch("panic", 1)
-                self._machine.cycle()
-                self._arms["right"].switch("panic", 0)
+                self._press_panic_button()
             self._machine.cycle()
+
+    def _press_panic_button(self) -> None:
+        """Press the panic button for two cycles, of which every arm notices one."""
+        for on in (1, 0):
+            for arm in self._arms.values():
+                arm.switch("panic", on)
+            if on:
+                self._machine.cycle()
+                self._machine.cycle()
 
     def _tried(self) -> bool:
         """Show the next statement, and wait for a key. Returns False if the program is to be abandoned."""

@@ -1,41 +1,48 @@
-"""What the sensors of perfect motors sense, as it is written on the command line."""
+"""What the sensors and interlocks of perfect motors sense, as it is written on the command line."""
 
 import re
 from typing import Final
 
-from handeye.core.diagnostics import quoted
+from handeye.core.diagnostics import alternatives, names_sentence, quoted
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.systems.ml.arithmetic import fits
-from handeye.systems.ml.machine.rectilinear import RIGHT
+from handeye.systems.ml.machine.rectilinear import INTERLOCKS, RIGHT
+from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 from handeye.systems.ml.machine.surroundings import Stimulus
 
-_FORM: Final = re.compile(r"(\d+)=(-?\d+)(?:@(\d+):(-?\d+))?")
+_FORM: Final = re.compile(r"(\w+)=(-?\d{1,6})(?:@(?:(\d{1,3}):(-?\d{1,6})|(\d{1,6}(?:\.\d*)?|\.\d+)s))?")
+FORM: Final = "SENSOR=READING, SENSOR=READING@MOTOR:POSITION or SENSOR=READING@SECONDSs"
 
 
 def sensed(text: str) -> Stimulus:
-    """Read `SENSOR=READING`, or `SENSOR=READING@MOTOR:POSITION`, which holds while the motor is at the position or
-    farther from 0. Raises BadArgument.
+    """Read a reading of a sensor or interlock: always, while a motor is at a position or farther from 0, or from
+    a time on. Raises BadArgument.
     """
     match = _FORM.fullmatch(text)
-    if match is None or not all(fits(int(each or 0)) for each in match.groups()):
-        raise BadArgument(
-            f"--sense takes SENSOR=READING or SENSOR=READING@MOTOR:POSITION, not {quoted(text)}"
-        )
-    sensor, reading, motor, position = (int(each or 0) for each in match.groups())
+    if match is None or not all(fits(int(each or 0)) for each in (match[2], match[4])):
+        raise BadArgument(f"--sense takes {FORM}, not {quoted(text)}")
+    channel, count = _source(match[1])
+    motor, position = int(match[3] or 0), int(match[4] or 0)
     if match[3] is not None and motor not in {each.number for each in RIGHT.motors}:
         raise NoSuchName(f"there is no motor {motor}")
-    channel, count = _source(sensor)
     return Stimulus(
-        channel=channel, value=reading * count, motor=motor, beyond=position, side="below" if position < 0 else "above"
+        channel=channel, value=int(match[2]) * count, since=round(float(match[5] or 0) * CYCLES_PER_SECOND),
+        motor=motor, beyond=position, side="below" if position < 0 else "above",
     )  # fmt: skip
 
 
-def _source(sensor: int) -> tuple[str, float]:
-    """Return the channel of a logical sensor, and the value of a unit of its reading (SI)."""
-    line = RIGHT.sensors.get(sensor)
-    if line is None or (not line.mask and line.input not in RIGHT.analog):
-        known = ", ".join(map(str, RIGHT.sensors))
-        raise NoSuchName(f"sensor {sensor} has no source; those that have one are {known}")
+def _source(name: str) -> tuple[str, float]:
+    """Return the channel of a logical sensor or interlock, and the value of a unit of its reading (SI)."""
+    if name in INTERLOCKS:
+        return name, 1.0
+    known = {
+        str(number): line for number, line in RIGHT.sensors.items() if line.mask or line.input in RIGHT.analog
+    }
+    if name not in known:
+        choices = (*known, *INTERLOCKS)
+        near = names_sentence(alternatives(name, choices)) or f"there are {', '.join(choices)}"
+        raise NoSuchName(f"there is no sensor or interlock {quoted(name)} that can be sensed; {near}")
+    line = known[name]
     if line.mask:
         return RIGHT.digital[line.input][line.mask.bit_length() - 1], 1.0
     source = RIGHT.analog[line.input]

@@ -20,8 +20,10 @@ _AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN
 """Numbers of POINTs that commands take."""
 
 
-def checked(source: Source) -> tuple[dict[int, Line], list[Diagnostic]]:
-    """Return the stored lines of a program by their numbers, in ascending order, and the mistakes."""
+def checked(source: Source, *, two_arms: bool = False) -> tuple[dict[int, Line], list[Diagnostic]]:
+    """Return the stored lines of a program by their numbers, in ascending order, and the mistakes. Motors are those
+    of the right arm; with two arms they are not checked.
+    """
     lines, found = parsed(source)
     complete = not has_errors(found)
     stored: dict[int, Line] = {}
@@ -36,7 +38,7 @@ def checked(source: Source) -> tuple[dict[int, Line], list[Diagnostic]]:
             found.append(mistake("line-replaced", told, line.span, first))
         stored[line.number] = line
     stored = dict(sorted(stored.items()))
-    check = _Check(stored)
+    check = _Check(stored, two_arms)
     for line in stored.values():
         found += check.parameters(line)
         found += check.motors(line)
@@ -51,11 +53,12 @@ def checked(source: Source) -> tuple[dict[int, Line], list[Diagnostic]]:
 class _Check:
     """The checks of single lines, which know the whole program."""
 
-    def __init__(self, lines: Mapping[int, Line]) -> None:
+    def __init__(self, lines: Mapping[int, Line], two_arms: bool) -> None:
         self._lines = lines
         self._statements = {number: line.statement for number, line in lines.items()}
         self._codes = {each.code for each in self._statements.values()}
         self._loads = "CMSLOAD" in self._codes
+        self._two_arms = two_arms or "LEFT" in self._codes
 
     def parameters(self, line: Line) -> Iterator[Diagnostic]:
         """Check the numbers of variables and sensors, and the places in tables."""
@@ -86,8 +89,8 @@ class _Check:
                 yield mistake("limits-empty", told, line.place(1))
 
     def motors(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the motors of a line, and constant goals, for the right arm."""
-        if "LEFT" in self._codes:
+        """Check the motors of a line, and constant goals."""
+        if self._two_arms:
             return
         code, values = line.statement.code, line.statement.parameters
         for at, value in enumerate(values):

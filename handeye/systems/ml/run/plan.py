@@ -42,6 +42,11 @@ class MlPlan(Record, frozen=True, kw_only=True):
     variant: str = ""  # of the job
 
     @property
+    def lines(self) -> Mapping[int, Line]:
+        """The stored statements by their numbers. Raises BadFile if the text has errors."""
+        return stored(self.name, self.text, two_arms=self.left is not None)
+
+    @property
     def task(self) -> str:
         """Name of the task to which runs of the plan belong."""
         return self.job or ("ml" if self.arm == "none" else self.arm)
@@ -90,9 +95,9 @@ class MlListing:
 
 
 @lru_cache(maxsize=8)
-def stored(name: str, text: str) -> Mapping[int, Line]:
+def stored(name: str, text: str, *, two_arms: bool = False) -> Mapping[int, Line]:
     """Return the lines of a program by their numbers. Raises BadFile if the text has errors."""
-    lines, found = checked(Source(text=text, name=name))
+    lines, found = checked(Source(text=text, name=name), two_arms=two_arms)
     if has_errors(found):
         first = next(each for each in found if each.severity == "error")
         raise BadFile(f"{name} has {counted(len(found), 'mistake')}, the first: {first.message}")
@@ -102,7 +107,7 @@ def stored(name: str, text: str) -> Mapping[int, Line]:
 @lru_cache(maxsize=8)
 def listing(plan: MlPlan) -> MlListing:
     """Return the listing of a plan."""
-    statements = {number: line.statement for number, line in stored(plan.name, plan.text).items()}
+    statements = {number: line.statement for number, line in plan.lines.items()}
     index = {number: step for step, number in enumerate(statements)}
     flow = Flow(statements)
     steps = [
@@ -135,7 +140,7 @@ def decode(data: bytes, name: str) -> MlPlan:
 
 def sound(plan: MlPlan) -> None:
     """Raise BadFile unless the plan's program can be executed."""
-    lines = stored(plan.name, plan.text)
+    lines = plan.lines
     if not lines:
         raise BadFile(f"{plan.name} has no statement with a sequence number")
     for number in (plan.first, plan.left):

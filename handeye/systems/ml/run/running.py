@@ -46,7 +46,7 @@ from handeye.systems.ml.machine.rectilinear import INTERLOCKS
 from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 from handeye.systems.ml.run.channels import level_channels, level_values
 from handeye.systems.ml.run.hardware import Hardware, PerfectHardware, StationTask
-from handeye.systems.ml.run.plan import MlPlan, encode, listing, stored
+from handeye.systems.ml.run.plan import MlPlan, encode, listing
 from handeye.systems.ml.run.state import MlState
 from handeye.systems.ml.tables.layout import SHAPES
 from handeye.tasks import any_task
@@ -68,7 +68,7 @@ class RunningMl(RunningSystem):
         self._hardware = self._open()
         self.machine = self._hardware.machine
         self.program = StoredProgram()
-        for number, line in stored(self._plan.name, self._plan.text).items():
+        for number, line in self._plan.lines.items():
             self.program.store(number, line.statement)
         self._host = Host()
         self.interpreters: dict[Side, Interpreter] = {
