@@ -76,6 +76,7 @@ CHEAP = {
     "trials insert": "trials insert --n ✓",
     "trials prco": "trials prco --n ✓",
     "trials follow": "trials follow --n ✓",
+    "trials line": "trials line --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

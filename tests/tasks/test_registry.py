@@ -34,7 +34,7 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
         (
             "clock",
             "there is no task `clock`; there are `bucket`, `chess`, `follow`, `gantries`, `handover`, "
-            "`insert`, `insertion`, `mal`, `ml`, `palletise`, `prco`, `rectilinear`, `water_pump`",
+            "`insert`, `insertion`, `line`, `mal`, `ml`, `palletise`, `prco`, `rectilinear`, `water_pump`",
         ),
     ],
 )

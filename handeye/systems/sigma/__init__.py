@@ -19,6 +19,7 @@ trials chess = handeye.systems.sigma.cli.chess:chess_trials: Sort chess pieces i
 trials prco = handeye.systems.sigma.cli.prco:prco_trials: Assemble the plate of the pump in many worlds: success rate, and depth and clamp of its screws.
 trials handover = handeye.systems.sigma.cli.handover:handover_trials: Hand pieces from arm to arm in many worlds: success rate, and errors of places.
 trials insert = handeye.systems.sigma.cli.insert:insert_trials: Find holes by force in many worlds: success rate, forces, and tries.
+trials line = handeye.systems.sigma.cli.line:line_trials: Run an assembly line in many worlds: success rate, and errors of places.
 """,  # noqa: E501 - a command a line
     tasks={
         "mal": "handeye.systems.sigma.run.task:MAL_TASK",
@@ -27,6 +28,7 @@ trials insert = handeye.systems.sigma.cli.insert:insert_trials: Find holes by fo
         "handover": "handeye.systems.sigma.handover.task:HANDOVER",
         "insert": "handeye.systems.sigma.insert.task:INSERTION",
         "prco": "handeye.systems.sigma.prco.task:PRCO",
+        "line": "handeye.systems.sigma.line.task:LINE",
     },
     languages={".mal": "handeye.systems.sigma.mal.language:LANGUAGE"},
     sweeps={
@@ -34,6 +36,7 @@ trials insert = handeye.systems.sigma.cli.insert:insert_trials: Find holes by fo
         "handover": "handeye.systems.sigma.run.job_trials:HANDOVER_TRIALS",
         "insert": "handeye.systems.sigma.run.job_trials:INSERTION_TRIALS",
         "prco": "handeye.systems.sigma.run.job_trials:PRCO_TRIALS",
+        "line": "handeye.systems.sigma.run.job_trials:LINE_TRIALS",
     },
     faults="handeye.systems.sigma.run.fault_trials:fault_trials",
     events="handeye.systems.sigma.mal.happenings:EVENTS",

@@ -21,7 +21,15 @@ SLOW_STEP_MM: Final = 2  # mm/s, the speed that each unit of a speed code stands
 _NAMES: Final = ("X1", "Y1", "Z1", "FORCE1", "HAND1", "X2", "Y2", "Z2", "FORCE2", "HAND2")
 NUMBERS: Final = {name: number for number, name in enumerate(_NAMES)}
 """Numbers of the microcomputers of SUPERSIGMA, by name: one status page per arm."""
+_LINE: Final = (
+    "X3", "Y3", "Z3", "FORCE3", "HAND3", "X4", "Y4", "Z4", "FORCE4", "HAND4",
+    "X5", "Y5", "HAND5", "X6", "SCALE", "HAND6",
+)  # fmt: skip
+LINE_NUMBERS: Final = NUMBERS | {name: len(NUMBERS) + number for number, name in enumerate(_LINE)}
+"""Numbers of all microcomputers of the assembly line: SUPERSIGMA, a second one, the feeder (5) and the belt (6)."""
 AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
+LINE_AXES: Final = (*AXES, "X3", "Y3", "Z3", "X4", "Y4", "Z4", "X5", "Y5", "X6")
+"""The axes of the assembly line. Those of arms, which have wrists, come first."""
 COMPONENTS: Final = ("X", "Y", "Z")  # of a wrist, in the order that byte 3 counts
 DEVICES: Final = {
     "HAND": 0,
@@ -97,14 +105,14 @@ def number_of(name: str | int) -> int:
         if not 0 <= name <= 0xFF:
             raise BadArgument(f"the number of a microcomputer must be between 0 and 255, not {name}")
         return name
-    if name.upper() not in NUMBERS:
+    if name.upper() not in LINE_NUMBERS:
         raise NoSuchName(f"no microcomputer is called {quoted(name)}; there are {', '.join(NUMBERS)}")
-    return NUMBERS[name.upper()]
+    return LINE_NUMBERS[name.upper()]
 
 
 def name_of(number: int) -> str:
     """Return the name of a microcomputer, or its number as text if it has no name."""
-    return {number: name for name, number in NUMBERS.items()}.get(number, str(number))
+    return {number: name for name, number in LINE_NUMBERS.items()}.get(number, str(number))
 
 
 def move(axis: str | int, steps: int, curve: int = 0) -> Command:

@@ -10,7 +10,8 @@ from handeye.core.source import Source
 from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.codes import CODES
 from handeye.systems.sigma.mal.language import LANGUAGE
-from handeye.systems.sigma.mal.words import RESERVED, WORDS
+from handeye.systems.sigma.mal.words import MAL_DEVICES, RESERVED, WORDS
+from handeye.systems.sigma.protocol import LINE_AXES
 
 LONG = "A" * 29
 
@@ -58,11 +59,14 @@ def test_no_flag_is_called_as_a_word_is() -> None:
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("10 MOVE X3 TO 5", "an axis (X1, Y1, Z1, X2, Y2, Z2) is expected here, but there is `X3`"),
+        ("10 LIMIT X5, 10", "X5 has no wrist that feels forces"),
+        ("10 PRINT FORCE(X6)", "X6 has no wrist that feels forces"),
+        ("10 MOVE X5 TO 5\n20 PRINT BEAM(7)", "there is no arm 7, only hands 1 to 6"),
+        ("10 MOVE X7 TO 5", f"an axis ({', '.join(LINE_AXES)}) is expected here, but there is `X7`"),
         ("10 MOVE X1 TO", "a number, a variable or a function is expected here, but the line ends"),
         ("10 GOTO 30\n20 END", "there is no line 30"),
         ("5 GOTO 10 20\n10 END", "the end of the line is expected here, but there is `20`"),
-        ("10 ACTUATE HAND3", "a device (HAND1, HAND2, DRIVER2, LAMP, BELL) is expected here, but there is `HAND3`"),
+        ("10 ACTUATE HAND5", f"a device ({', '.join(MAL_DEVICES)}) is expected here, but there is `HAND5`"),
         ("10 IF A THEN 10", "`=` or `<>` or `<` or `>` or `<=` or `>=` is expected here, but there is `THEN`"),
         ("10 Ä = 5", "`Ä` is not a character of MAL"),
     ],

@@ -34,6 +34,7 @@ from handeye.systems.sigma.cli.crash import crash
 from handeye.systems.sigma.cli.diagnose import diagnose
 from handeye.systems.sigma.cli.handover import handover
 from handeye.systems.sigma.cli.insert import insert
+from handeye.systems.sigma.cli.line import line
 from handeye.systems.sigma.cli.moves import moves
 from handeye.systems.sigma.cli.prco import prco
 from handeye.systems.sigma.cli.table1 import table1
@@ -176,7 +177,7 @@ def check(
         return 2 if has_errors(found) else 0
     if not reported(source):
         return 2
-    program = program_of(file.name, source.text)
+    program = program_of(file.name, source.text, line=True)
     if not program.lines:
         raise BadArgument(f"{file} has no line that can be executed")
     result = tried(program, most)
@@ -281,6 +282,7 @@ _COMMANDS: Final = (
     handover,
     insert,
     prco,
+    line,
     moves,
     table1,
     diagnose,

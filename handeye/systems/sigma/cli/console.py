@@ -161,6 +161,7 @@ class Console:
             )
         if not program.lines:
             raise Refused("there is no program")
+        program.check_alone()
         return program
 
     def _compile(self, _: str) -> None:

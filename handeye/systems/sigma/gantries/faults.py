@@ -17,14 +17,11 @@ from handeye.systems.sigma.diagnosis.bench import CUT, DIM, HALF, MANY, SAG
 from handeye.systems.sigma.diagnosis.faults import FAULTS, OFFSET_N, MachineFault, Planted, variants
 from handeye.systems.sigma.firmware.force import CONVERTER_N
 from handeye.systems.sigma.firmware.motor import Motor
-from handeye.systems.sigma.gantries.machine import ARMS, ENDS, OPEN, Field, Gantries, Table
+from handeye.systems.sigma.gantries.machine import ENDS, OPEN, Field, Gantries, Rig, Table
+from handeye.systems.sigma.gantries.machine import SUPERSIGMA as SUPERSIGMA_RIG
 from handeye.systems.sigma.gantries.world import GantryWorld
-from handeye.systems.sigma.protocol import AXES, COMPONENTS, NUMBERS
+from handeye.systems.sigma.protocol import COMPONENTS, NUMBERS
 
-_N: Final = len(AXES)
-_AXIS: Final = {NUMBERS[axis]: index for index, axis in enumerate(AXES)}
-_WRIST: Final = {NUMBERS[f"FORCE{arm}"]: AXES.index(f"X{arm}") for arm in ARMS}  # its first row
-_INERTIA: Final = slice(3 * _N, 4 * _N)  # columns of the accelerometers
 _SLOW_MS: Final = 400.0  # in which slow fingers close or open
 
 
@@ -60,38 +57,46 @@ def planted_in(world: WorldSpec) -> tuple[Planted, ...]:
     return tuple(every_fault()[fault.name] for fault in world.faults)
 
 
-def gantries_of(spec: mujoco.MjSpec, world: GantryWorld, planted: Sequence[Planted]) -> Gantries:
+def gantries_of(
+    spec: mujoco.MjSpec, world: GantryWorld, planted: Sequence[Planted], rig: Rig = SUPERSIGMA_RIG
+) -> Gantries:
     """Return the gantries with these faults."""
     faults = [fault for each in planted for fault in each.machine]
-    return FaultyGantries(spec, world, faults) if faults else Gantries(spec, world)
+    return FaultyGantries(spec, world, faults, rig) if faults else Gantries(spec, world, rig=rig)
 
 
 class FaultyGantries(Gantries):
     """Gantries with faults."""
 
-    def __init__(self, spec: mujoco.MjSpec, world: GantryWorld, faults: Sequence[MachineFault]) -> None:
+    def __init__(
+        self,
+        spec: mujoco.MjSpec,
+        world: GantryWorld,
+        faults: Sequence[MachineFault],
+        rig: Rig = SUPERSIGMA_RIG,
+    ) -> None:
         self._faults = {(fault.kind, fault.number): fault for fault in faults}
-        self._every = [0] * _N  # each n-th pulse is left out; 0: none
+        self._every = [0] * len(rig.axes)  # each n-th pulse is left out; 0: none
         self._stuck: dict[int, float] = {}  # limit of a switch that is stuck, by its row
         self._bits = [*self._of("converter")]
         self._sags = any(fault.kind == "supply" for fault in faults)
-        super().__init__(spec, world)
+        super().__init__(spec, world, rig=rig)
         for fault in self._of("pulses"):
-            self._every[_AXIS[fault.number]] = fault.which
+            self._every[self._axis[fault.number]] = fault.which
         for fault in self._of("phase"):
-            self._pull[_AXIS[fault.number]] *= HALF
+            self._pull[self._axis[fault.number]] *= HALF
         for fault in self._of("switch"):
             pin = "high" if fault.which else "low"
-            row = next(row for row, each in ENDS.items() if each == pin) * _N + _AXIS[fault.number]
+            row = next(row for row, each in ENDS.items() if each == pin) * self._n + self._axis[fault.number]
             self._stuck[row] = -np.inf if fault.level else np.inf
         for fault in self._of("accelerometer"):
-            self._quiet(_WRIST[fault.number] + fault.which)
+            self._quiet(self._wrist[fault.number].start + fault.which)
         for fault in self._of("gauge"):
-            self._strain_gauge(_WRIST[fault.number] + fault.which, offset=bool(fault.level))
+            self._strain_gauge(self._wrist[fault.number].start + fault.which, offset=bool(fault.level))
         for fault in self._of("multiplexer"):
-            wrist = _WRIST[fault.number]
+            wrist = self._wrist[fault.number].start
             for rows in (self._felt, self._still):
-                for first in (wrist, _N + wrist):
+                for first in (wrist, self._n + wrist):
                     rows[first : first + len(COMPONENTS)] = rows[first + fault.which]
         self._plan()
 
@@ -100,12 +105,12 @@ class FaultyGantries(Gantries):
 
     def _quiet(self, axis: int) -> None:
         """Let the accelerometer of an axis give no signal."""
-        for row in (axis, _N + axis):
-            self._felt[row, _INERTIA] = self._still[row] = 0.0
+        for row in (axis, self._n + axis):
+            self._felt[row, self._inertial] = self._still[row] = 0.0
 
     def _strain_gauge(self, axis: int, *, offset: bool) -> None:
         """Let the gauge of an axis read too much, or nothing."""
-        for sense, row in ((1, axis), (-1, _N + axis)):
+        for sense, row in ((1, axis), (-1, self._n + axis)):
             if offset:
                 self._still[row] += sense * OFFSET_N
             else:
@@ -116,11 +121,11 @@ class FaultyGantries(Gantries):
     def _sense(self) -> Array:
         sensed = super()._sense()
         for fault in self._bits:
-            first, bit = _WRIST[fault.number], 1 << fault.which
+            first, bit = self._wrist[fault.number].start, 1 << fault.which
             part = slice(first, first + len(COMPONENTS))
             raw = np.rint(sensed[part] / CONVERTER_N).astype(np.int64)
             sensed[part] = (raw | bit if fault.level else raw & ~bit) * CONVERTER_N
-            sensed[_N + part.start : _N + part.stop] = -sensed[part]
+            sensed[self._n + part.start : self._n + part.stop] = -sensed[part]
         return sensed
 
     def beam(self, number: int) -> bool:
@@ -165,4 +170,4 @@ class FaultyGantries(Gantries):
         gaps = self.memory.gaps
         goal = 0.0 if self.memory.grips[hand] else 1.0
         gaps[hand] += min(max(goal - gaps[hand], -1 / _SLOW_MS), 1 / _SLOW_MS)
-        self.bench.data.ctrl[_N + hand] = gaps[hand] * OPEN
+        self.bench.data.ctrl[self._n + hand] = gaps[hand] * OPEN

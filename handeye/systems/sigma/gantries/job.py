@@ -6,6 +6,9 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Any
 
 from handeye.core.variation import WorldSpec
+from handeye.systems.sigma.bus.layout import SUPERSIGMA, Layout
+from handeye.systems.sigma.gantries.machine import SUPERSIGMA as SUPERSIGMA_RIG
+from handeye.systems.sigma.gantries.machine import Rig
 from handeye.systems.sigma.gantries.task import GantryTask
 from handeye.systems.sigma.gantries.world import GantryWorld
 from handeye.systems.sigma.run.plan import decode
@@ -20,6 +23,8 @@ if TYPE_CHECKING:
 class JobTask(GantryTask):
     """A job with pieces."""
 
+    rig: Rig = SUPERSIGMA_RIG
+    layout: Layout = SUPERSIGMA
     usual: int
     """The number of pieces if none is given."""
     judges_stopped = True

@@ -38,14 +38,11 @@ from handeye.systems.sigma.gantries.world import (
 )
 from handeye.systems.sigma.motors.pulses import CURVES
 from handeye.systems.sigma.motors.rotor import MASSES, POLE, STEP, Drive
-from handeye.systems.sigma.protocol import AXES, COMPONENTS, DEVICES, NUMBERS
+from handeye.systems.sigma.protocol import AXES, COMPONENTS, DEVICES, LINE_NUMBERS
 
 SCENE: Final = "supersigma/supersigma.xml"
 CAMERA: Final = "people"
-ARMS: Final = (1, 2)
 SWITCHED_ON_AT: Final = 400  # steps from its low switch where the power finds each axis
-FORCES: Final = tuple(Channel(name=f"force_{arm}", unit="N", width=3) for arm in ARMS)
-FINGERS: Final = tuple(f"{side}_{arm}" for arm in ARMS for side in ("left", "right"))
 DIFFERENTIAL: Final = 2e-4  # m by which a switch is released later than it acts
 OPEN: Final = 0.044  # m between the fingers
 TICK: Final = 1000 * PS  # of the physics, ps
@@ -55,35 +52,49 @@ _DAMPING: Final = 92.95  # N s/m
 _GRAVITY: Final = 9.81
 _SUNK: Final = 1e-3  # m by which the lamp lies in its finger, so that an object in the grip is before it
 _FINGER: Final = 2e-4  # m by which a ray may end before the photodiode: it meets the other finger
-_SENSE: Final = np.array([1.0, 1.0, -1.0, -1.0, 1.0, -1.0])  # of each axis along x, y or z of the scene
-_AXIS: Final = {NUMBERS[axis]: index for index, axis in enumerate(AXES)}
-_WRIST: Final = {NUMBERS[f"FORCE{arm}"]: slice(3 * index, 3 * index + 3) for index, arm in enumerate(ARMS)}
-_WRISTED: Final = tuple(NUMBERS[f"FORCE{axis[1]}"] for axis in AXES)
-_HAND: Final = {NUMBERS[f"HAND{arm}"]: index for index, arm in enumerate(ARMS)}
-_N: Final = len(AXES)
-_HIGH: Final = 2  # rows of six: forces one way and the other, high ends, low ends, rotors ahead, and behind
+_SENSE: Final = np.array(
+    [1.0, 1.0, -1.0, -1.0, 1.0, -1.0]
+)  # of each axis of two arms along x, y or z of the scene
+_HIGH: Final = 2  # rows of axes: forces one way and the other, high ends, low ends, rotors ahead, and behind
 ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
-_LEVELS: Final = 4 * _N
-_ALL: Final = 6 * _N
-_SERVOS: Final = _N + len(ARMS)  # a job may have more motors, which follow these
 _AHEAD: Final = 256  # steps that are planned at once
-_PLACES: Final = slice(_LEVELS, _LEVELS + _N)
 Table = NDArray[np.float64]
+
+
+class Rig(NamedTuple):
+    """The axes and arms of a machine. The axes of its arms, which have wrists, come first: three for each arm."""
+
+    axes: tuple[str, ...] = AXES
+    arms: tuple[int, ...] = (1, 2)
+
+    @property
+    def wrists(self) -> tuple[str, ...]:
+        """The axes along which wrists measure forces."""
+        return self.axes[: len(COMPONENTS) * len(self.arms)]
+
+
+SUPERSIGMA: Final = Rig()
 
 
 def scene(world: GantryWorld) -> mujoco.MjSpec:
     """Return the scene of a world with an empty board."""
     spec = mujoco.MjSpec.from_file(str(scenes() / SCENE))
-    stiffer = world.axes(STIFFNESS)
+    vary(spec, world, SUPERSIGMA)
+    return spec
+
+
+def vary(spec: mujoco.MjSpec, world: GantryWorld, rig: Rig) -> None:
+    """Give a scene the errors of a world."""
+    stiffer = world.axes(STIFFNESS, rig.wrists)
     friction = world.value(FRICTION)
-    for index, axis in enumerate(AXES):
+    for axis in rig.axes:
         spec.joint(axis).damping = np.array([friction * MASSES[axis[0]], 0, 0])
+    for index, axis in enumerate(rig.wrists):
         spec.joint(f"wrist_{axis}").stiffness = np.array([_STIFFNESS * (1 + stiffer[index]), 0, 0])
-    for arm in ARMS:
+    for arm in rig.arms:
         higher = world.normal(f"beam.{arm}", BEAM)
         for end in ("lamp", "photodiode"):
             spec.site(f"{end}_{arm}").pos[2] += higher
-    return spec
 
 
 class Field(NamedTuple):
@@ -99,48 +110,67 @@ class Gantries(Plant[GantryMemory]):
 
     predicts = False
     longest = 200_000
-    channels = FORCES
 
-    def __init__(self, spec: mujoco.MjSpec, world: GantryWorld, *, compensated: bool = True) -> None:
+    def __init__(
+        self, spec: mujoco.MjSpec, world: GantryWorld, *, rig: Rig = SUPERSIGMA, compensated: bool = True
+    ) -> None:
         """Switch the gantries on.
 
         Args:
             compensated: add the signals of the accelerometers to those of the wrists, so that the force that
                 accelerates a hand is not counted.
         """
-        self.bench, self.memory = Bench(spec.compile()), GantryMemory()
+        self.bench, self.rig, self._n = Bench(spec.compile()), rig, len(rig.axes)
+        self.memory = GantryMemory.of(self._n, len(rig.arms))
+        self.channels = tuple(
+            Channel(name=f"force_{arm}", unit="N", width=len(COMPONENTS)) for arm in rig.arms
+        )
+        self._axis = {LINE_NUMBERS[axis]: index for index, axis in enumerate(rig.axes)}
+        self._wrist = {
+            LINE_NUMBERS[f"FORCE{arm}"]: slice(3 * index, 3 * index + 3) for index, arm in enumerate(rig.arms)
+        }
+        self._hand = {LINE_NUMBERS[name]: int(name[-1]) for name in LINE_NUMBERS if name.startswith("HAND")}
+        self._levels, self._all = 4 * self._n, 6 * self._n
+        self._places = slice(self._levels, self._levels + self._n)
+        self._servos = self._n + len(rig.arms)  # a job may have more motors, which follow these
         self.actuated: list[Callable[[int, Sequence[int]], None]] = []
         """Called with the number and the outputs of a hand microcomputer when the outputs have changed."""
         assert self.bench.tick * 10**6 * PS == TICK
         model, data = self.bench.model, self.bench.data
-        self._low = world.axes(SWITCHES)  # m, where the low switch of each axis is, of its joint
-        self._high = self._low + [TRAVEL[axis[0]] * STEP for axis in AXES]
+        self._low = world.axes(SWITCHES, rig.axes)  # m, where the low switch of each axis is, of its joint
+        self._high = self._low + [TRAVEL[axis[0]] * STEP for axis in rig.axes]
         self._begin = self._low + SWITCHED_ON_AT * STEP
-        self._pull = 1.0 + world.axes(PULL_OUT)
-        servos = [model.actuator(axis).id for axis in AXES]
+        self._pull = 1.0 + world.axes(PULL_OUT, rig.axes)
+        servos = [model.actuator(axis).id for axis in rig.axes]
         self._stiff = model.actuator_gainprm[servos, 0].copy()
         self._lead = -model.actuator_biasprm[servos, 2] / self._stiff  # s by which speed leads the place
-        gauges, still = _gauges(1.0 + world.axes(GAIN), world.value(LEFT) if compensated else 1.0)
-        places = np.eye(_N, model.nsensordata)
+        gain = 1.0 + world.axes(GAIN, rig.wrists)
+        gauges, still = _gauges(model, rig, gain, world.value(LEFT) if compensated else 1.0)
+        accelerometers = _sensors(
+            model, mujoco.mjtSensor.mjSENS_ACCELEROMETER, [f"hand_{arm}" for arm in rig.arms]
+        )
+        self._inertial = [first + column for first in accelerometers for column in range(len(COMPONENTS))]
+        places = np.zeros((self._n, model.nsensordata))
+        places[range(self._n), _sensors(model, mujoco.mjtSensor.mjSENS_JOINTPOS, rig.axes)] = 1.0
         self._felt = np.concatenate((gauges, -gauges, places, -places, places, -places))
-        self._still = np.concatenate((still, -still, np.zeros(4 * _N)))
-        self._over = np.full(_N, _least_over(STANDARD_N))
-        self._release = np.full(_N, _least_over(STANDARD_N * RELEASED))
-        self._trains: list[object] = [None] * _N
-        self._motors: list[Motor | None] = [None] * _N
-        self._fields = [Field(0, np.zeros(1), np.zeros(1))] * _N
+        self._still = np.concatenate((still, -still, np.zeros(4 * self._n)))
+        self._over = np.full(self._n, _least_over(STANDARD_N))
+        self._release = np.full(self._n, _least_over(STANDARD_N * RELEASED))
+        self._trains: list[object] = [None] * self._n
+        self._motors: list[Motor | None] = [None] * self._n
+        self._fields = [Field(0, np.zeros(1), np.zeros(1))] * self._n
         self._first = self._step = 0
-        self._peaks = np.zeros(_N)
+        self._peaks = np.zeros(self._n)
         self._seen: dict[tuple[int, Pin], Level] = {}
-        joints = [model.joint(axis) for axis in AXES]
+        joints = [model.joint(axis) for axis in rig.axes]
         self._q = [int(joint.qposadr[0]) for joint in joints]
         self._qd = [int(joint.dofadr[0]) for joint in joints]
         data.qpos[self._q] = self._begin
-        for finger in FINGERS:
+        for finger in (f"{side}_{arm}" for arm in rig.arms for side in ("left", "right")):
             data.qpos[model.joint(finger).qposadr[0]] = OPEN / 2
         mujoco.mj_forward(model, data)
-        self._known, self._strained = bytes(_ALL), False
-        self.memory.levels = self._known[:_LEVELS]
+        self._known, self._strained = bytes(self._all), False
+        self.memory.levels = self._known[: self._levels]
         self._plan()
         self.bench.before_step.append(self._draw)
         self.bench.after_step.append(self._look)
@@ -151,39 +181,42 @@ class Gantries(Plant[GantryMemory]):
         return None
 
     def forces(self, number: int) -> Sequence[float]:
-        return [float(force) for force in self.felt[_WRIST[number]]]
+        return [float(force) for force in self.felt[self._wrist[number]]]
 
     def peaks(self, number: int) -> Sequence[float]:
-        part = _WRIST[number]
+        part = self._wrist[number]
         peaks, self.memory.peaks[part] = self.memory.peaks[part], [0.0] * len(COMPONENTS)
         return peaks
 
     def beam(self, number: int) -> bool:
-        model, data, arm = self.bench.model, self.bench.data, ARMS[_HAND[number]]
-        way = -data.body(f"left_{arm}").xmat.reshape(3, 3)[:, 1]  # from the left finger to the right one
-        lamp, photodiode = data.site(f"lamp_{arm}").xpos, data.site(f"photodiode_{arm}").xpos
-        length = float((photodiode - lamp) @ way) + _SUNK
-        body, met = model.body(f"left_{arm}").id, np.zeros(1, dtype=np.int32)
-        far = mujoco.mj_ray(model, data, lamp - _SUNK * way, way, None, True, body, met)
+        model, data, hand = self.bench.model, self.bench.data, self._hand[number]
+        lamp, photodiode = data.site(f"lamp_{hand}").xpos, data.site(f"photodiode_{hand}").xpos
+        if hand in self.rig.arms:
+            way = -data.body(f"left_{hand}").xmat.reshape(3, 3)[:, 1]  # from the left finger to the right one
+            body, sunk = model.body(f"left_{hand}").id, _SUNK
+        else:  # beside the feeder or the belt
+            way, body, sunk = (photodiode - lamp) / np.linalg.norm(photodiode - lamp), -1, 0.0
+        length, met = float((photodiode - lamp) @ way) + sunk, np.zeros(1, dtype=np.int32)
+        far = mujoco.mj_ray(model, data, lamp - sunk * way, way, None, True, body, met)
         return bool(0 <= far < length - _FINGER)
 
     def actuate(self, number: int, devices: Sequence[int]) -> None:
-        closed = bool(devices[DEVICES["HAND"]])
-        if self.memory.grips[_HAND[number]] != closed:
-            self.memory.grips[_HAND[number]] = closed
+        closed, hand = bool(devices[DEVICES["HAND"]]), self._hand[number]
+        if hand in self.rig.arms and self.memory.grips[hand - 1] != closed:
+            self.memory.grips[hand - 1] = closed
             self._plan()
         for act in self.actuated:
             act(number, devices)
 
     def limited(self, number: int, thresholds: Sequence[float]) -> None:
-        over, part = [*map(_least_over, thresholds)], _WRIST[number]
+        over, part = [*map(_least_over, thresholds)], self._wrist[number]
         if self._over[part].tolist() != over:
             self._over[part] = over
             self._release[part] = [_least_over(RELEASED * threshold) for threshold in thresholds]
             self._plan()
 
     def driven(self, number: int, motor: Motor) -> None:
-        index, memory = _AXIS[number], motor.memory
+        index, memory = self._axis[number], motor.memory
         train = memory.train, memory.began, memory.pulses
         self._motors[index] = motor
         if self._trains[index] != train:
@@ -197,14 +230,14 @@ class Gantries(Plant[GantryMemory]):
     def resumed(self) -> None:
         self._step = self._first = round(self.bench.now / float(self.bench.tick))
         self._strained = any(hold < 1 for hold in self.memory.holds)
-        self._trains, self._known = [()] * _N, self.memory.levels + bytes(_ALL - _LEVELS)
+        self._trains, self._known = [()] * self._n, self.memory.levels + bytes(self._all - self._levels)
         self._plan()
 
     # -- truth, for a referee --------------------------------------------------------------------------------
 
     @property
     def places(self) -> Array:
-        """True position of each axis (steps from its low switch, shape (6,))."""
+        """True position of each axis (steps from its low switch, shape (axes,))."""
         return np.asarray((self.bench.data.qpos[self._q] - self._low) / STEP)
 
     @property
@@ -214,8 +247,8 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def felt(self) -> Array:
-        """Present force on the wrists along each axis (N, shape (6,))."""
-        return self._sense()[:_N]
+        """Present force on the wrists along each axis (N, shape (axes,))."""
+        return self._sense()[: self._n]
 
     @property
     def period(self) -> ServoPeriod:
@@ -223,7 +256,10 @@ class Gantries(Plant[GantryMemory]):
         on the wrists.
         """
         data, felt = self.bench.data, self.felt.tolist()
-        channels = {channel: tuple(felt[part]) for channel, part in zip(FORCES, _WRIST.values(), strict=True)}
+        channels = {
+            channel: tuple(felt[part])
+            for channel, part in zip(self.channels, self._wrist.values(), strict=True)
+        }
         sensed = Sensed(
             time=self.bench.now,
             q=data.qpos[self._q],
@@ -231,7 +267,7 @@ class Gantries(Plant[GantryMemory]):
             gap=float(data.ten_length[0]),
             channels=channels,
         )
-        return ServoPeriod(sensed=sensed, effort=data.actuator_force[:_N].copy())
+        return ServoPeriod(sensed=sensed, effort=data.actuator_force[: self._n].copy())
 
     # -- time ----------------------------------------------------------------------------------------------
 
@@ -241,7 +277,7 @@ class Gantries(Plant[GantryMemory]):
             return None
         self.bench.advance(steps / 1000)
         self.memory.peaks = np.maximum(self.memory.peaks, self._peaks).tolist()
-        self._peaks = np.zeros(_N)
+        self._peaks = np.zeros(self._n)
         if not self._seen:
             return None
         seen, self._seen = [*self._seen.values()], {}
@@ -254,25 +290,30 @@ class Gantries(Plant[GantryMemory]):
         rows = max(len(field.places) - gone for field, gone in left)
         self._whole, rows = rows <= _AHEAD, min(rows, _AHEAD)
         self._last = rows - 1
-        places, speeds = np.empty((rows, _N)), np.zeros((rows, _N))
+        places, speeds = np.empty((rows, self._n)), np.zeros((rows, self._n))
         for index, (field, gone) in enumerate(left):
             there = min(len(field.places) - gone, rows)
             places[:there, index], places[there:, index] = field.places[gone : gone + there], field.places[-1]
             speeds[:there, index] = field.speeds[gone : gone + there]
         places = (places + POLE * np.array(self.memory.slipped)) * STEP + self._begin
         pull = self._pulls(speeds)
-        self._ctrl = np.empty((rows, _SERVOS))
-        self._ctrl[:, :_N] = places + self._lead * speeds * STEP
-        self._ctrl[:, _N:] = [0.0 if closed else OPEN for closed in self.memory.grips]
-        self._ranges = np.empty((rows, _N, 2))
+        self._ctrl = np.empty((rows, self._servos))
+        self._ctrl[:, : self._n] = places + self._lead * speeds * STEP
+        self._ctrl[:, self._n :] = [0.0 if closed else OPEN for closed in self.memory.grips]
+        self._ranges = np.empty((rows, self._n, 2))
         self._ranges[:, :, 0], self._ranges[:, :, 1] = -pull, pull
         strains = np.maximum(STEP, pull / self._stiff)  # m of lag from which on a pole holds less
-        over, under, high, low = np.frombuffer(self.memory.levels, bool).reshape(_LEVELS // _N, _N)
+        over, under, high, low = np.frombuffer(self.memory.levels, bool).reshape(
+            self._levels // self._n, self._n
+        )
         force = np.where(over | under, self._release, self._over)  # a force may reverse within a step
         ends = self._high - DIFFERENTIAL * high, DIFFERENTIAL * ~low - self._low
-        self._limits = np.empty((rows, _ALL))
-        self._limits[:, :_LEVELS] = np.concatenate((force, force, *ends))
-        self._limits[:, _PLACES], self._limits[:, _PLACES.stop :] = places + strains, strains - places
+        self._limits = np.empty((rows, self._all))
+        self._limits[:, : self._levels] = np.concatenate((force, force, *ends))
+        self._limits[:, self._places], self._limits[:, self._places.stop :] = (
+            places + strains,
+            strains - places,
+        )
 
     def _pulls(self, speeds: Table) -> Table:
         """Return the greatest force of each motor (N) at these speeds (steps/s)."""
@@ -287,33 +328,34 @@ class Gantries(Plant[GantryMemory]):
         if not self._whole and self._step - self._first > self._last:
             self._plan()
         self._row = min(self._step - self._first, self._last)
-        self.bench.data.ctrl[:_SERVOS] = self._ctrl[self._row]
-        self.bench.model.actuator_forcerange[:_N] = self._ranges[self._row]
+        self.bench.data.ctrl[: self._servos] = self._ctrl[self._row]
+        self.bench.model.actuator_forcerange[: self._n] = self._ranges[self._row]
         if self._strained:
-            self.bench.model.actuator_forcerange[:_N] *= np.array(self.memory.holds)[:, np.newaxis]
+            self.bench.model.actuator_forcerange[: self._n] *= np.array(self.memory.holds)[:, np.newaxis]
 
     def _look(self) -> None:
         """Detect what a physics step has changed."""
         sensed = self._sense()
         self._step += 1
-        np.maximum(self._peaks, np.abs(sensed[:_N]), out=self._peaks)
+        np.maximum(self._peaks, np.abs(sensed[: self._n]), out=self._peaks)
         levels = (sensed > self._limits[self._row]).tobytes()
         if levels != self._known or self._strained:
             self._change(levels, sensed)
 
     def _change(self, levels: bytes, sensed: Array) -> None:
         """Handle changes of comparators and switches, and rotors that leave their poles."""
-        for index in range(_LEVELS):
+        for index in range(self._levels):
             if levels[index] != self._known[index]:
-                kind, axis = divmod(index, _N)
+                kind, axis = divmod(index, self._n)
                 pin: Pin = ENDS.get(kind, "force")
-                number = _WRISTED[axis] if pin == "force" else NUMBERS[AXES[axis]]
+                name = self.rig.axes[axis]
+                number = LINE_NUMBERS[f"FORCE{name[1]}" if pin == "force" else name]
                 self._seen[number, pin] = Level(number, pin, bool(levels[index]))
-        if self._strained or any(levels[_LEVELS:]):
-            self._strain(sensed[_PLACES])
-        if levels[:_LEVELS] != self.memory.levels:
-            self.memory.levels = levels[:_LEVELS]
-            self._known = self.memory.levels + bytes(_ALL - _LEVELS)
+        if self._strained or any(levels[self._levels :]):
+            self._strain(sensed[self._places])
+        if levels[: self._levels] != self.memory.levels:
+            self.memory.levels = levels[: self._levels]
+            self._known = self.memory.levels + bytes(self._all - self._levels)
             self._plan()  # what acts is released elsewhere
         if self._seen:
             self.bench.end_early()
@@ -321,7 +363,7 @@ class Gantries(Plant[GantryMemory]):
     def _strain(self, places: Array) -> None:
         """Reduce the force of each pole with the distance of its rotor. Beyond half a pole, the next pole
         catches the rotor."""
-        most, least = np.split(self._limits[self._row, _LEVELS:], 2)
+        most, least = np.split(self._limits[self._row, self._levels :], 2)
         lags, begins = (places - (most - least) / 2) / STEP, (most + least) / 2 / STEP
         ends = np.maximum(POLE / 2, begins + 1)
         slips = np.abs(lags) >= ends
@@ -366,19 +408,36 @@ def _least_over(threshold: float) -> float:
     return (math.floor(threshold / CONVERTER_N + 1e-9) + 0.5) * CONVERTER_N
 
 
-def _gauges(gain: Array, left: float) -> tuple[Table, Array]:
-    """Return the matrix, shape (6, 24), and the offset, shape (6,), that convert the readings of the scene's
-    sensors to the six forces.
+def _sensors(model: mujoco.MjModel, kind: mujoco.mjtSensor, names: Sequence[str]) -> list[int]:
+    """Return the addresses of the readings of joints or sites, by name."""
+    of = model.site if kind == mujoco.mjtSensor.mjSENS_ACCELEROMETER else model.joint
+    known = {
+        int(model.sensor_objid[index]): int(model.sensor_adr[index])
+        for index in range(model.nsensor)
+        if model.sensor_type[index] == kind
+    }
+    return [known[of(name).id] for name in names]
+
+
+def _gauges(model: mujoco.MjModel, rig: Rig, gain: Array, left: float) -> tuple[Table, Array]:
+    """Return the matrix, shape (axes, readings), and the offset, shape (axes,), that convert the readings of the
+    scene's sensors to the force along each axis. An axis without a wrist has the force 0.
 
     A strain gauge measures the force in the wrist. The signal of an accelerometer corrects this for the force
     that accelerates the hand itself, so that the sum is the external force. A fraction `left` of the force of
     acceleration remains uncorrected.
     """
-    inertia = (1 - left) * _HAND_KG * _SENSE
-    gauges = np.zeros((_N, 4 * _N))
-    for axis in range(_N):
-        gauges[axis, _N + axis] = gain[axis] * _STIFFNESS
-        gauges[axis, 2 * _N + axis] = gain[axis] * _DAMPING
-        gauges[axis, 3 * _N + axis] = inertia[axis]
-    upright = np.tile([0.0, 0.0, 1.0], len(ARMS))
-    return gauges, -inertia * upright * _GRAVITY
+    size, wrists = len(rig.axes), [f"wrist_{axis}" for axis in rig.wrists]
+    bent = _sensors(model, mujoco.mjtSensor.mjSENS_JOINTPOS, wrists)
+    bending = _sensors(model, mujoco.mjtSensor.mjSENS_JOINTVEL, wrists)
+    first = _sensors(model, mujoco.mjtSensor.mjSENS_ACCELEROMETER, [f"hand_{arm}" for arm in rig.arms])
+    inertia = (1 - left) * _HAND_KG * np.resize(_SENSE, len(wrists))
+    gauges, still = np.zeros((size, model.nsensordata)), np.zeros(size)
+    for axis in range(len(wrists)):
+        arm, component = divmod(axis, len(COMPONENTS))
+        gauges[axis, bent[axis]] = gain[axis] * _STIFFNESS
+        gauges[axis, bending[axis]] = gain[axis] * _DAMPING
+        gauges[axis, first[arm] + component] = inertia[axis]
+    upright = np.tile([0.0, 0.0, 1.0], len(rig.arms))
+    still[: len(wrists)] = -inertia * upright * _GRAVITY
+    return gauges, still

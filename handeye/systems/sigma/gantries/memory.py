@@ -7,7 +7,7 @@ from handeye.systems.sigma.protocol import AXES
 
 
 class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
-    """The state of two gantries. Lists have one value per axis, in the order of `AXES`."""
+    """The state of the gantries. Lists have one value per axis, in the order of the machine."""
 
     slipped: list[int] = field(default_factory=lambda: [0] * len(AXES))
     """Number of poles that rotors have slipped forward; negative if backward."""
@@ -21,3 +21,11 @@ class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
     gaps: list[float] = field(default_factory=lambda: [1.0, 1.0])
     """How far the fingers of each hand may be open, as a fraction, if a fault makes them slow."""
     grips: list[bool] = field(default_factory=lambda: [False, False])  # hands are closed, or close
+
+    @classmethod
+    def of(cls, axes: int, hands: int) -> "GantryMemory":
+        """Return the state of a machine with these numbers of axes and hands as the power comes on."""
+        return cls(
+            slipped=[0] * axes, holds=[1.0] * axes, peaks=[0.0] * axes, missed=[0] * axes,
+            gaps=[1.0] * hands, grips=[False] * hands,
+        )  # fmt: skip

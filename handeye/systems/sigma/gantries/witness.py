@@ -15,7 +15,6 @@ from handeye.systems.sigma.gantries.machine import Gantries
 HEARD: Final = "heard"
 _MOST: Final = 200  # lines
 _LONGEST: Final = 2000  # characters
-_CARRIAGES: Final = ("carriage_X1", "carriage_X2")
 
 
 class Heard(Record, frozen=True, kw_only=True):
@@ -28,14 +27,18 @@ H = TypeVar("H", bound=Heard)
 
 
 def touch_of_arms(gantries: Gantries) -> Callable[[], bool]:
-    """Return a function that tells whether the arms touch each other now. A piece in a hand counts as a part of the
-    board.
-    """
+    """Return a function that tells whether arms touch each other now. A piece in a hand counts as a part of the board."""
     model, data = gantries.bench.model, gantries.bench.data
-    roots = [model.body(name).id for name in _CARRIAGES]
-    arm = np.array([root in roots and 1 + roots.index(root) for root in model.body_rootid], dtype=int)
-    arm_of = arm[model.geom_bodyid]
-    return lambda: bool(data.ncon and (arm_of[data.contact.geom].prod(axis=1) == 2).any())
+    roots = {model.body(f"carriage_X{arm}").id: 1 << arm for arm in gantries.rig.arms}
+    arm_of = np.array([roots.get(int(root), 0) for root in model.body_rootid])[model.geom_bodyid]
+
+    def touch() -> bool:
+        if not data.ncon:
+            return False
+        one, other = arm_of[data.contact.geom].T
+        return bool((one * other * (one != other)).any())
+
+    return touch
 
 
 class Witness(Mechanism[H], Generic[H]):
@@ -67,3 +70,32 @@ class Witness(Mechanism[H], Generic[H]):
 
     def restore(self, state: H) -> None:
         self.heard = state
+
+
+class HeardTouches(Heard, frozen=True, kw_only=True):
+    """The lines that the program has printed, and how long the arms touched each other."""
+
+    touched_ms: int = 0
+
+
+T = TypeVar("T", bound=HeardTouches)
+
+
+class TouchWitness(Witness[T], Generic[T]):
+    """Records what the program prints, and watches whether arms touch each other."""
+
+    growing: ClassVar[tuple[str, ...]] = ("lines", "touched_ms")
+
+    def watch(self, gantries: Gantries) -> None:
+        touch = touch_of_arms(gantries)
+
+        def look() -> None:
+            if touch():
+                self.heard = replace(self.heard, touched_ms=self.heard.touched_ms + 1)
+
+        gantries.bench.after_step.append(look)
+
+    def check(self, state: T) -> None:
+        super().check(state)
+        if state.touched_ms < 0:
+            raise BadFile("the time for which the arms touched cannot be negative")

@@ -1,5 +1,6 @@
 """The worlds of the gantries: errors of switches, motors, wrists, beams and clocks, generated from a seed."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -136,9 +137,9 @@ class GantryWorld:
         """Return the random number generator of the stream called `name`."""
         return random_numbers(0 if self.spec is None else self.spec.seed, f"gantries.{name}")
 
-    def axes(self, quantity: str) -> Array:
-        """Draw a normally distributed number for each axis, shape (6,)."""
-        return np.array([self.normal(f"{quantity}.{axis}", quantity) for axis in AXES])
+    def axes(self, quantity: str, axes: Sequence[str] = AXES) -> Array:
+        """Draw a normally distributed number for each axis, shape (axes,)."""
+        return np.array([self.normal(f"{quantity}.{axis}", quantity) for axis in axes])
 
     @property
     def clock_spread(self) -> float:

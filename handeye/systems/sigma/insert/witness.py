@@ -9,21 +9,20 @@ from msgspec.structs import replace
 
 from handeye.core.errors import BadFile
 from handeye.systems.sigma.gantries.machine import Gantries
-from handeye.systems.sigma.gantries.witness import Heard, Witness, touch_of_arms
+from handeye.systems.sigma.gantries.witness import HeardTouches, Witness, touch_of_arms
 from handeye.systems.sigma.insert.pieces import Peg
 from handeye.systems.sigma.protocol import AXES
 
 _TOLD: Final = re.compile(r"PEGS\s+(\d{1,9})\b")
 
 
-class WatchedInsertion(Heard, frozen=True, kw_only=True):
+class WatchedInsertion(HeardTouches, frozen=True, kw_only=True):
     """The pegs at the beginning, the lines that the program has printed, and what the wrists and motors had to bear."""
 
     pegs: tuple[Peg, ...]
     most_n: float = 0.0  # N, the greatest force in a wrist along any axis
     slipped: tuple[int, ...] = (0,) * len(AXES)  # poles that each rotor has slipped since the power came on
     lost: int = 0  # poles of them that make counts wrong, in all
-    touched_ms: int = 0  # for which the arms touched
 
     @property
     def counted(self) -> int | None:
@@ -38,15 +37,14 @@ class InsertionWitness(Witness[WatchedInsertion]):
     growing: ClassVar[tuple[str, ...]] = ("lines", "most_n", "slipped", "lost", "touched_ms")
 
     def watch(self, gantries: Gantries) -> None:
-        model, data = gantries.bench.model, gantries.bench.data
-        touching = touch_of_arms(gantries)
+        model, data, touches = gantries.bench.model, gantries.bench.data, touch_of_arms(gantries)
         wrists = [model.joint(f"wrist_{axis}") for axis in AXES]
         bent = [int(joint.qposadr[0]) for joint in wrists]
         stiff = np.array([float(joint.stiffness[0]) for joint in wrists])
 
         def look() -> None:
             most = float(np.abs(data.qpos[bent] * stiff).max())
-            touch = touching()
+            touch = touches()
             if most > self.heard.most_n or touch:
                 self.heard = replace(
                     self.heard,

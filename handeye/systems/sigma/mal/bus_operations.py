@@ -13,7 +13,7 @@ from handeye.systems.sigma.mal.happenings import Answered, CommandSent, CountWro
 from handeye.systems.sigma.mal.line_moves import line_moves
 from handeye.systems.sigma.mal.memory import MalMemory, Motors, Outgoing, Owner, TaskMemory
 from handeye.systems.sigma.mal.words import MAL_DEVICES
-from handeye.systems.sigma.protocol import AXES, STEP_MM, Op
+from handeye.systems.sigma.protocol import AXES, LINE_AXES, STEP_MM, Op
 
 _LARGEST_STEPS: Final = 0x7FFF  # of a count, which has 16 bits with its sign
 ORIGIN_STEPS: Final = 2  # by which the same switch may be found elsewhere; a rotor slips by four
@@ -46,7 +46,7 @@ class BusOperations:
 
     def _do_stat(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         axis = text_of(instruction)
-        status = self.machine.status(protocol.NUMBERS[axis])
+        status = self.machine.status(protocol.LINE_NUMBERS[axis])
         kept = self.memory.stopped.get(axis, 0) if status is Status.FREE else 0
         self._push(task, float(kept or status))
 
@@ -61,8 +61,9 @@ class BusOperations:
 
     def _do_beam(self, name: str, task: TaskMemory, __: Instruction) -> None:
         arm = task.stack.pop()
-        if arm not in (1, 2):
-            raise Trap(f"there is no arm {arm:g}, only arms 1 and 2")
+        if arm not in range(1, 1 + self.program.hands):
+            arms = "arms 1 and 2" if self.program.axes == AXES else f"hands 1 to {self.program.hands}"
+            raise Trap(f"there is no arm {arm:g}, only {arms}")
         self._push(task, float(self.ask(name, protocol.beam(int(arm)))[0]))
 
     # -- commands ---------------------------------------------------------------------------------------
@@ -179,7 +180,7 @@ class BusOperations:
             )
             self.memory.counts[what.to] = what.target
             means = f"move by {counted(steps, 'step')}" + (f" at {what.slow:g} mm/s" if what.slow else "")
-        if what.to in AXES:
+        if what.to in LINE_AXES:
             began = self.program.line_of(task.pc).begin
             self.memory.owners[what.to] = Owner(task=name, address=began)
             self.memory.stopped.pop(what.to, None)
@@ -227,7 +228,7 @@ class BusOperations:
             return False
         if name in MAL_DEVICES:
             name = f"HAND{MAL_DEVICES[name][0]}"
-        return self.machine.status(protocol.NUMBERS[name]) is Status.BUSY
+        return self.machine.status(protocol.LINE_NUMBERS[name]) is Status.BUSY
 
     def _push(self, task: TaskMemory, value: float) -> None:
         task.stack.append(checked(value))

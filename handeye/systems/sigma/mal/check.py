@@ -3,6 +3,7 @@
 from bisect import bisect_left
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Final
 
 from handeye.core.diagnostics import (
@@ -32,6 +33,7 @@ from handeye.systems.sigma.mal.syntax import (
     Unary,
     Variable,
 )
+from handeye.systems.sigma.protocol import AXES, LINE_NUMBERS
 
 TRAVEL_MM: Final = {"X": 600.0, "Y": 400.0, "Z": 200.0}
 
@@ -301,15 +303,28 @@ class _Check:
                 told = f"{goal.axis.text} reaches from 0 to {most:g} mm, but the goal is {place:g} mm"
                 yield mistake("beyond-rail", told, goal.axis.span)
 
+    @cached_property
+    def _hands(self) -> int:
+        """Number of hands of the machine for which the program is written: SUPERSIGMA or the assembly line."""
+        moved = (axis for line in self._lines for part in within(line.statement) for axis in driven(part))
+        return 6 if any(axis.text not in AXES for axis in moved) else 2
+
     def _values(self, statement: Statement) -> Iterator[Diagnostic]:
+        felt = statement.names if statement.word == "LIMIT" else ()
+        for part in (part for expression in expressions(statement) for part in parts(expression)):
+            if isinstance(part, Call) and part.function == "FORCE" and isinstance(part.argument, Token):
+                felt = (*felt, part.argument)
+        for axis in felt:
+            if f"FORCE{axis.text[1]}" not in LINE_NUMBERS:
+                yield mistake("wrong-value", f"{axis.text} has no wrist that feels forces", axis.span)
         for expression in expressions(statement):
             for part in parts(expression):
                 if isinstance(part, Call) and part.function == "BEAM":
                     arm = None if isinstance(part.argument, Token | None) else constant(part.argument)
-                    if arm not in (None, 1, 2):
+                    if arm is not None and arm not in range(1, 1 + self._hands):
                         yield mistake(
                             "wrong-value",
-                            f"there is no arm {arm:g}, only arms 1 and 2",
+                            f"there is no arm {arm:g}, only {'arms 1 and 2' if self._hands == 2 else 'hands 1 to 6'}",
                             statement.span,
                             help=_allowed("BEAM"),
                         )

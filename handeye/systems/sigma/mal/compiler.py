@@ -22,6 +22,7 @@ from handeye.systems.sigma.mal.syntax import (
     Unary,
     Variable,
 )
+from handeye.systems.sigma.protocol import AXES, LINE_AXES, LINE_NUMBERS, NUMBERS
 
 Op = Literal[
     "PUSHC", "PUSHV", "POPV", "ADD", "SUB", "MUL", "DIV", "NEG", "EQ", "NE", "LT", "GT", "LE", "GE", "AND", "OR",
@@ -47,6 +48,7 @@ _FUNCTIONS: Final[dict[str, Op]] = {
 _SETTINGS: Final[dict[str, Op]] = {"SPEED": "LIMSPEED", "CURVE": "CURVE", "LIMIT": "THRESHOLD"}
 
 
+_BEYOND: Final = frozenset({*LINE_AXES, *LINE_NUMBERS}) - {*NUMBERS}
 Operand = float | str | tuple[str, ...] | None
 
 
@@ -87,6 +89,35 @@ class MalProgram:
     """The syntax trees of `lines`."""
 
     @cached_property
+    def beyond(self) -> CompiledLine | None:
+        """The first line that uses an axis or hand that SUPERSIGMA alone does not have, or None."""
+        for address, each in enumerate(self.code):
+            names = each.operand if isinstance(each.operand, tuple) else (each.operand,)
+            if any(name in _BEYOND for name in names):
+                return self.line_of(address)
+        return None
+
+    def check_alone(self) -> None:
+        """Raise BadFile unless SUPERSIGMA alone can run the program. A microcomputer that is missing does not report
+        it, and the program would not notice.
+        """
+        if self.beyond is not None:
+            raise BadFile(
+                f"line {self.beyond.number} of {self.name} uses an axis or a hand that SUPERSIGMA alone does not have; "
+                "`handeye sigma line FILE.mal` runs programs for the assembly line"
+            )
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """The axes of the machine for which the program is written."""
+        return AXES if self.beyond is None else LINE_AXES
+
+    @property
+    def hands(self) -> int:
+        """Number of hand microcomputers of that machine."""
+        return sum(name.startswith("HAND") for name in (NUMBERS if self.beyond is None else LINE_NUMBERS))
+
+    @cached_property
     def line_at(self) -> tuple[int, ...]:
         """For each address, the index of its line. The END after a task belongs to the task's last line."""
         owners, at = [], 0
@@ -116,13 +147,19 @@ def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]
 
 
 @lru_cache(maxsize=8)
-def program_of(name: str, text: str) -> MalProgram:
-    """Compile a text. Raises BadFile if it has errors."""
+def program_of(name: str, text: str, *, line: bool = False) -> MalProgram:
+    """Compile a text. Raises BadFile if it has errors.
+
+    Args:
+        line: the program may use the axes and hands of the assembly line; by default it is refused if it does.
+    """
     program, found = compile_source(Source(name=name, text=text))
     if program is None:
         first = next(each for each in found if each.severity == "error")
         row, _ = Source(name=name, text=text).position(first.primary.span.start)
         raise BadFile(f"{name}:{row}: {first.message}; `handeye check {name}` shows all mistakes")
+    if not line:
+        program.check_alone()
     return program
 
 

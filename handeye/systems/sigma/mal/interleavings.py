@@ -29,7 +29,8 @@ from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.protocol import STEP_MM
 
 MOST_STATES: Final = 50_000
-HANDS_MEET_MM: Final = 550.0  # X1 + X2 beyond which the hands of the two arms, which share a rail, may touch
+RAILS: Final = (("X1", "X2"), ("X3", "X4"))  # the X axes of the two arms on each rail
+HANDS_MEET_MM: Final = 550.0  # sum of these axes beyond which the hands of the two arms may touch
 FindingKind = Literal["deadlock", "axis", "hands", "variable", "flag", "stops"]
 KINDS: Final[dict[FindingKind, str]] = {
     "deadlock": "no task can continue",
@@ -111,16 +112,17 @@ class _Search:
         return users
 
     @cached_property
-    def both_arms(self) -> bool:
-        """True if both arms move along the rail, each commanded by a different task."""
-        return len(self._users.get("X1", set()) | self._users.get("X2", set())) > 1
+    def rails(self) -> tuple[tuple[str, str], ...]:
+        """The X axes of the two arms on each rail along which arms of different tasks move."""
+        users = self._users
+        return tuple(pair for pair in RAILS if len(users.get(pair[0], set()) | users.get(pair[1], set())) > 1)
 
     @cached_property
     def instant(self) -> frozenset[str]:
         """Axes whose motions do not concern any other task."""
         asked = "STATUS(" in self.program.text.upper().replace(" ", "")
         private = {name for name, tasks in self._users.items() if len(tasks) == 1}
-        return frozenset() if asked else frozenset(private - ({"X1", "X2"} if self.both_arms else set()))
+        return frozenset() if asked else frozenset(private.difference(*self.rails))
 
     @cached_property
     def _private(self) -> tuple[bool, ...]:
@@ -240,7 +242,7 @@ class _Search:
         memory = self.vm.memory
         memory.turn, memory.last, memory.printed, memory.commands, memory.questions = "", "", "", 0, 0
         for axis in [axis for axis in memory.owners if axis not in self.machine.state.moving]:
-            if not self.both_arms or axis not in ("X1", "X2"):
+            if not any(axis in pair for pair in self.rails):
                 del memory.owners[axis]
         return _State(memory, self.machine.state)
 
@@ -296,20 +298,23 @@ class _Search:
                 self._find("axis", told, [there, here], key)
 
     def _see_hands(self, key: bytes, state: _State) -> None:
-        if not self.both_arms or not {"X1", "X2"} <= {*state.memory.owners}:
+        for pair in self.rails:
+            self._see_rail(key, state, pair)
+
+    def _see_rail(self, key: bytes, state: _State, pair: tuple[str, str]) -> None:
+        if not {*pair} <= {*state.memory.owners}:
             return
         self.machine.state = state.machine
-        near = (self.machine.reach("X1") + self.machine.reach("X2")) * STEP_MM
-        if near > HANDS_MEET_MM and state.machine.moving.keys() & {"X1", "X2"}:
-            owners = [state.memory.owners[axis] for axis in ("X1", "X2")]
+        near = sum(map(self.machine.reach, pair)) * STEP_MM
+        if near > HANDS_MEET_MM and state.machine.moving.keys() & {*pair}:
+            owners = [state.memory.owners[axis] for axis in pair]
             lines = [self.program.line_of(owner.address).number for owner in owners]
             who = " and ".join(
                 f"the task {owner.task}, line {line}, moves {axis}"
-                for axis, owner, line in zip(("X1", "X2"), owners, lines, strict=True)
+                for axis, owner, line in zip(pair, owners, lines, strict=True)
             )
-            told = (
-                f"the sum of X1 and X2 may reach {near:.0f} mm (the limit is {HANDS_MEET_MM:.0f} mm): {who}"
-            )
+            both = " and ".join(pair)
+            told = f"the sum of {both} may reach {near:.0f} mm (the limit is {HANDS_MEET_MM:.0f} mm): {who}"
             self._find("hands", told, lines, key)
 
     def _see_variables(self, key: bytes, state: _State, one: str, other: str) -> None:

@@ -12,13 +12,19 @@ from handeye.systems.sigma.mal.codes import CODES
 from handeye.systems.sigma.mal.parser import parsed
 from handeye.systems.sigma.mal.syntax import MAIN
 from handeye.systems.sigma.mal.words import MAL_DEVICES, STATEMENTS, WORDS, explained
-from handeye.systems.sigma.protocol import AXES
+from handeye.systems.sigma.protocol import LINE_AXES
 
 LONGEST_EXAMPLE: Final = 10  # lines that are shown
 _AXIS_NEXT: Final = {"MOVE", "ORIGIN", "SPEED", "CURVE", "LIMIT", "ABORT"}
 _FLAG_NEXT: Final = {"SET", "RESET", "WAIT", "TAKE"}
 _LINE_NEXT: Final = {"GOTO", "GOSUB", "THEN", "ELSE"}
 _TASK_NEXT: Final = {"START", "KILL"}
+
+_AXES_OF: Final = (
+    *(f"an axis of arm {arm}" for arm in range(1, 5)),
+    "an axis of the feeder",
+    "the axis of the belt",
+)
 
 
 class MalLanguage(OwnLanguage):
@@ -61,7 +67,7 @@ class MalLanguage(OwnLanguage):
             return [(name, "a flag") for name in sorted(flags)]
         if last == "ACTUATE":
             return [(name, f"a device of arm {arm}") for name, (arm, _) in MAL_DEVICES.items()]
-        axes = [(axis, f"an axis of arm {axis[1]}") for axis in AXES]
+        axes = [(axis, _AXES_OF[int(axis[1]) - 1]) for axis in LINE_AXES]
         if last in _AXIS_NEXT:
             return axes
         names = sorted(

@@ -8,7 +8,7 @@ from handeye.core.source import Span
 from handeye.systems.sigma.mal.codes import mistake
 from handeye.systems.sigma.mal.scanner import Token
 from handeye.systems.sigma.mal.words import RESERVED, WORDS
-from handeye.systems.sigma.protocol import AXES
+from handeye.systems.sigma.protocol import LINE_AXES
 
 DEEPEST: Final = 30
 
@@ -82,7 +82,7 @@ class TokenReader:
         return self._take()
 
     def _axis(self) -> Token:
-        return self._one_of(AXES, "an axis")
+        return self._one_of(LINE_AXES, "an axis")
 
     def _target(self) -> Token:
         token = self._next

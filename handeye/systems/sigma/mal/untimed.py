@@ -7,9 +7,9 @@ from msgspec import field
 from handeye.core.errors import BadFile
 from handeye.core.mutable_records import MutableRecord, put_back
 from handeye.ports.microbus import PAGE, Command, MicrobusPort, Status
-from handeye.systems.sigma.protocol import AXES, NUMBERS, Op
+from handeye.systems.sigma.protocol import LINE_AXES, LINE_NUMBERS, Op
 
-AXIS_OF: Final = {NUMBERS[axis]: axis for axis in AXES}
+AXIS_OF: Final = {LINE_NUMBERS[axis]: axis for axis in LINE_AXES}
 
 
 class UntimedMemory(MutableRecord, kw_only=True):

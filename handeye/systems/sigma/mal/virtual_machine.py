@@ -27,11 +27,12 @@ from handeye.systems.sigma.mal.memory import (
 )
 from handeye.systems.sigma.mal.operations import Operations
 from handeye.systems.sigma.mal.syntax import MAIN
-from handeye.systems.sigma.protocol import AXES, STEP_MM
+from handeye.systems.sigma.protocol import STEP_MM
 
 STATEMENT_US: Final = 2000  # the central computer needs this for a statement
 ARITHMETIC_SHARE: Final = 4  # an instruction that calculates takes this part of it
 DOUBT_N: Final = 20.0  # force on a wrist above which the count of its axis is doubted
+NEIGHBOURS: Final = {1: 2, 2: 1, 3: 4, 4: 3}  # arms with wrists, and the arm on the same rail
 NEAR_MM: Final = 500.0  # X1 + X2 from which on an arm may have hit the other arm; their hands meet at 560
 
 
@@ -191,7 +192,8 @@ class VirtualMachine:
             all(0 <= address < size for address in addresses)
             and {*memory.tasks} <= {*tasks}
             and memory.turn in {"", *memory.tasks}
-            and {*memory.counts, *memory.owners, *memory.curves, *memory.stopped, *memory.doubtful} <= {*AXES}
+            and {*memory.counts, *memory.owners, *memory.curves, *memory.stopped, *memory.doubtful}
+            <= {*self.program.axes}
         )
 
     # -- turns ---------------------------------------------------------------------------------------------
@@ -284,8 +286,8 @@ class VirtualMachine:
         """
         if not self.machine.interrupt:
             return
-        for axis in AXES:
-            status = self.machine.status(protocol.NUMBERS[axis])
+        for axis in self.program.axes:
+            status = self.machine.status(protocol.LINE_NUMBERS[axis])
             if not status.aborted or axis in self.memory.stopped:
                 continue
             self.memory.stopped[axis] = int(status)
@@ -310,10 +312,10 @@ class VirtualMachine:
         The wrist of an arm that was hit above it feels nothing. Therefore, while the arms are near each other, a
         great force on one wrist makes the count of the same axis of the other arm doubtful, too.
         """
-        peaks = {axis: self._peak(name, axis) for axis in AXES}
-        near = self._near()
+        peaks = {axis: self._peak(name, axis) for axis in self.program.axes if int(axis[1]) in NEIGHBOURS}
         for axis, own in peaks.items():
-            other = peaks[f"{axis[0]}{3 - int(axis[1])}"]
+            neighbour = NEIGHBOURS[int(axis[1])]
+            other, near = peaks[f"{axis[0]}{neighbour}"], self._near(f"X{axis[1]}", f"X{neighbour}")
             felt = own is None or own > DOUBT_N
             met = near and axis in self.memory.originated and other is not None and other > DOUBT_N
             if axis not in self.memory.doubtful and (felt or met):
@@ -329,9 +331,9 @@ class VirtualMachine:
             return None
         return protocol.signed(answer) * protocol.FORCE_STEP_N
 
-    def _near(self) -> bool:
-        """Return True if the arms may have met, according to the counts."""
-        memory, arms = self.memory, ("X1", "X2")
+    def _near(self, *arms: str) -> bool:
+        """Return True if the arms of one rail may have met, according to the counts of their X axes."""
+        memory = self.memory
         if not {*arms} <= {*memory.originated}:
             return True
         return sum(memory.counts[axis] for axis in arms) * STEP_MM >= NEAR_MM

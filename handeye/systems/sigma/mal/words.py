@@ -2,7 +2,7 @@
 
 from typing import Final, Literal, NamedTuple
 
-from handeye.systems.sigma.protocol import AXES, DEVICES
+from handeye.systems.sigma.protocol import DEVICES, LINE_AXES
 
 Kind = Literal["statement", "part", "function", "operator"]
 
@@ -158,13 +158,15 @@ FUNCTIONS: Final = tuple(name for name, word in WORDS.items() if word.kind == "f
 MAL_DEVICES: Final[dict[str, tuple[int, str]]] = {
     "HAND1": (1, "HAND"),
     "HAND2": (2, "HAND"),
+    "HAND3": (3, "HAND"),
+    "HAND4": (4, "HAND"),
     "DRIVER2": (2, "DRIVER"),
     "LAMP": (1, "LAMP"),
     "BELL": (1, "BELL"),
 }
 """The arm whose hand microcomputer drives a device, and the device's name there."""
 assert {device for _, device in MAL_DEVICES.values()} == {*DEVICES}
-RESERVED: Final = {*WORDS, *AXES, "DIM"}
+RESERVED: Final = {*WORDS, *LINE_AXES, "DIM"}
 """Words that cannot be names of variables, flags or tasks."""
 
 

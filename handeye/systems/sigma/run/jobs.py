@@ -14,6 +14,7 @@ PROGRAMS: Final[dict[JobName, str]] = {
     "handover": "handover_pieces.mal",
     "insert": "insert.mal",
     "prco": "prco.mal",
+    "line": "line.mal",
 }
 
 

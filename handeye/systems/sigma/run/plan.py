@@ -16,7 +16,7 @@ from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 
 ArmName = Literal["none", "wired", "gantries"]
-JobName = Literal["chess", "handover", "insert", "prco"]
+JobName = Literal["chess", "handover", "insert", "line", "prco"]
 TaskName = Literal["mal", "gantries", JobName]
 MOST_PIECES: Final = 12
 LONGEST_STATEMENT_US: Final = 1_000_000
@@ -46,7 +46,7 @@ class MalPlan(Record, frozen=True, kw_only=True):
     @property
     def program(self) -> MalProgram:
         """The compiled program. Raises BadFile if the text has errors."""
-        return program_of(self.name, self.text)
+        return program_of(self.name, self.text, line=self.task == "line")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

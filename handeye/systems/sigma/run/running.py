@@ -32,11 +32,12 @@ from handeye.program.system_state import SystemState, TaskPlace
 from handeye.runs.setup import Setup
 from handeye.runs.system import RunCallbacks, RunningSystem, Settable
 from handeye.systems.sigma import ENTRY
+from handeye.systems.sigma.bus.layout import SUPERSIGMA
 from handeye.systems.sigma.bus.wired import WiredBus
 from handeye.systems.sigma.machine.perfect import PerfectMemory, PerfectMotors
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
-from handeye.systems.sigma.protocol import AXES, STEP_MM
+from handeye.systems.sigma.protocol import STEP_MM
 from handeye.systems.sigma.run.plan import MalPlan, encode, listing
 from handeye.systems.sigma.run.state import MalState
 from handeye.tasks import any_task
@@ -92,7 +93,7 @@ class RunningMal(RunningSystem):
 
     @property
     def joints(self) -> tuple[str, ...]:
-        return () if self._gantries is None else AXES
+        return () if self._gantries is None else self._gantries.rig.axes
 
     @property
     def channels(self) -> tuple[Channel, ...]:
@@ -309,6 +310,7 @@ def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness[Any] | None]":
     """Return the bus of the simulated machine, the gantries, and the witness of the job on their board."""
     from handeye.systems.sigma.gantries.faults import gantries_of, planted_in
     from handeye.systems.sigma.gantries.job import JobTask
+    from handeye.systems.sigma.gantries.machine import SUPERSIGMA as SUPERSIGMA_RIG
     from handeye.systems.sigma.gantries.machine import scene
     from handeye.systems.sigma.gantries.world import GantryWorld
 
@@ -316,14 +318,17 @@ def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness[Any] | None]":
     world, witness, task = GantryWorld(setup.world), None, any_task(setup.plan.task)
     if isinstance(task, JobTask):
         spec, witness = task.board(world, setup.plan.pieces)
+        rig, layout = task.rig, task.layout
     else:
-        spec = scene(world)
+        spec, rig, layout = scene(world), SUPERSIGMA_RIG, SUPERSIGMA
     planted = planted_in(setup.world)
-    gantries = gantries_of(spec, world, planted)
+    gantries = gantries_of(spec, world, planted, rig)
     if isinstance(task, JobTask):
         task.equip(world, setup.plan.pieces, gantries)
     if witness is not None:
         witness.watch(gantries)
     defects = [defect for each in planted for defect in each.bus]
-    bus = WiredBus(plant=gantries, defects=defects, seed=setup.world.seed, clock_spread=world.clock_spread)
+    bus = WiredBus(
+        layout, plant=gantries, defects=defects, seed=setup.world.seed, clock_spread=world.clock_spread
+    )
     return bus, gantries, witness

@@ -1,0 +1,79 @@
+"""The commands of the assembly line: one world, and many."""
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import WholeNumber
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.core.errors import BadArgument
+from handeye.core.plain_text import counted
+from handeye.systems.sigma.cli.handover import Program
+from handeye.systems.sigma.cli.jobs import (
+    ANY_RUN,
+    JobOptions,
+    JobSeed,
+    NumberOfBoards,
+    carry_out,
+    carry_out_trials,
+    job_or_own_plan,
+)
+
+USUAL = 4
+Pieces = Annotated[WholeNumber, Parameter(help=f"Number of pieces on the feeder, 1 to {USUAL}.")]
+
+
+def line(
+    file: Program = None,
+    /,
+    *,
+    pieces: Pieces = USUAL,
+    seed: JobSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: JobOptions = ANY_RUN,
+) -> int:
+    """Run an assembly line: a feeder brings pieces, two SUPERSIGMAs press a pin each into them, a belt withdraws them.
+
+    `plans/line.mal` runs on four simulated arms, a feeder and a belt in a world drawn from a seed: 26 microcomputers on
+    one bus of three segments. A referee then looks: each piece has to stand at its place on the belt, within 3 mm and 3
+    degrees, with both pins pressed in to within .5 mm; the program has to have counted the pieces that are finished;
+    and no arms must have touched each other.
+
+    Exit code 0: right; 1: the program has stopped before its end, for example at a deadlock or because arms collided;
+    3: it has ended, and the referee disagrees; 2: bad input; 130: interrupted.
+    """
+    _check_pieces(pieces)
+    plan = job_or_own_plan("line", pieces, file)
+    return 2 if plan is None else carry_out(plan, seed, errors, options)
+
+
+def _check_pieces(pieces: int) -> None:
+    if not 1 <= pieces <= USUAL:
+        raise BadArgument(f"the feeder has 1 to {USUAL} pieces, not {pieces}")
+
+
+def line_trials(
+    *,
+    n: NumberOfBoards = 10,
+    seed: FirstSeed = 0,
+    pieces: Pieces = USUAL,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Run the assembly line in many worlds: how often all is right, errors of places, and the load of the bus.
+
+    Each trial is that of `handeye sigma line`. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
+    disagrees.
+    """
+    from handeye.systems.sigma.run.job_trials import LINE_TRIALS
+    from handeye.systems.sigma.run.jobs import job_plan
+
+    _check_pieces(pieces)
+    return carry_out_trials(
+        LINE_TRIALS, job_plan("line", pieces), n, seed, errors, options,
+        title=f"assembly line with {counted(pieces, 'peg')}", again=f"--pieces {pieces}",
+    )  # fmt: skip

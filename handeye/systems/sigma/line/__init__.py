@@ -1,0 +1,1 @@
+"""The assembly line: a feeder brings pieces, two SUPERSIGMAs work on them, and a belt withdraws them."""
