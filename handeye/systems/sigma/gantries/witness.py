@@ -27,7 +27,9 @@ H = TypeVar("H", bound=Heard)
 
 
 def touch_of_arms(gantries: Gantries) -> Callable[[], bool]:
-    """Return a function that tells whether arms touch each other now. A piece in a hand counts as a part of the board."""
+    """Return a function that tells whether arms touch each other now. A piece in a hand counts as a part of the
+    board.
+    """
     model, data = gantries.bench.model, gantries.bench.data
     roots = {model.body(f"carriage_X{arm}").id: 1 << arm for arm in gantries.rig.arms}
     arm_of = np.array([roots.get(int(root), 0) for root in model.body_rootid])[model.geom_bodyid]

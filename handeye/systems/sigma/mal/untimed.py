@@ -20,7 +20,10 @@ class UntimedMemory(MutableRecord, kw_only=True):
 
 
 class UntimedMachine(MicrobusPort):
-    """A machine whose sensors answer 0. Axes in `instant` reach their goals as soon as they are commanded."""
+    """A machine whose sensors answer 0, and whose motors answer their counts.
+
+    Axes in `instant` reach their goals as soon as they are commanded.
+    """
 
     def __init__(self, instant: frozenset[str]) -> None:
         self.state, self._instant = UntimedMemory(), instant
@@ -44,6 +47,8 @@ class UntimedMachine(MicrobusPort):
     def begin(self, command: Command, answer: int = 0) -> None:
         self._answer = bytes(answer)
         axis = AXIS_OF.get(command.number)
+        if axis is not None and command.op == Op.POSITION:
+            self._answer = (self.state.places.get(axis, 0) & 0xFFFF).to_bytes(2, "big")
         if axis is None or command.op not in (Op.MOVE, Op.MOVE_SLOW, Op.ORIGIN):
             return
         place = self.state.places.get(axis, 0)
