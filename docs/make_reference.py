@@ -82,6 +82,7 @@ GROUPS: Final = {
     },
     "A bus of microcomputers": {
         "handeye.Microbus": "systems.sigma.microbus_api.Microbus",
+        "handeye.Mal": "systems.sigma.mal_api.Mal",
     },
     "A terminal of ML": {
         "handeye.Ml": "systems.ml.ml_api.Ml",

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from handeye.judge.finding import Finding, at_least, at_most
     from handeye.results.result import Result
     from handeye.systems.ml.ml_api import Ml
+    from handeye.systems.sigma.mal_api import Mal
     from handeye.systems.sigma.microbus_api import Microbus
     from handeye.systems.trig.session_api import TrigSession
     from handeye.tasks.interface import Task
@@ -52,6 +53,7 @@ __all__ = [
     "Finding",
     "HandeyeError",
     "InvalidInput",
+    "Mal",
     "Microbus",
     "Ml",
     "NoSuchName",
@@ -90,6 +92,7 @@ _HOMES = {
     "Finding": "handeye.judge.finding",
     "HandeyeError": "handeye.core.errors",
     "InvalidInput": "handeye.core.errors",
+    "Mal": "handeye.systems.sigma.mal_api",
     "Microbus": "handeye.systems.sigma.microbus_api",
     "Ml": "handeye.systems.ml.ml_api",
     "NoSuchName": "handeye.core.errors",

@@ -1,7 +1,7 @@
 """The commands of SUPERSIGMA: run a MAL program, try its interleavings, explain words, and open the console."""
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -23,7 +23,6 @@ from handeye.cli.common import (
 from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.errors import BadArgument, InvalidInput, NoSuchName
-from handeye.core.plain_text import counted
 from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
@@ -43,8 +42,7 @@ from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
 
 if TYPE_CHECKING:
-    from handeye.systems.sigma.mal.compiler import MalProgram
-    from handeye.systems.sigma.mal.interleavings import Interleavings
+    pass
 
 MalFile = Annotated[Path, Parameter(help="A program in MAL, `.mal`.")]
 StatementTime = Annotated[
@@ -166,6 +164,7 @@ def check(
     """
     from handeye.systems.sigma.mal.compiler import program_of
     from handeye.systems.sigma.mal.interleavings import interleavings as tried
+    from handeye.systems.sigma.mal.interleavings import told_orders
 
     positive(most, "state")
     source = read_source(file)
@@ -183,32 +182,6 @@ def check(
     result = tried(program, most)
     answer(result, told_orders(str(file), program, result), json=json)
     return 1 if result.findings else 0
-
-
-def told_orders(name: str, program: "MalProgram", result: "Interleavings") -> Iterator[str]:
-    """Yield the result of trying all orders: each finding, with a schedule for the first finding of each kind, and the
-    lines that no order reaches."""
-    from handeye.systems.sigma.mal.interleavings import KINDS, schedule_lines, unreached_lines
-
-    shown: set[str] = set()
-    for finding in result.findings:
-        yield f"{finding.kind}: {KINDS[finding.kind]}"
-        yield f"    {finding.told}"
-        if finding.kind not in shown:
-            yield "  for example in this order of the tasks"
-            yield from (f"    {line}" for line in schedule_lines(finding.schedule))
-        shown.add(finding.kind)
-    if lines := unreached_lines(program, result):
-        yield f"not checked: no order reaches {lines} (in this check, sensors answer 0 and no motor is aborted)"
-    count = counted(result.states, "state")
-    orders = (
-        "all orders were tried"
-        if result.complete
-        else "not all orders were tried; `--most` sets the number of states to try"
-    )
-    found = counted(len(result.findings), "finding") if result.findings else "no deadlock and no race"
-    ends = f"; the program ends in {counted(result.ends, 'different way')}" if result.ends > 1 else ""
-    yield f"{name}: {count}, {orders}; {found}{ends}"
 
 
 def words(word: str | None = None, /) -> int:

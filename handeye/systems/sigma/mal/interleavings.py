@@ -17,6 +17,7 @@ from typing import Final, Literal, NamedTuple
 import msgspec
 
 from handeye.core.mutable_records import copied
+from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.program.events import SystemEvent
 from handeye.systems.sigma.mal.check import driven, reads, within, writes
@@ -390,3 +391,27 @@ def unreached_lines(program: MalProgram, result: Interleavings) -> str:
                 spans.append([number])
     texts = [f"{span[0]} to {span[-1]}" if len(span) > 1 else str(span[0]) for span in spans]
     return f"{'line' if len(result.unreached) == 1 else 'lines'} {', '.join(texts)}" if texts else ""
+
+
+def told_orders(name: str, program: MalProgram, result: Interleavings) -> Iterator[str]:
+    """Yield the result of trying all orders: each finding, with a schedule for the first finding of each kind, and the
+    lines that no order reaches."""
+    shown: set[str] = set()
+    for finding in result.findings:
+        yield f"{finding.kind}: {KINDS[finding.kind]}"
+        yield f"    {finding.told}"
+        if finding.kind not in shown:
+            yield "  for example in this order of the tasks"
+            yield from (f"    {line}" for line in schedule_lines(finding.schedule))
+        shown.add(finding.kind)
+    if lines := unreached_lines(program, result):
+        yield f"not checked: no order reaches {lines} (in this check, sensors answer 0 and no motor is aborted)"
+    count = counted(result.states, "state")
+    orders = (
+        "all orders were tried"
+        if result.complete
+        else "not all orders were tried; `--most` sets the number of states to try"
+    )
+    found = counted(len(result.findings), "finding") if result.findings else "no deadlock and no race"
+    ends = f"; the program ends in {counted(result.ends, 'different way')}" if result.ends > 1 else ""
+    yield f"{name}: {count}, {orders}; {found}{ends}"
