@@ -552,7 +552,7 @@ def test_an_event_list_that_was_lost_is_told_of(command: Command, folder: Path, 
     Path("again/events.jsonl").unlink()
     if left is not None:
         Path("again/events.jsonl").write_bytes(left)
-    said = "the event list again/events.jsonl was lost, damaged or of another run, and starts again "
+    said = "the event list again/events.jsonl was lost, was damaged, or belonged to another run; "
     assert said in command("resume", "again")[2]
 
 

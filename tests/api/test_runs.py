@@ -162,7 +162,7 @@ def test_the_stepper_is_spoken_to(run: handeye.Run) -> None:
         (lambda run: run.until() and run.undo(99), r"^99 steps cannot be undone: only 4 have been executed$"),
         (lambda run: run.back("shut"), r"^stage shut the hand has not begun yet$"),
         (lambda run: run.checkpoint(), r"^this run has no folder for checkpoints; name a file$"),
-        (lambda run: run.trace, r"^the run has no folder, and so no trace; begin it with out=\.\.\.$"),
+        (lambda run: run.trace, r"^the run has no folder, and so no trace; begin the run with out=\.\.\.$"),
     ],
 )
 def test_what_cannot_be_done_is_told_in_one_sentence(run: handeye.Run, wrong: object, sentence: str) -> None:

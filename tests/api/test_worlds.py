@@ -128,9 +128,13 @@ def test_a_world_is_exported_as_it_is_drawn(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "part", "sentence"),
     [
-        ("scene", "pump", r"^a part is written to a file whose name ends in \.glb, not to .*scene$"),
+        ("scene", "pump", r"^a part must be exported to a file whose name ends in \.glb, not to .*scene$"),
         ("pump.glb", "motor", r"^there is no part `motor` to export; known: `cell`, `pump`$"),
-        (3, None, r"^the destination of an export is a folder, or a file that ends in \.glb, not 3$"),
+        (
+            3,
+            None,
+            r"^the destination of an export must be a folder, or a file whose name ends in \.glb, not 3$",
+        ),
     ],
 )
 def test_what_cannot_be_exported_is_told_in_one_sentence(

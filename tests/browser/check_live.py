@@ -171,7 +171,7 @@ def test_positions_are_taught_from_a_page(browser: Browser, tmp_path: Path) -> N
         press(page, "Undo")
         answered("the last motion is undone")
         type_in(page, "push x 5 60")
-        answered("the arm is held and cannot be pushed")
+        answered("the arm cannot be pushed while its brakes are set")
         press(page, "Float")
         page.wait("/brakes are off/.test(document.getElementById('state').textContent)")
         type_in(page, "push x 1 60")

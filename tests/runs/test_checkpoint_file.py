@@ -143,7 +143,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
     _, _, packed = data.split(b"\n", 2)
     body = msgspec.msgpack.decode(zlib.decompress(packed))
     body["snapshot"]["state"]["goal"] = [dtype, [3], b"\0" * 48]
-    with pytest.raises(InvalidInput, match="belongs in a checkpoint"):
+    with pytest.raises(InvalidInput, match="a checkpoint cannot contain"):
         decode(changed(data, snapshot=body["snapshot"]), "it")
 
 
@@ -161,7 +161,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("state", "saved"), {"C1": ["<f8", [3], np.full(3, np.inf).tobytes()]}, "not a finite number"),
         (("state", "drive", "load"), float("inf"), "not a finite number"),
         (("state", "world", "moved"), {"P1": {"at": [float("nan")] * 6, "of": None}}, "not a finite number"),
-        (("cell", "mechanisms", "stanford", "q"), [0.0] * 5, "another number of joints"),
+        (("cell", "mechanisms", "stanford", "q"), [0.0] * 5, "a different number of joints"),
         (("cell", "mechanisms", "stanford", "q"), [float("nan")] * 6, "not a finite number"),
         (("cell", "mechanisms", "threads", "driven"), 9, "another scene"),
         (("cell", "mechanisms", "clamping"), {"clamped": "yes"}, "not a state of this work cell"),

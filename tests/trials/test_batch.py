@@ -454,7 +454,7 @@ def test_batches_of_other_worlds_or_other_work_are_not_compared() -> None:
     head, other = TRIAL.head(ASSEMBLY), TRIAL.head(DISMANTLING)
     drawn = msgspec.structs.replace(head, world=msgspec.structs.replace(WORLD, drawing=WORLD.drawing - 1))
     with pytest.raises(
-        InvalidInput, match=r"^other comes from another version of handeye, whose seeds give "
+        InvalidInput, match=r"^other comes from another version of handeye, in which the same seeds give "
     ):
         paired(["first", "other"], [(head, rows), (drawn, rows)])
     with pytest.raises(InvalidInput, match=r"^other holds trials of another kind"):

@@ -105,7 +105,7 @@ def test_a_program_that_stops_before_its_first_statement_has_stopped_and_is_not_
     assert (code, found["completed"], found["message"]) == (
         1,
         False,
-        "ABORT X1 RAIL 0.00; no task had sent it",
+        "ABORT X1 RAIL 0.00; no task started this motion",
     )
     assert [fault["name"] for fault in found["world"]["faults"]] == ["status.X1.A.high"]
 

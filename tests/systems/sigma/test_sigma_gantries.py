@@ -328,7 +328,7 @@ def test_in_the_hand_over_the_arms_never_touch() -> None:
 
 def test_a_seed_is_for_the_machine_that_has_errors(command: Command) -> None:
     code, _, err = command("sigma", "run", str(ROOT / "plans/handover.mal"), "--seed", "3", "--no-keep")
-    assert (code, "--seed is for `--arm gantries`" in err) == (2, True)
+    assert (code, "--seed applies only to `--arm gantries`" in err) == (2, True)
 
 
 def test_time_passes_in_pieces_so_that_a_long_wait_can_be_interrupted() -> None:

@@ -179,7 +179,7 @@ def test_a_job_whose_arm_is_stopped_says_what_it_has_met(
         1,
         [
             "0 steps undone; the arm stopped while undoing the next earlier step: "
-            "the finger met 4.0 N; going back, the limit is 3.0 N",
+            "the finger met a force of 4.0 N; the limit while going back is 3.0 N",
             "The arm has stopped.",
         ],
     )

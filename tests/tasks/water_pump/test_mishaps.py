@@ -101,7 +101,7 @@ def test_what_happens_happens_again_from_a_state_that_was_kept() -> None:
     assert ends[0].mechanisms == ends[1].mechanisms
     assert not cell.truth.model.light_diffuse.any()
     other = cell_with("base.removed")
-    with pytest.raises(InvalidInput, match="other things happen in it"):
+    with pytest.raises(InvalidInput, match="it has different faults"):
         other.restore(kept)
 
 
