@@ -20,6 +20,8 @@ SCENE: Final = "rectilinear_arm/rectilinear_arm.xml"
 CAMERA: Final = "people"
 WAND: Final = "wand"
 HAND: Final = ("separation", "angle")  # axes that two fingers share
+TABLE: Final = "table_1"  # the interlock of the work table, and the sensor of its load
+FUSE: Final = 200.0  # N on the work table that open its structural fuse
 
 
 def scene(world: ArmWorld, *, wand: bool = True) -> mujoco.MjSpec:
@@ -60,6 +62,13 @@ class Station:
         switched = dict.fromkeys(RIGHT.tools, _nothing) | dict(tools or {})
         self.outputs = BenchOutputs(self.bench, "outputs", switched)
         self.others: Sequence[Mechanism[Any]] = others
+        self._load = int(self.bench.model.sensor(TABLE).adr[0])
+        self.bench.after_step.append(self._fuse)
+
+    def _fuse(self) -> None:
+        """Open the fuse of the work table if its load is too great. A person closes the interlock again."""
+        if self.bench.data.sensordata[self._load] > FUSE:
+            self.arm.signal(TABLE)
 
     def machine(self, tell: Callable[[SystemEvent], None] = lambda _: None) -> Machine:
         """Return the machine of the station, with a new real-time level."""
