@@ -325,7 +325,7 @@ class Run:
 
     @property
     def completed(self) -> bool:
-        """True if the program ended, or if the arm finished the undoing that was asked for."""
+        """True if the program ended, or if the arm finished the requested undo."""
         return self.result.completed
 
     @property

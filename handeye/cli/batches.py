@@ -210,7 +210,7 @@ def compare_trials(
     first: Annotated[Path, Parameter(help="Folder of the first batch.")],
     /,
     *others: Annotated[
-        Path, Parameter(help="Folders of the batches to compare with the first.", json_list=False)
+        Path, Parameter(help="Folders of the batches to compare with the first batch.", json_list=False)
     ],
     json: Json = False,
 ) -> int:

@@ -34,8 +34,8 @@ class Course:
     """
 
     def patience(self, pressing: int, period: float) -> int:
-        """Return the greatest number of servo periods for the motion: the periods of an unhindered motion, and
-        `pressing` more.
+        """Return the greatest number of servo periods for the motion: the periods of an unhindered motion,
+        plus `pressing` further periods.
         """
         return pressing + math.ceil(self.distance / self.speed / period)
 

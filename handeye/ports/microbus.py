@@ -92,8 +92,8 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def next_event(self) -> int | None:
-        """The time (microseconds) until which no status line will change, nor the interrupt, nor `free`. None
-        if none of them will change without a command.
+        """The time (microseconds) until which the status lines, the interrupt and `free` will not change. None if
+        they will not change without a command.
         """
 
     @abstractmethod
