@@ -77,6 +77,8 @@ CHEAP = {
     "trials prco": "trials prco --n ✓",
     "trials follow": "trials follow --n ✓",
     "trials line": "trials line --n ✓",
+    "trials blocks": "trials blocks --n ✓",
+    "trials train": "trials train --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

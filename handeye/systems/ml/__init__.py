@@ -16,17 +16,25 @@ ENTRY = Entry(
     commands="""
 ml = handeye.systems.ml.cli.commands:ml: MOS and ML (IBM, 1975): guarded motions, and a level that watches all sensors every 10 ms.
 trials follow = handeye.systems.ml.cli.follow:follow_trials: Follow an outline by touch in many worlds: success rate, errors of touches.
+trials blocks = handeye.systems.ml.cli.toys:blocks_trials: Stack three blocks by touch in many worlds: success rate, errors of places.
+trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by touch in many worlds: success rate, errors of places.
 """,  # noqa: E501 - a command a line
     tasks={
         "ml": "handeye.systems.ml.run.task:ML_TASK",
         "rectilinear": "handeye.systems.ml.bench.hardware:RECTILINEAR",
         "follow": "handeye.systems.ml.follow.task:FOLLOW",
+        "blocks": "handeye.systems.ml.blocks.task:BLOCKS",
+        "train": "handeye.systems.ml.train.task:TRAIN",
     },
     languages={
         ".ml": "handeye.systems.ml.language.language:LANGUAGE",
         ".sym": "handeye.systems.ml.language.language:SYMBOLIC_LANGUAGE",
     },
-    sweeps={"follow": "handeye.systems.ml.run.job_trials:FOLLOW_TRIALS"},
+    sweeps={
+        "follow": "handeye.systems.ml.run.job_trials:FOLLOW_TRIALS",
+        "blocks": "handeye.systems.ml.run.job_trials:BLOCKS_TRIALS",
+        "train": "handeye.systems.ml.run.job_trials:TRAIN_TRIALS",
+    },
     events="handeye.systems.ml.happenings:EVENTS",
     files=("follow.json",),
 )

@@ -137,6 +137,26 @@ def test_without_the_pump_the_hand_does_not_drop_what_it_holds() -> None:
     assert arm.data.body("block").xpos[2] > 0.1  # the part pulls the arm down by 5 mm a second
 
 
+def test_a_freeze_costs_the_hand_a_part_of_its_grip() -> None:
+    """A freeze makes the present positions the goals, those of the fingers too."""
+    arm = Arm(add=block(0.02, (0, 0), 0.05), at={2: 8000, 11: 1600}, wand=False)
+    arm.level.write("MT", 11, 9, 4000)
+    arm.go(m11=0)
+    arm.cycles(30)
+
+    def grip() -> float:
+        return 100_000 * abs(float(arm.data.joint("left_x").qpos[0]))
+
+    assert grip() == pytest.approx(90, rel=0.05)
+    arm.level.expect(8, 0, 1)  # the range is not within these limits
+    arm.cycles(20)
+    assert 45 < grip() < 75
+    arm.level.open()
+    arm.go(m11=0)
+    arm.cycles(20)
+    assert grip() == pytest.approx(90, rel=0.05)
+
+
 def test_the_angle_of_the_fingers_locks_itself() -> None:
     """Stiffer than 1000 N m/rad: a screwdriver does not swing between the fingers."""
     arm = Arm()

@@ -281,4 +281,4 @@ def test_trials_count_and_show_a_follower_in_each_world(command: Command) -> Non
         "trials", "follow", "--n", "2", "--seed", "3", "--outline", "L", "--jobs", "1", "--json"
     )
     found = json.loads(out)
-    assert (code, found["variant"], found["trials"]) == (0, "L", 2)
+    assert (code, found["variant"], found["n"]) == (0, "L", 2)

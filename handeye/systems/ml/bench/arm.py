@@ -56,6 +56,7 @@ class ArmState(Record, frozen=True, kw_only=True):
     goal: tuple[float, ...]  # last goals of the three slides, m
     ways: tuple[int, ...]  # directions in which these goals have moved: -1, 0 or 1
     motions: tuple[int, ...]  # motions that the slides have begun
+    offsets: tuple[float, ...]  # m, their errors in the present motions
     ranged: float = 0.0  # m, the last range
     signalled: tuple[str, ...] = ()  # interlocks that are on
 
@@ -87,6 +88,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._signals = SIGNALS + world.normal("wand.threshold", drawn.THRESHOLD)
         self._rays = _cone(world.value(drawn.CONE))
         self._range, self._signalled = RANGED, tuple[str, ...]()
+        self._last: AxesReading | None = None
         self._servos = BenchAxes(bench, AXES, period=CYCLE, name="servos", bent=self._bent)
         self._servos.power(on=False)
         self._goal = self._servos.read().q[_SLIDES]
@@ -109,8 +111,10 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     # -- port ------------------------------------------------------------------------------------------
 
     def read(self) -> AxesReading:
-        reading = self._servos.read()
-        return AxesReading(time=reading.time, q=reading.q, channels=self._felt(reading.time))
+        if self._last is None or self._last.time != self._bench.now:
+            reading = self._servos.read()
+            self._last = AxesReading(time=reading.time, q=reading.q, channels=self._felt(reading.time))
+        return self._last
 
     def put(self, goal: Array) -> None:
         ahead = goal[_SLIDES] - self._goal if np.shape(goal) == (len(AXES),) else self._ways
@@ -129,6 +133,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         """Switch the signal of an interlock on or off, as a person or a device of the room does."""
         if interlock not in INTERLOCKS:
             raise NoSuchName(f"there is no interlock {interlock}; there are {', '.join(INTERLOCKS)}")
+        self._last = None
         self._signalled = tuple(sorted({*self._signalled} - {interlock} | ({interlock} if on else set())))
 
     def _felt(self, time: float) -> dict[str, float]:
@@ -195,15 +200,17 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
             goal=tuple(self._goal.tolist()),
             ways=tuple(int(way) for way in self._ways),
             motions=tuple(self._motions),
+            offsets=tuple(self._offsets[_SLIDES].tolist()),
             ranged=self._range,
             signalled=self._signalled,
         )
 
     def check(self, state: ArmState) -> None:
-        if not len(state.goal) == len(state.ways) == len(state.motions) == len(_SLIDE_NAMES):
+        slides = (state.goal, state.ways, state.motions, state.offsets)
+        if any(len(each) != len(_SLIDE_NAMES) for each in slides):
             raise BadFile("its arm has other slides")
         if (
-            not np.isfinite((*state.goal, state.ranged)).all()
+            not np.isfinite((*state.goal, *state.offsets, state.ranged)).all()
             or {*state.ways} - {-1, 0, 1}
             or min(state.motions) < 0
         ):
@@ -214,10 +221,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     def restore(self, state: ArmState) -> None:
         self._goal, self._ways = np.array(state.goal), np.array(state.ways, dtype=float)
         self._motions, self._range, self._signalled = [*state.motions], state.ranged, state.signalled
-        self._offsets[:] = 0.0
-        for slide, motions in enumerate(state.motions):
-            if self._width and motions:
-                self._offset(slide)
+        self._offsets[_SLIDES], self._last = state.offsets, None
 
 
 def _sensor_names() -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """Builds the report page of a follower: the outline that was felt, drawn over the true one, and the findings."""
 
 from collections.abc import Iterator, Mapping
+from math import hypot
 from pathlib import Path
 from typing import Final
 
@@ -32,6 +33,7 @@ _PLAN: Final = (20.0, 500.0)  # left and right ends of the drawing from above
 _BARS: Final = (560.0, 940.0)
 _LEVEL: Final = 260.0  # of the wand's radius in the chart
 _DEEP: Final = 60.0  # length of a bar of one millimetre
+_FAR: Final = 200.0  # units, between which the way from the plate is measured
 
 
 class FollowReport(Record, frozen=True, kw_only=True):
@@ -58,7 +60,12 @@ def follow_page(done: FollowReport) -> bytes:
     body = element(
         "body",
         element("header", element("h1", title), class_="failed" if done.exit_code else None),
-        element("main", note(facts), element("p", f"{printable(done.end)}."), *_sections(done)),
+        element(
+            "main",
+            note(facts),
+            element("p", f"{printable(done.end[:1].upper() + done.end[1:])}."),
+            *_sections(done),
+        ),
     )
     page = element("html", head(title, resource("page.css"), []), body, lang="en")
     return f"{MARK}{page}\n".encode()
@@ -76,7 +83,7 @@ def _sections(done: FollowReport) -> Iterator[Markup]:
 def _outline(done: FollowReport) -> Iterator[Markup]:
     yield note(
         "Left: the plate as it truly lies, seen from above, and the places of the wand when it touched, numbered in "
-        "order. The base of the arm is at the bottom. Right: the distance of the wand's surface from the true outline "
+        "order. The base of the arm is at the top. Right: the distance of the wand's surface from the true outline "
         "at each touch. A bar that goes down is inside the plate: the wand bends."
     )
     yield element("figure", _drawn(done), class_="chart")
@@ -102,13 +109,17 @@ def _plan(true: Array, touches: Array) -> Iterator[Markup]:
     yield element("polyline", points=_points(xs, ys, touches), class_="outline")
     for number, (x, y) in enumerate(touches.tolist(), 1):
         yield dot(xs(x), ys(y), 2.5, class_="moved")
-        aside = (
-            11 * (np.array([x, y]) - true.mean(axis=0)) / np.hypot(*(np.array([x, y]) - true.mean(axis=0)))
-        )
+        aside = _outwards(np.array([x, y]), true)
         yield words(xs(x) + aside[0], ys(y) + aside[1] + 3.5, str(number), anchor="middle")
     inch = xs(1000) - xs(0)
     yield rule(_PLAN[0], _HIGH - 6, _PLAN[0] + inch, _HIGH - 6, class_="axis")
     yield words(_PLAN[0] + inch + 6, _HIGH - 2, "a step: 1000 units, one inch")
+
+
+def _outwards(at: Array, true: Array) -> Array:
+    """Return the way from a touch to its number, away from the plate, in units of the drawing."""
+    slope = [distance(at + step, true) - distance(at - step, true) for step in np.eye(2) * _FAR]
+    return 11 * np.array(slope) / max(hypot(*slope), 1.0)
 
 
 def _depths(true: Array, touches: Array) -> Iterator[Markup]:

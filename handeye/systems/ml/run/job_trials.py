@@ -95,11 +95,18 @@ def _summary(rows: Sequence[MlJobRow]) -> list[str]:
     ]
 
 
-FOLLOW_TRIALS: Final = Sweep(
-    kind="follow",
-    row=MlJobRow,
-    outcomes={"right": "right", "silent": "silent", "stopped": "wrong"},
-    success="right",
-    more=_more,
-    summary=_summary,
-)
+def _sweep(job: str) -> Sweep[MlJobRow]:
+    """Return the kind of sweep for the trials of a job."""
+    return Sweep(
+        kind=job,
+        row=MlJobRow,
+        outcomes={"right": "right", "silent": "silent", "stopped": "wrong"},
+        success="right",
+        more=_more,
+        summary=_summary,
+    )
+
+
+FOLLOW_TRIALS: Final = _sweep("follow")
+BLOCKS_TRIALS: Final = _sweep("blocks")
+TRAIN_TRIALS: Final = _sweep("train")

@@ -9,7 +9,7 @@ from handeye.runs.setup import Setup
 from handeye.systems.ml import ENTRY
 from handeye.systems.ml.run.plan import MlPlan
 
-PROGRAMS: Final = {"follow": "curve_follower.ml"}
+PROGRAMS: Final = {"follow": "curve_follower.ml", "blocks": "blocks.ml", "train": "train.ml"}
 USUAL: Final = {"follow": "square"}  # variant of a job where none is named
 
 
@@ -17,7 +17,7 @@ def job_plan(job: str, variant: str = "") -> MlPlan:
     """Return the plan of a job's own program."""
     name = PROGRAMS[job]
     text = read_source(plans() / name).text
-    return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant or USUAL[job])
+    return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant or USUAL.get(job, ""))
 
 
 def job_setup(plan: MlPlan, world: WorldSpec) -> Setup:

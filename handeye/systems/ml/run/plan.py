@@ -7,7 +7,6 @@ from typing import Annotated, ClassVar, Literal
 
 import msgspec
 
-from handeye.core.diagnostics import has_errors
 from handeye.core.errors import BadFile
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
@@ -98,9 +97,8 @@ class MlListing:
 def stored(name: str, text: str, *, two_arms: bool = False) -> Mapping[int, Line]:
     """Return the lines of a program by their numbers. Raises BadFile if the text has errors."""
     lines, found = checked(Source(text=text, name=name), two_arms=two_arms)
-    if has_errors(found):
-        first = next(each for each in found if each.severity == "error")
-        raise BadFile(f"{name} has {counted(len(found), 'mistake')}, the first: {first.message}")
+    if errors := [each for each in found if each.severity == "error"]:
+        raise BadFile(f"{name} has {counted(len(errors), 'mistake')}, the first: {errors[0].message}")
     return lines
 
 

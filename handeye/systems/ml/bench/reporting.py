@@ -1,0 +1,66 @@
+"""Programs that print a number and a count at their end: 0 if all went well, or the number of a trouble."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from handeye.cell.mechanism import Mechanism
+from handeye.core.errors import BadFile
+from handeye.core.record import Record
+from handeye.systems.ml.bench.hardware import StationHardware
+from handeye.systems.ml.bench.station import Station
+from handeye.systems.ml.run.hardware import Ending, Tell
+
+_MOST: Final = 200  # lines
+
+
+class Printed(Record, frozen=True, kw_only=True):
+    """The lines that the program has printed."""
+
+    lines: tuple[str, ...] = ()
+
+
+class Listener(Mechanism[Printed]):
+    """Keeps the lines that the program prints."""
+
+    name, kind = "heard", Printed
+
+    def __init__(self) -> None:
+        self.heard = Printed()
+
+    def hear(self, line: str) -> None:
+        """Take notice of a line."""
+        self.heard = Printed(lines=(*self.heard.lines, line)[:_MOST])
+
+    def state(self) -> Printed:
+        return self.heard
+
+    def check(self, state: Printed) -> None:
+        if len(state.lines) > _MOST:
+            raise BadFile("the program cannot have printed so much")
+
+    def restore(self, state: Printed) -> None:
+        self.heard = state
+
+
+class ReportingHardware(StationHardware):
+    """A station whose program reports troubles by their numbers."""
+
+    def __init__(self, station: Station, tell: Tell, troubles: Mapping[str, str]) -> None:
+        """Open a station.
+
+        Args:
+            troubles: sentences, by the numbers that the program prints.
+        """
+        station.others = (*station.others, listener := Listener())
+        super().__init__(station, tell)
+        self._listener, self._troubles = listener, troubles
+
+    def hear(self, text: str) -> None:
+        self._listener.hear(text)
+
+    def ending(self, statement: int) -> Ending | None:
+        lines = self._listener.heard.lines
+        trouble, _, count = lines[-1].partition(" ") if lines else ("0", "", "")
+        if trouble not in self._troubles:
+            return None
+        return Ending(done=False, text=f"{self._troubles[trouble]} (done before: {count.strip() or 0})")

@@ -1,0 +1,138 @@
+"""Defines the job `blocks`, its worlds and its referee."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import degrees
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from handeye.core.distributions import Noise, Range
+from handeye.core.pose import Array
+from handeye.core.units import MILLIMETRE
+from handeye.core.variation import Variation, WorldSpec
+from handeye.judge.finding import Findings, at_most
+from handeye.judge.measured import tilt
+from handeye.systems.ml.bench.hardware import ArmTask
+from handeye.systems.ml.bench.reporting import ReportingHardware
+from handeye.systems.ml.bench.station import Station, scene
+from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
+from handeye.systems.ml.machine.spec import LINEAR
+from handeye.systems.ml.run.hardware import Hardware, Tell
+from handeye.tasks.interface import Words
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.truth import Truth
+    from handeye.systems.ml.run.plan import MlPlan
+
+SIDE: Final = 0.03  # m
+EXPECTED: Final = (
+    (-4000, 2000),
+    (0, 2000),
+    (4000, 2000),
+)  # x and y of the slides, where the program expects blocks
+STACK: Final = (0, -2000)  # where it stacks them
+APART: Final = 2.0  # mm from the block below
+HEIGHT: Final = 1.0  # mm
+LEAN: Final = 2.0  # deg
+PLACED: Final = 3.0  # mm of the lowest block from its place
+_PLACE, _TURNED, _SIZE, _FRICTION = "blocks.place", "blocks.turned", "blocks.size", "blocks.friction"
+TROUBLES: Final = {
+    "1": "the hand has met something on its way down",
+    "2": "the hand holds no block",
+    "3": "the block meets nothing on its way down",
+}  # by the number that the program prints
+_DENSITY: Final = 600.0  # kg/m3, wood
+VARIATION: Final = Variation(
+    *ARM,
+    quantity(
+        _PLACE,
+        "mm",
+        Noise(1.5),
+        8.0,
+        "Standard deviation of a block's position along x and y. No source: our choice, as laid by hand.",
+    ),
+    quantity(
+        _TURNED, "deg", Noise(2.0), 15.0, "Standard deviation of a block's rotation. No source: our choice."
+    ),
+    quantity(_SIZE, "mm", Noise(0.1), 1.0, "Standard deviation of a block's side. No source: our choice."),
+    quantity(
+        _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of blocks and table. No source: our choice.", 0.4
+    ),
+)
+
+
+class Blocks(ArmTask):
+    """Stack three blocks."""
+
+    name = "blocks"
+    words = Words(product="the stack", done="The three blocks are stacked.")
+
+    def variation(self) -> Variation:
+        return VARIATION
+
+    def station(self, world: ArmWorld) -> Station:
+        """Return the station with its blocks."""
+        spec = scene(world, wand=False)
+        for number, (x, y) in enumerate(EXPECTED, 1):
+            name = f"block_{number}"
+            half = SIDE / 2 + world.normal(f"{name}.size", _SIZE) / 2
+            off = world.normal(f"{name}.x", _PLACE), world.normal(f"{name}.y", _PLACE)
+            _lay(spec, name, half, (x * LINEAR + off[0], y * LINEAR + off[1]), world.normal(f"{name}.turned", _TURNED),
+                 world.value(_FRICTION))  # fmt: skip
+        return Station(spec, world)
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return self.station(self.world(spec)).bench.model
+
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        return ReportingHardware(self.station(self.world(world)), tell, TROUBLES)
+
+    def judge(self, truth: Truth) -> Findings:
+        bodies = [truth.data.body(f"block_{number}") for number in range(1, len(EXPECTED) + 1)]
+        places = np.array([body.xpos for body in bodies])
+        halves = [float(truth.model.geom(f"block_{n}").size[2]) for n in range(1, len(EXPECTED) + 1)]
+        wanted = np.cumsum([halves[0], *(one + two for one, two in pairwise(halves))])
+        off = np.hypot(*(places[1:, :2] - places[:-1, :2]).T)
+        place = np.hypot(places[0, 0] - STACK[0] * LINEAR, places[0, 1] + STACK[1] * LINEAR)
+        lean = max(tilt(body.xmat.reshape(3, 3)) for body in bodies)
+        high: Array = np.abs(places[:, 2] - wanted)
+        return {
+            "stacked": at_most(
+                float(off.max()) / MILLIMETRE,
+                APART,
+                "mm",
+                "greatest distance of a block from the one below it",
+            ),
+            "heights": at_most(
+                float(high.max()) / MILLIMETRE,
+                HEIGHT,
+                "mm",
+                "greatest error of a block's height in the stack",
+            ),
+            "placed": at_most(
+                float(place) / MILLIMETRE, PLACED, "mm", "distance of the lowest block from its place"
+            ),
+            "flat": at_most(degrees(lean), LEAN, "deg", "greatest tilt of a block"),
+        }
+
+
+def _lay(
+    spec: mujoco.MjSpec, name: str, half: float, at: tuple[float, float], turned: float, friction: float
+) -> None:
+    """Lay a block on the table, at x and y of the slides (m)."""
+    import mujoco
+
+    turn = [np.cos(turned / 2), 0, 0, -np.sin(turned / 2)]
+    body = spec.worldbody.add_body(name=name, pos=[at[0], -at[1], half], quat=turn)
+    body.add_freejoint(name=name)
+    body.add_geom(
+        name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=[half, half, half], density=_DENSITY,
+        friction=[friction, 0.003, 0.0001], rgba=[0.80, 0.62, 0.38, 1], group=1,
+    )  # fmt: skip
+
+
+BLOCKS: Final = Blocks()

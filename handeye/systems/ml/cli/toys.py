@@ -1,0 +1,92 @@
+"""The commands of the toy blocks and the toy train, for one world and for many worlds."""
+
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.systems.ml.cli.jobs import (
+    ANY_RUN,
+    JobOptions,
+    JobSeed,
+    NumberOfWorlds,
+    carry_out,
+    carry_out_trials,
+)
+
+
+def blocks(
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+) -> int:
+    """Stack three toy blocks by touch.
+
+    `plans/blocks.ml` grasps each block along x and then along y, so that it lies in the middle of the hand, and puts it
+    down by a guarded move. A referee then looks: each block has to stand on the one below within 2 mm, and no block may
+    lean by more than 2 degrees.
+
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    input; 130: interrupted.
+    """
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out(job_plan("blocks"), seed, errors, options)
+
+
+def train(
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+) -> int:
+    """Couple an engine and two wagons by touch, peg in hole, and pull them.
+
+    `plans/train.ml` grasps each vehicle along y and then along x, so that it lies in the middle of the hand, and lowers
+    the peg of each wagon into the hole of the vehicle ahead; where it does not go in, it tries beside. Then it pulls
+    the engine by 50 mm. A referee looks whether both wagons have followed.
+
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    input; 130: interrupted.
+    """
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out(job_plan("train"), seed, errors, options)
+
+
+def blocks_trials(
+    *,
+    n: NumberOfWorlds = 10,
+    seed: FirstSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Stack three blocks in many worlds: how often the stack is right, and its errors.
+
+    Each trial is that of `handeye ml blocks`. Ctrl-C ends the batch and prints what has finished; with --out it can be
+    continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
+    disagrees.
+    """
+    from handeye.systems.ml.run.job_trials import BLOCKS_TRIALS
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out_trials(
+        BLOCKS_TRIALS, job_plan("blocks"), n, seed, errors, options, title="three blocks", again=""
+    )
+
+
+def train_trials(
+    *,
+    n: NumberOfWorlds = 10,
+    seed: FirstSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Couple a train in many worlds: how often both wagons follow the engine, and its errors.
+
+    Each trial is that of `handeye ml train`. Ctrl-C ends the batch and prints what has finished; with --out it can be
+    continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
+    disagrees.
+    """
+    from handeye.systems.ml.run.job_trials import TRAIN_TRIALS
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out_trials(
+        TRAIN_TRIALS, job_plan("train"), n, seed, errors, options, title="a train of three", again=""
+    )

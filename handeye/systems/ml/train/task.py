@@ -1,0 +1,122 @@
+"""Defines the job `train`, its worlds and its referee."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from handeye.core.distributions import Noise, Range
+from handeye.core.units import MILLIMETRE
+from handeye.core.variation import Variation, WorldSpec
+from handeye.judge.finding import Findings, at_most
+from handeye.judge.measured import tilt
+from handeye.systems.ml.bench.hardware import ArmTask
+from handeye.systems.ml.bench.reporting import ReportingHardware
+from handeye.systems.ml.bench.station import Station, scene
+from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
+from handeye.systems.ml.machine.spec import LINEAR
+from handeye.systems.ml.run.hardware import Hardware, Tell
+from handeye.systems.ml.train.vehicles import CLEARANCE, REACH, add_vehicle
+from handeye.tasks.interface import Words
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.truth import Truth
+    from handeye.systems.ml.run.plan import MlPlan
+
+EXPECTED: Final = {"engine": (0, -3500), "wagon_1": (-5000, 2500), "wagon_2": (5000, 2500)}
+"""Places at which the program expects the vehicles, x and y of the slides."""
+PULLED: Final = 0.050  # m by which the engine is pulled
+COUPLED: Final = 0.5  # mm between the axes of a peg and its hole
+SEATED: Final = 0.5  # mm of a wagon over the table: its peg is in to the shoulder
+PLACED: Final = 3.0  # mm of the engine from where it is pulled to
+LEAN: Final = 2.0  # deg
+TROUBLES: Final = {
+    "1": "the hand has met something on its way down",
+    "2": "the hand holds no vehicle",
+    "3": "the peg does not go into its hole",
+}  # by the number that the program prints
+_PLACE, _TURNED, _FRICTION, _CLEARANCE = "train.place", "train.turned", "train.friction", "train.clearance"
+VARIATION: Final = Variation(
+    *ARM,
+    quantity(
+        _PLACE,
+        "mm",
+        Noise(1.5),
+        5.0,
+        "Standard deviation of a vehicle's position along x and y. No source: our choice, as laid by hand.",
+    ),
+    quantity(
+        _TURNED, "deg", Noise(2.0), 8.0, "Standard deviation of a vehicle's rotation. No source: our choice."
+    ),
+    quantity(
+        _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of vehicles and table. No source: our choice.", 0.4
+    ),
+    quantity(
+        _CLEARANCE,
+        "mm",
+        Range(0.2, 0.4),
+        2.0,
+        "Difference of the diameters of hole and peg. No source: our choice.",
+        CLEARANCE / MILLIMETRE,
+    ),
+)
+
+
+class Train(ArmTask):
+    """Couple an engine and two wagons, and pull them."""
+
+    name = "train"
+    words = Words(product="the train", done="Both wagons are coupled, and have followed the engine.")
+
+    def variation(self) -> Variation:
+        return VARIATION
+
+    def station(self, world: ArmWorld) -> Station:
+        """Return the station with its vehicles."""
+        spec = scene(world, wand=False)
+        for name, (x, y) in EXPECTED.items():
+            at = (
+                x * LINEAR + world.normal(f"{name}.x", _PLACE),
+                y * LINEAR + world.normal(f"{name}.y", _PLACE),
+            )
+            turned = world.normal(f"{name}.turned", _TURNED)
+            add_vehicle(spec, name, at, turned, world.value(_FRICTION), world.value(_CLEARANCE))
+        return Station(spec, world)
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return self.station(self.world(spec)).bench.model
+
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        return ReportingHardware(self.station(self.world(world)), tell, TROUBLES)
+
+    def judge(self, truth: Truth) -> Findings:
+        bodies = [truth.data.body(name) for name in EXPECTED]
+        frames = [body.xmat.reshape(3, 3) for body in bodies]
+        pegs = [body.xpos + R @ [0, REACH, 0] for body, R in zip(bodies, frames, strict=True)]
+        holes = [body.xpos - R @ [0, REACH, 0] for body, R in zip(bodies, frames, strict=True)]
+        apart = max(np.hypot(*(peg - hole)[:2]) for peg, hole in zip(pegs[1:], holes, strict=False))
+        high = max(abs(float(body.xpos[2])) for body in bodies)
+        x, y = EXPECTED["engine"]
+        off = np.hypot(bodies[0].xpos[0] - x * LINEAR, -bodies[0].xpos[1] - (y * LINEAR - PULLED))
+        return {
+            "coupled": at_most(
+                float(apart) / MILLIMETRE,
+                COUPLED,
+                "mm",
+                "greatest distance of a peg's axis from that of its hole",
+            ),
+            "seated": at_most(
+                high / MILLIMETRE, SEATED, "mm", "greatest height of a vehicle above the table"
+            ),
+            "pulled": at_most(
+                float(off) / MILLIMETRE, PLACED, "mm", "distance of the engine from where it is pulled to"
+            ),
+            "flat": at_most(degrees(max(map(tilt, frames))), LEAN, "deg", "greatest tilt of a vehicle"),
+        }
+
+
+TRAIN: Final = Train()
