@@ -299,3 +299,34 @@ def test_what_is_typed_is_never_lost_in_an_error() -> None:
     ml = Ml()
     with pytest.raises(InvalidInput, match="did you mean `MOTOR`"):
         ml.do("MOTR 3 5")
+
+
+def test_a_subroutine_can_be_called_again_when_it_has_returned() -> None:
+    text = "10 GOSUB 100\n20 GOSUB 100\n30 PRINT &1\n40 STOP\n100 ADD 1 1\n110 RETURN"
+    assert Ml(text).do("RUN") == ["2"]
+
+
+@pytest.mark.parametrize(
+    ("sensors", "goes"),
+    [("1", "10"), ("2", "20"), ("-1", "20"), ("-2", "10"), ("2 1", "10"), ("-1 2", "20"), ("", "10")],
+)
+def test_a_branch_asks_for_flags_that_are_on_or_with_a_minus_off(sensors: str, goes: str) -> None:
+    ml = Ml("10 PRINT 10\n15 STOP\n20 PRINT 20", stimuli=[Stimulus(channel="wand", value=1)])
+    ml.do("SENSOR 1 -1 1")
+    ml.do("DELAY 2")
+    assert ml.do(f"BRANCH 10 20 {sensors}") == [goes]
+
+
+def test_errors_trace_session_and_host_are_in_tables() -> None:
+    ml = Ml("10 ADD 1 5\n20 MOTOR 3 100\nTRACE")
+    ml.do("RUN")
+    ml.do("CMSDUMP X")
+    assert [ml.read("TR", 1, word) for word in (1, 3, 4)] == [0, 0, 0]
+    assert [ml.read("TR", 2, word) for word in (1, 3, 4)] == [20, 3, 100]
+    assert [ml.read("TR", 3, word) for word in (1, 3, 4)] == [10, 1, 5]
+    texts = {"LG": "CMSDUMP X", "ER": "a command does not exist"}
+    for table, text in texts.items():
+        words = [ml.read(table, 1, word) for word in range(1, 33)]
+        assert b"".join(word.to_bytes(2, "big") for word in words).rstrip(b"\0 ") == text.encode()
+    assert [ml.read("HL", 1, word) for word in (1, 2, 3)] == [1, 1, 0]
+    assert failing("PUT LG 1 1 5", ml) == "M11"

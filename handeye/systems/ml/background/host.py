@@ -45,11 +45,13 @@ def _host(mos: "Interpreter") -> Host:
         raise MlError("M16", "there is no host")
     if mos.memory.closed:
         raise MlError("M16", "the session with the host is closed")
+    mos.memory.sent += 1
     return mos.host
 
 
 def load_program(mos: "Interpreter", name: str) -> None:
     replace_program(mos, Source(name=name, text=_host(mos).read(name)))
+    mos.memory.received += 1
 
 
 def replace_program(mos: "Interpreter", source: Source) -> None:

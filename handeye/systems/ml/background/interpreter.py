@@ -11,9 +11,10 @@ from handeye.program.events import SystemEvent
 from handeye.systems.ml.arithmetic import fits
 from handeye.systems.ml.background.behaviour import BEHAVIOUR
 from handeye.systems.ml.background.host import Host
-from handeye.systems.ml.background.memory import BackgroundMemory
+from handeye.systems.ml.background.memory import KEPT, BackgroundMemory
 from handeye.systems.ml.background.motion import jog
-from handeye.systems.ml.background.program import CommandCodes, RecentPoints, StoredProgram, TaskTable
+from handeye.systems.ml.background.program import StoredProgram
+from handeye.systems.ml.background.views import NUMBERS, show_tables
 from handeye.systems.ml.errors import MlError
 from handeye.systems.ml.happenings import Printed, Traced
 from handeye.systems.ml.language.parser import statement_of
@@ -45,10 +46,7 @@ class Interpreter:
         self.memory = BackgroundMemory(side=side)
         self.joystick = joystick
         self._tell = tell
-        for level in levels.values():
-            level.view("TK", TaskTable(program))
-            level.view("PT", RecentPoints(program))
-            level.view("CC", CommandCodes())
+        show_tables(self, self._own)
 
     @property
     def level(self) -> Level:
@@ -126,13 +124,14 @@ class Interpreter:
         nothing has changed.
         """
         line = statement_of(text)
+        if self.memory.waits and line is not None and line.number is None:
+            raise BadArgument("a statement is still being executed")
+        self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
         if line is None:
             return
         if line.number is not None:
             self.program.store(line.number, line.statement)
             return
-        if self.memory.waits:
-            raise BadArgument("a statement is still being executed")
         executing, self.memory.executing = self.memory.executing, 0
         self._own.statement(0)
         try:
@@ -156,6 +155,8 @@ class Interpreter:
         memory, code = self.memory, statement.code
         values: list[Value] = [self._value(each) for each in statement.parameters]
         if memory.tracing or memory.trying:
+            numbers = tuple(each for each in values if isinstance(each, int))
+            memory.traced[:] = [*memory.traced[1 - KEPT :], (memory.executing, NUMBERS[code], *numbers[:14])]
             text = statement_text(code, tuple(values))
             self._tell(Traced(time=self.time, statement=memory.executing, text=text))
         BEHAVIOUR[code](self, *values)

@@ -1,8 +1,9 @@
 """The state of the background level of one arm."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
+from msgspec import field
 
 from handeye.core.mutable_records import MutableRecord
 from handeye.systems.ml.language.syntax import LAST
@@ -10,6 +11,7 @@ from handeye.systems.ml.level import Side
 
 Wait = Literal["", "post", "until", "joy"]  # for the end of a motion, for a cycle, for a function key
 Number = Annotated[int, msgspec.Meta(ge=0, le=LAST)]
+KEPT: Final = 100  # lines of the trace and of the session
 
 
 class BackgroundMemory(MutableRecord, kw_only=True):
@@ -28,4 +30,10 @@ class BackgroundMemory(MutableRecord, kw_only=True):
     stopped: str = ""  # why the program was stopped, as a sentence; empty: it was not
     onward: Number = 0  # after a stop: the statement that would have been next
     closed: bool = False  # the session with the host
+    sent: int = 0  # commands to the host
+    received: int = 0  # programs from the host
+    traced: list[tuple[int, ...]] = field(
+        default_factory=list
+    )  # numbers of statement and command, and values
+    typed: list[str] = field(default_factory=list)
     left: bool = False  # by EXIT

@@ -1,4 +1,4 @@
-"""The stored program, with the positions of its POINTs, and its appearance in the task table."""
+"""The stored program, with the positions of its POINTs."""
 
 from bisect import bisect_left, bisect_right
 from functools import lru_cache
@@ -8,17 +8,11 @@ from msgspec import field
 
 from handeye.core.errors import BadFile
 from handeye.core.mutable_records import MutableRecord, put_back
-from handeye.systems.ml.arithmetic import wrap
 from handeye.systems.ml.errors import MlError
-from handeye.systems.ml.language.commands import COMMANDS
 from handeye.systems.ml.language.parser import parsed_line
-from handeye.systems.ml.language.syntax import MOTORS, Parameter, Point, Reference, Statement, statement_text
+from handeye.systems.ml.language.syntax import Point, Statement, statement_text
 
 RECENT: Final = 8  # POINTs that QPOINT shows
-NUMBERS: Final = {code: number for number, code in enumerate(COMMANDS, 1)}
-"""Numbers of the commands in the tables TK and CC."""
-_SIGN: Final = 8  # beside three bits for the number of ampersands
-_PACKED: Final = 4  # parameters whose forms fit into a word
 
 
 class ProgramMemory(MutableRecord, kw_only=True):
@@ -142,87 +136,3 @@ def none_stored(first: int, last: int) -> str:
         if first == last
         else f"there are no statements from {first} to {last}"
     )
-
-
-class TaskTable:
-    """The table TK: the command of a statement, its 15 parameters, and four words with their forms. A POINT has its
-    number of command and the positions of 12 motors. A line without a statement has zeros.
-    """
-
-    def __init__(self, program: StoredProgram) -> None:
-        self._program = program
-
-    def read(self, line: int, word: int) -> int:
-        if line not in self._program.memory.statements:
-            return 0
-        statement = self._program.statement(line)
-        if word == 1:
-            return NUMBERS[statement.code]
-        if statement.code == "POINT":
-            point = self._program.memory.points.get(line, ())
-            return point[word - 2] if word - 2 < len(point) else 0
-        parameters = statement.parameters
-        if word - 2 < 15:
-            return _value(parameters[word - 2]) if word - 2 < len(parameters) else 0
-        forms = [_form(each) for each in parameters[_PACKED * (word - 17) :][:_PACKED]]
-        return wrap(sum(form << 4 * at for at, form in enumerate(forms)))
-
-    def write(self, line: int, word: int, value: int) -> None:
-        """Change a parameter that is a constant, or a position of a filled POINT."""
-        memory = self._program.memory
-        if line in memory.points and 1 <= word - 1 <= MOTORS:
-            point = [*memory.points[line]]
-            point[word - 2] = value
-            memory.points[line] = tuple(point)
-            return
-        if line in memory.statements:
-            statement = self._program.statement(line)
-            parameters = list(statement.parameters)
-            if 0 <= word - 2 < len(parameters) and isinstance(parameters[word - 2], int):
-                parameters[word - 2] = value
-                changed = statement_text(statement.code, tuple(parameters))
-                read, _ = parsed_line(changed)
-                if read is not None:
-                    memory.statements[line] = str(read.statement)
-                    return
-        raise MlError("M11", f"word {word} of statement {line} cannot be written")
-
-
-def _value(parameter: Parameter) -> int:
-    match parameter:
-        case int():
-            return parameter
-        case Reference():
-            return parameter.index
-    return 0
-
-
-def _form(parameter: Parameter) -> int:
-    return parameter.depth | _SIGN * parameter.negative if isinstance(parameter, Reference) else 0
-
-
-class RecentPoints:
-    """The table PT: the POINTs that were used last, each with its number and its positions."""
-
-    def __init__(self, program: StoredProgram) -> None:
-        self._program = program
-
-    def read(self, line: int, word: int) -> int:
-        memory = self._program.memory
-        number = memory.recent[line - 1] if line <= len(memory.recent) else 0
-        point = memory.points.get(number, ())
-        return number if word == 1 else point[word - 2] if word - 2 < len(point) else 0
-
-    def write(self, line: int, word: int, value: int) -> None:
-        raise MlError("M11", "the table PT cannot be written")
-
-
-class CommandCodes:
-    """The table CC: the first two letters of each command."""
-
-    def read(self, line: int, word: int) -> int:
-        code = [*COMMANDS][line - 1]
-        return ord(code[0]) << 8 | ord(code[1])
-
-    def write(self, line: int, word: int, value: int) -> None:
-        raise MlError("M11", "the table CC cannot be written")

@@ -14,6 +14,7 @@ from handeye.systems.ml.background.host import Host, replace_program
 from handeye.systems.ml.background.interpreter import Interpreter
 from handeye.systems.ml.background.motion import CANCEL, RECORD
 from handeye.systems.ml.background.program import StoredProgram
+from handeye.systems.ml.background.views import show_tables
 from handeye.systems.ml.happenings import Nullified, Printed, Traced
 from handeye.systems.ml.language.commands import COMMANDS
 from handeye.systems.ml.machine.perfect import perfect_machine
@@ -71,6 +72,8 @@ class Console:
         self._mos = Interpreter(
             "right", self._machine.levels, self._program, self._hear_event, FileHost(), joystick=True
         )
+        for level in self._machine.levels.values():
+            show_tables(self._mos, level)
 
     @property
     def over(self) -> bool:
