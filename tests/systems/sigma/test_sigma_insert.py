@@ -159,6 +159,15 @@ def test_the_result_of_a_users_own_program_has_the_fields_of_an_assembly(
     assert found["figures"]["simulated_s"] >= 0
 
 
+def test_an_object_in_the_closed_fingers_cuts_the_beam() -> None:
+    lines = (
+        "ORIGIN X1, Y1, Z1", "MOVE X1 TO 100, Y1 TO 50", "MOVE Z1 TO 160", "ACTUATE HAND1 = 1", "PRINT BEAM(1)",
+        "ACTUATE HAND1 = 0", "MOVE Z1 TO 100", "ACTUATE HAND1 = 1", "PRINT BEAM(1)",
+    )  # fmt: skip
+    text = "".join(f"{10 * number} {line}\n" for number, line in enumerate(lines, 1))
+    assert Machine(block="100 50 45").run(text).printed == ["1", "0"]
+
+
 @pytest.mark.parametrize("words", ["nowhere.mal", "--pegs 0", "--pegs 5", "--video a.gif"])
 def test_an_insertion_that_cannot_be_is_refused_in_a_sentence(words: str, command: Command) -> None:
     code, _, err = command("sigma", "insert", *words.split())
