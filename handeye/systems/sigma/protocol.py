@@ -110,9 +110,11 @@ def number_of(name: str | int) -> int:
     return LINE_NUMBERS[name.upper()]
 
 
-def name_of(number: int) -> str:
-    """Return the name of a microcomputer, or its number as text if it has no name."""
-    return {number: name for name, number in LINE_NUMBERS.items()}.get(number, str(number))
+def name_of(number: int, *, line: bool = False) -> str:
+    """Return the name of a microcomputer of SUPERSIGMA (with `line`, of the assembly line), or its number as text if it
+    has no name."""
+    known = LINE_NUMBERS if line else NUMBERS
+    return {number: name for name, number in known.items()}.get(number, str(number))
 
 
 def move(axis: str | int, steps: int, curve: int = 0) -> Command:

@@ -209,7 +209,7 @@ class BusOperations:
 
     def _transmit(self, name: str, command: Command, means: str) -> None:
         self.memory.commands += 1
-        to = protocol.name_of(command.number)
+        to = protocol.name_of(command.number, line=True)
         self._tell(CommandSent(time=self.time, task=name, to=to, frame=command.frame.hex(" "), means=means))
 
     def ask(self, name: str, command: Command) -> bytes:
@@ -217,7 +217,7 @@ class BusOperations:
         self._transmit(name, command, _meaning(command))
         answer = self.machine.ask(command, protocol.ANSWERS[Op(command.op)])
         value = protocol.signed(answer)
-        to = protocol.name_of(command.number)
+        to = protocol.name_of(command.number, line=True)
         self._tell(Answered(time=self.time, task=name, to=to, answer=answer.hex(" "), means=f"{value}"))
         return answer
 
