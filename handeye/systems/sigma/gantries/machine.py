@@ -160,7 +160,8 @@ class Gantries(Plant[GantryMemory]):
         self._motors: list[Motor | None] = [None] * self._n
         self._fields = [Field(0, np.zeros(1), np.zeros(1))] * self._n
         self._first = self._step = 0
-        self._peaks = np.zeros(self._n)
+        self._peaks, self._sensed = np.zeros(2 * self._n), np.empty(self._all)
+        self._reduced = False  # True if the last forces were those of rotors that leave their poles
         self._seen: dict[tuple[int, Pin], Level] = {}
         joints = [model.joint(axis) for axis in rig.axes]
         self._q = [int(joint.qposadr[0]) for joint in joints]
@@ -248,7 +249,7 @@ class Gantries(Plant[GantryMemory]):
     @property
     def felt(self) -> Array:
         """Present force on the wrists along each axis (N, shape (axes,))."""
-        return self._sense()[: self._n]
+        return self._sense()[: self._n].copy()
 
     @property
     def period(self) -> ServoPeriod:
@@ -276,8 +277,8 @@ class Gantries(Plant[GantryMemory]):
         if steps <= 0:
             return None
         self.bench.advance(steps / 1000)
-        self.memory.peaks = np.maximum(self.memory.peaks, self._peaks).tolist()
-        self._peaks = np.zeros(self._n)
+        self.memory.peaks = np.maximum(self.memory.peaks, self._peaks.reshape(2, -1).max(axis=0)).tolist()
+        self._peaks[:] = 0
         if not self._seen:
             return None
         seen, self._seen = [*self._seen.values()], {}
@@ -285,7 +286,7 @@ class Gantries(Plant[GantryMemory]):
 
     def _plan(self) -> None:
         """Combine the fields of all motors in one table, which begins at the present physics step."""
-        self._first = self._step
+        self._first, self._row = self._step, -1
         left = [(field, min(self._step - field.first, len(field.places) - 1)) for field in self._fields]
         rows = max(len(field.places) - gone for field, gone in left)
         self._whole, rows = rows <= _AHEAD, min(rows, _AHEAD)
@@ -320,16 +321,21 @@ class Gantries(Plant[GantryMemory]):
         return pull_out(speeds) * self._pull
 
     def _sense(self) -> Array:
-        """Return the values that are compared with the limits."""
-        return np.asarray(self._felt @ self.bench.data.sensordata + self._still)
+        """Return the values that are compared with the limits, in an array that is used again."""
+        np.matmul(self._felt, self.bench.data.sensordata, out=self._sensed)
+        self._sensed += self._still
+        return self._sensed
 
     def _draw(self) -> None:
         """Let the fields pull the rotors for one physics step."""
         if not self._whole and self._step - self._first > self._last:
             self._plan()
-        self._row = min(self._step - self._first, self._last)
-        self.bench.data.ctrl[: self._servos] = self._ctrl[self._row]
-        self.bench.model.actuator_forcerange[: self._n] = self._ranges[self._row]
+        row = min(self._step - self._first, self._last)
+        if row == self._row and not (self._strained or self._reduced):
+            return  # all fields stand still
+        self._row, self._reduced = row, self._strained
+        self.bench.data.ctrl[: self._servos] = self._ctrl[row]
+        self.bench.model.actuator_forcerange[: self._n] = self._ranges[row]
         if self._strained:
             self.bench.model.actuator_forcerange[: self._n] *= np.array(self.memory.holds)[:, np.newaxis]
 
@@ -337,7 +343,7 @@ class Gantries(Plant[GantryMemory]):
         """Detect what a physics step has changed."""
         sensed = self._sense()
         self._step += 1
-        np.maximum(self._peaks, np.abs(sensed[: self._n]), out=self._peaks)
+        np.maximum(self._peaks, sensed[: 2 * self._n], out=self._peaks)
         levels = (sensed > self._limits[self._row]).tobytes()
         if levels != self._known or self._strained:
             self._change(levels, sensed)
