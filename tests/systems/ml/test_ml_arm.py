@@ -202,3 +202,40 @@ def test_the_range_finder_shows_the_nearest_object_in_its_cone() -> None:
     arm.go(m4=6000)
     arm.cycles(5)
     assert arm.level.reading(8) == pytest.approx(below / 1e-4, abs=60)
+
+
+def post(spec: mujoco.MjSpec) -> None:
+    """A post of 50 cm beside the table, where the cross rail passes."""
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.01, 0.01, 0.25], pos=[0.25, 0.035, 0.25])
+
+
+@pytest.mark.ml_row(51)
+@pytest.mark.slow
+def test_with_another_angle_of_the_base_the_hand_comes_to_the_same_pose_past_a_post() -> None:
+    """The nine motors leave a choice: the base and the slides together, or the slides alone."""
+    poses = []
+    for goals in ({1: 0, 3: 0, 4: -3000, 8: 0}, {1: 2500, 3: -1314, 4: 8928, 8: -2500}):
+        arm = Arm(add=post, at={2: -9000})
+        arm.go(**{f"m{motor}": goal for motor, goal in goals.items()})
+        assert arm.truth(2) == pytest.approx(-9000, abs=6)
+        ended = arm.go(m2=5000)
+        poses.append((ended, arm.data.body("hand").xmat.copy(), arm.tip()))
+    assert [ended for ended, _, _ in poses] == ["emergency", "goal"]  # the rail stands on the post
+    assert poses[1][2] == pytest.approx([-3000 * UNIT, 0, 0.25 - 5000 * UNIT], abs=2e-4)
+    assert poses[1][1] == pytest.approx(np.eye(3).ravel(), abs=1e-3)
+
+
+def test_the_slides_have_force_to_spare_in_free_air() -> None:
+    arm, most = Arm(), {"z": 0.0, "y": 0.0, "x": 0.0}
+
+    def look() -> None:
+        for name in most:
+            most[name] = max(most[name], abs(float(arm.data.actuator(name).force[0])))
+
+    arm.station.bench.after_step.append(look)
+    arm.level.start({2: 1000, 3: 1000, 4: 1000})
+    arm.cycles(8)
+    arm.level.expect(8, 0, 1)  # a freeze at full speed
+    arm.cycles(20)
+    limits = {axis.name: axis.force for axis in AXES}
+    assert all(force < (limits[name] or 0) * 2 / 3 for name, force in most.items()), most

@@ -141,10 +141,10 @@ def test_the_return_of_a_subroutine_by_bal_is_followed() -> None:
 
 def test_the_lint_follows_the_law_of_the_jolt() -> None:
     text = "10 SENSOR 7 -300 300\n20 PUT MT 2 8 {}\n30 DMOTOR 2 500\n40 STOP"
-    assert codes(text.format(21)) == []
-    assert codes(text.format(22)) == ["too-fast"]
-    source = Source(name="t.ml", text=text.format(22))
-    assert "`PUT MT 2 8 21`" in render(checked(source)[1][0], source)
+    assert codes(text.format(29)) == []
+    assert codes(text.format(30)) == ["too-fast"]
+    source = Source(name="t.ml", text=text.format(30))
+    assert "`PUT MT 2 8 29`" in render(checked(source)[1][0], source)
 
 
 @pytest.mark.parametrize(

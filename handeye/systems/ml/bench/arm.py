@@ -26,10 +26,8 @@ from handeye.systems.ml.bench.world import ArmWorld
 from handeye.systems.ml.machine.rectilinear import INTERLOCKS, RIGHT, axes_of
 from handeye.systems.ml.machine.spec import CYCLE, GRAM_FORCE
 
-_GRIP: Final = 90.0  # N, of the fingers
-AXES: Final = tuple(
-    replace(axis, force=_GRIP) if axis.name == "separation" else axis for axis in axes_of(RIGHT)
-)
+_FORCES: Final = {"base": 3000.0, "z": 2500.0, "y": 1600.0, "x": 1000.0, "separation": 90.0}  # N and N m
+AXES: Final = tuple(replace(axis, force=_FORCES.get(axis.name)) for axis in axes_of(RIGHT))
 WAND: Final = Channel(name="wand")
 STRAINS: Final = tuple(Channel(name=f"{side}_strain", unit="N", width=3) for side in ("left", "right"))
 RANGE: Final = Channel(name="range", unit="m")
