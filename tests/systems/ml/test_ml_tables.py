@@ -11,6 +11,7 @@ from handeye.systems.ml.errors import MlError
 from handeye.systems.ml.language.commands import COMMANDS
 from handeye.systems.ml.realtime.happenings import TableWritten
 from handeye.systems.ml.tables.layout import SHAPES
+from handeye.systems.ml.tables.records import EmergencyLine, InterlockLine
 from handeye.systems.ml.tables.store import ArmMemory
 
 WRITABLE = [
@@ -186,8 +187,8 @@ def test_a_saved_state_of_other_sizes_or_with_impossible_words_is_refused() -> N
     wrong = [copied(level.memory) for _ in range(4)]
     wrong[0].AI.append(0)
     wrong[1].AR[0].posted = 9
-    wrong[2].EM[0].cause = 99
-    wrong[3].SF[0].word = 0
+    wrong[2].EM[0] = EmergencyLine(cause=99)
+    wrong[3].SF[0] = InterlockLine(word=0)
     for memory in wrong:
         with pytest.raises(BadFile, match=r"^the saved state does not belong to this arm$"):
             level.remember(memory)

@@ -15,7 +15,7 @@ from handeye.program.events import SystemEvent
 from handeye.systems.ml.level import Side
 from handeye.systems.ml.machine.rectilinear import LEFT, RIGHT, axes_of
 from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND, ArmSpec
-from handeye.systems.ml.machine.surroundings import Point, Stimulus, inside
+from handeye.systems.ml.machine.surroundings import MOST, Point, Stimulus, inside
 from handeye.systems.ml.realtime.machine import Machine
 
 _SPECS: Final[Mapping[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
@@ -144,6 +144,7 @@ class PerfectArm(Axes, Outputs):
             not len(memory.q) == len(memory.goal) == count
             or {*memory.outputs} != {*self.memory.outputs}
             or not {*memory.switches} <= names
+            or not all(abs(value) < MOST for value in (*memory.q, *memory.goal, *memory.switches.values()))
         ):
             raise BadFile(f"the saved state does not belong to the {self.name} arm")
         put_back(self.memory, memory)

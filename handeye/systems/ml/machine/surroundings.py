@@ -8,6 +8,7 @@ import msgspec
 from handeye.core.record import Record
 
 Point = tuple[float, float]
+MOST: Final = 1e6  # of any unit
 MOST_STIMULI: Final = 1000
 MOST_CORNERS: Final = 1000
 
@@ -16,7 +17,7 @@ class Stimulus(Record, frozen=True, kw_only=True):
     """A value that a channel has during some cycles, or while a motor is beyond a place."""
 
     channel: str
-    value: float  # SI
+    value: Annotated[float, msgspec.Meta(ge=-MOST, le=MOST)]  # SI
     since: Annotated[int, msgspec.Meta(ge=0)] = 0  # first cycle
     until: int | None = None  # first cycle after it
     motor: int = 0  # 0: wherever the motors are

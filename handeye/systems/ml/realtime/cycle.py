@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
+from msgspec.structs import replace
 
 from handeye.core.mutable_records import put_back
 from handeye.ports.axes import Axes, Outputs
@@ -40,6 +41,7 @@ from handeye.systems.ml.tables.records import (
     EmergencyLine,
     ForceLine,
     GoalLine,
+    InterlockLine,
     MotorLine,
     SensorLine,
 )
@@ -75,7 +77,7 @@ class Cycles:
         for number, first in spec.sensors.items():
             put_back(memory.ST[number - 1], first)
         for number in range(len(spec.interlocks)):
-            memory.SF[number].mask = 1 << number
+            memory.SF[number] = InterlockLine(mask=1 << number)
         self.bind()
 
     def bind(self) -> None:
@@ -164,9 +166,11 @@ class Cycles:
 
     def check_interlocks(self) -> None:
         """Enter the state of the interlocks into SF."""
-        for lock in self._memory.SF:
-            lock.now = int(self._memory.PI[lock.word - 1] & lock.mask != 0)
-            lock.tripped |= lock.now
+        memory = self._memory
+        for n, lock in enumerate(memory.SF):
+            now = int(memory.PI[lock.word - 1] & lock.mask != 0)
+            if now != lock.now:
+                memory.SF[n] = replace(lock, now=now, tripped=lock.tripped | now)
 
     def check_goals(self) -> None:
         """Compare the positions with the strategic goals, and post the background level when all are reached."""

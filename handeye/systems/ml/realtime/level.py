@@ -3,6 +3,8 @@
 from collections.abc import Collection, Mapping, Sequence
 from typing import Final
 
+from msgspec.structs import replace
+
 from handeye.core.errors import BadFile
 from handeye.core.mutable_records import MutableRecord, put_back
 from handeye.systems.ml.errors import MlError
@@ -48,7 +50,7 @@ class RealTime(Cycles, Level):
     def write(self, table: str, line: int, word: int, value: int) -> None:
         was = self._tables.read(table, line, word)
         self._tables.write(table, line, word, value)
-        if table != "RG":  # the interpreter's own
+        if table not in ("RG", "VR"):  # which the interpreter writes
             self._told(TableWritten, table=table, line=line, word=word, was=was, value=value)
 
     def view(self, table: str, contents: View) -> None:
@@ -168,9 +170,9 @@ class RealTime(Cycles, Level):
             raise MlError("M14", f"the pump stays off: {emergency_text(found, self.spec)}")
         self._power(on=True)
         self._freeze()
-        for lock in self._memory.SF:
-            lock.tripped = 0
-        self._memory.EM[0].persists = 0
+        memory = self._memory
+        memory.SF[:] = [replace(lock, tripped=0) for lock in memory.SF]
+        memory.EM[0] = replace(memory.EM[0], persists=0)
         self._told(PumpSwitched, on=True)
 
     def disable(self) -> None:

@@ -1,5 +1,6 @@
 """The plan of an ML run: the text of the program, and the settings of the run."""
 
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -90,7 +91,7 @@ class MlListing:
 
     def step_of(self, number: int) -> int:
         """Return the step of a statement; of one that was stored during the run, the step before it."""
-        return max(sum(each <= number for each in self.numbered) - 1, 0)
+        return max(bisect_right(self.steps, number, key=lambda step: step.line) - 1, 0)
 
 
 @lru_cache(maxsize=8)

@@ -376,4 +376,4 @@ class RunningMl(RunningSystem):
         elif number != int(number) or not LOWEST <= number <= HIGHEST:
             raise Refused(f"{number:g} is not an integer of 16 bits")
         else:
-            self.machine.memory.shared.VR[int(name) - 1] = int(number)
+            self.machine.levels["right"].write("VR", int(name), 1, int(number))

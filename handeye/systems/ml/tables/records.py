@@ -1,10 +1,13 @@
-"""The lines of the tables whose words have names. A field is a word, in the order of the table."""
+"""The lines of the tables whose words have names. A field is a word, in the order of the table. Lines that change in
+every cycle are mutable; the others are replaced, so that saved states can share them.
+"""
 
 from typing import Annotated, Final
 
 import msgspec
 
 from handeye.core.mutable_records import MutableRecord
+from handeye.core.record import Record
 from handeye.systems.ml.arithmetic import HIGHEST, LOWEST
 
 Word = Annotated[int, msgspec.Meta(ge=LOWEST, le=HIGHEST)]
@@ -65,7 +68,7 @@ class SensorLine(MutableRecord):
     spare: Word = 0
 
 
-class ForceLine(MutableRecord):
+class ForceLine(Record, frozen=True):
     """A line of FE: a force event, in which all motors were frozen. The latest is in line 1."""
 
     cycle: Word = 0  # low and high word
@@ -86,7 +89,7 @@ class ForceLine(MutableRecord):
     m12: Word = 0
 
 
-class GoalLine(MutableRecord):
+class GoalLine(Record, frozen=True):
     """A line of GO: a motion that has reached its goal. The latest is in line 1."""
 
     cycle: Word = 0
@@ -95,7 +98,7 @@ class GoalLine(MutableRecord):
     cycles: Word = 0  # that the motion took
 
 
-class EmergencyLine(MutableRecord):
+class EmergencyLine(Record, frozen=True):
     """The line of EM: the latest emergency."""
 
     cause: Word = 0  # number in `CAUSES`; 0: there was none
@@ -130,7 +133,7 @@ class ArmLine(MutableRecord):
     still: Word = 0  # cycles of it in which no tactical goal advanced
 
 
-class InterlockLine(MutableRecord):
+class InterlockLine(Record, frozen=True):
     """A line of SF: a bit of a process-interrupt word that stops the arm."""
 
     word: Word = 1  # of PI
@@ -139,14 +142,14 @@ class InterlockLine(MutableRecord):
     tripped: Word = 0  # 1: it has said so since ENABLE
 
 
-class SpaceLine(MutableRecord):
+class SpaceLine(Record, frozen=True):
     """A line of WS: the work space of a motor, within its travel."""
 
     lower: Word = LOWEST
     upper: Word = HIGHEST
 
 
-class FrameLine(MutableRecord):
+class FrameLine(Record, frozen=True):
     """A line of PF: a page frame in main memory."""
 
     table: Word = 0  # name of the external table; 0: the frame is free

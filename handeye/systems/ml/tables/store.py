@@ -1,12 +1,15 @@
 """Stores the tables of an arm, and those that both arms have in common."""
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
+import msgspec
 from msgspec import field
+from msgspec.structs import replace
 
 from handeye.core.mutable_records import MutableRecord
-from handeye.systems.ml.arithmetic import fits, wrap
+from handeye.core.record import Record
+from handeye.systems.ml.arithmetic import HIGHEST, LOWEST, fits, wrap
 from handeye.systems.ml.errors import MlError
 from handeye.systems.ml.level import Shape, View
 from handeye.systems.ml.tables.layout import (
@@ -45,11 +48,14 @@ _BY_PROGRAMS: Final[Mapping[str, tuple[str, ...]]] = {
 """Words of a table that a program can write; in other tables, all. Nothing written stops an emergency."""
 
 
+Fine = Annotated[int, msgspec.Meta(ge=100 * LOWEST, le=100 * HIGHEST)]  # hundredths of a unit
+
+
 def _zeros(count: int) -> Any:
     return field(default_factory=lambda: [0] * count)
 
 
-def _lines(kind: type[MutableRecord], count: int) -> Any:
+def _lines(kind: type[MutableRecord | Record], count: int) -> Any:
     return field(default_factory=lambda: [kind() for _ in range(count)])
 
 
@@ -59,7 +65,7 @@ class SharedMemory(MutableRecord, kw_only=True):
     TM: list[Word] = _zeros(TIMERS)
     JY: list[Word] = _zeros(MOTORS * 2)
     FK: list[Word] = _zeros(16)
-    VR: list[Word] = _zeros(256)
+    VR: tuple[Word, ...] = (0,) * 256  # replaced as a whole, so that saved states can share it
     PF: list[FrameLine] = _lines(FrameLine, FRAMES)
     HL: list[Word] = _zeros(3)
     MX: list[Word] = _zeros(16)
@@ -69,7 +75,7 @@ class SharedMemory(MutableRecord, kw_only=True):
 class ArmMemory(MutableRecord, kw_only=True):
     """The complete state of the real-time level of an arm: its tables, and what no table shows."""
 
-    now: int = 0  # cycles since the beginning
+    now: Annotated[int, msgspec.Meta(ge=0, le=10**12)] = 0  # cycles since the beginning
     MT: list[MotorLine] = _lines(MotorLine, MOTORS)
     ST: list[SensorLine] = _lines(SensorLine, SENSORS)
     AI: list[Word] = _zeros(ANALOG_INPUTS)
@@ -86,9 +92,9 @@ class ArmMemory(MutableRecord, kw_only=True):
     SF: list[InterlockLine] = _lines(InterlockLine, INTERLOCKS)
     WS: list[SpaceLine] = _lines(SpaceLine, MOTORS)
     CA: list[Word] = _zeros(SENSORS * RECENT)
-    fine: list[int] = _zeros(MOTORS)  # set-points, hundredths of a unit
-    pace: list[int] = _zeros(MOTORS)
-    """Greatest advances of the set-points in the motion under way, hundredths of a unit a cycle; 0: the motor's."""
+    fine: list[Fine] = _zeros(MOTORS)  # set-points
+    pace: list[Fine] = _zeros(MOTORS)
+    """Greatest advances of the set-points in the motion under way, in a cycle; 0: the motor's."""
     tools: Word = 0  # the outputs of tools as they are
 
 
@@ -114,7 +120,7 @@ class Tables:
             return int(store.get((line - 1) * shape.words + word - 1, 0))
         if store is None:
             return 0
-        if store and isinstance(store[0], MutableRecord):
+        if store and isinstance(store[0], MutableRecord | Record):
             return int(getattr(store[line - 1], shape.names[word - 1]))
         return int(store[(line - 1) * shape.words + word - 1])
 
@@ -132,6 +138,10 @@ class Tables:
             raise MlError("M11", f"word {word} of {table} cannot be written")
         if store and not isinstance(store, dict) and isinstance(store[0], MutableRecord):
             setattr(store[line - 1], name, value)
+        elif store and not isinstance(store, dict) and isinstance(store[0], Record):
+            store[line - 1] = replace(store[line - 1], **{name: value})
+        elif isinstance(store, tuple):
+            setattr(self._shared, table, (*store[: line - 1], value, *store[line:]))
         else:
             store[(line - 1) * shape.words + word - 1] = value
 
@@ -156,10 +166,8 @@ class Tables:
 
     def _page_in(self, table: str, page: int) -> None:
         """Have a page of an external table in a frame, in place of the page that was used least recently."""
-        frames, name = self._shared.PF, word_of(table)
-        found = next((frame for frame in frames if (frame.table, frame.page) == (name, page)), None)
-        if found is None:
-            free = [frame for frame in frames if not frame.table]
-            found = free[0] if free else max(frames, key=lambda frame: wrap(self._arm.now - frame.used))
-            found.table, found.page = name, page
-        found.used = wrap(self._arm.now)
+        frames, name, now = self._shared.PF, word_of(table), self._arm.now
+        there = [n for n, frame in enumerate(frames) if (frame.table, frame.page) == (name, page)]
+        free = [n for n, frame in enumerate(frames) if not frame.table]
+        oldest = max(range(len(frames)), key=lambda n: wrap(now - frames[n].used))
+        frames[[*there, *free, oldest][0]] = FrameLine(table=name, page=page, used=wrap(now))
