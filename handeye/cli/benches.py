@@ -106,7 +106,7 @@ def insertion(
         cases,
         head_of(INSERTION, world, camera="ray"),
         options,
-        title=f"Insertion bench. Worlds from {seed} on; {PROGRAMS[search]}.",
+        title=f"insertion bench with {PROGRAMS[search]}, in worlds from seed {seed} on",
     )
 
 

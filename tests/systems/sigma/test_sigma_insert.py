@@ -63,7 +63,7 @@ def test_pegs_are_drawn_turned_and_plates_up_to_3_mm_beside_their_places() -> No
     ]
     assert 0.9 * OFF < max(off) <= OFF + 0.01
     assert 0.9 * TURNED < max(abs(peg.turned) for peg in pegs) <= TURNED
-    with pytest.raises(BadArgument, match="an insertion has 1 to 4 pegs, not 5"):
+    with pytest.raises(BadArgument, match="an insertion must have 1 to 4 pegs, not 5"):
         drawn(GantryWorld(), 5)
 
 

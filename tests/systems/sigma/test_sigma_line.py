@@ -96,7 +96,7 @@ def test_pieces_are_drawn_in_the_cells_of_the_tray() -> None:
     pieces = drawn(GantryWorld(WORLD), MOST)
     assert [round((65 - p.x) / 60) + 2 * round((215 - p.y) / 60) for p in pieces] == [0, 1, 2, 3]
     assert [piece.goal[0] for piece in pieces] == [1430, 1360, 1290, 1220]
-    with pytest.raises(BadArgument, match="the feeder has 1 to 4 pieces, not 5"):
+    with pytest.raises(BadArgument, match="the feeder must have 1 to 4 pieces, not 5"):
         drawn(GantryWorld(), 5)
 
 

@@ -56,7 +56,7 @@ def test_parts_are_drawn_near_their_places_and_a_plan_keeps_their_job() -> None:
         assert (pump.screws, len(pump.phases)) == (MOST, MOST)
         assert max(abs(pump.nest.x - NEST.x), abs(pump.nest.y - NEST.y)) <= 0.5
     assert drawn(GantryWorld(), 1).nest == NEST
-    with pytest.raises(BadArgument, match="the plate of the pump has 1 to 6 screws, not 7"):
+    with pytest.raises(BadArgument, match="the plate of the pump must have 1 to 6 screws, not 7"):
         drawn(GantryWorld(), 7)
     plan = job_plan("prco", 2)
     assert (decode(encode(plan), "kept"), plan.task) == (plan, "prco")

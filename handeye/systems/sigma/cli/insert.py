@@ -52,7 +52,7 @@ def insert(
 
 def _check_pegs(pegs: int) -> None:
     if not 1 <= pegs <= USUAL:
-        raise BadArgument(f"an insertion has 1 to {USUAL} pegs, not {pegs}")
+        raise BadArgument(f"an insertion must have 1 to {USUAL} pegs, not {pegs}")
 
 
 def insert_trials(

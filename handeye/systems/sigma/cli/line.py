@@ -50,7 +50,7 @@ def line(
 
 def _check_pieces(pieces: int) -> None:
     if not 1 <= pieces <= USUAL:
-        raise BadArgument(f"the feeder has 1 to {USUAL} pieces, not {pieces}")
+        raise BadArgument(f"the feeder must have 1 to {USUAL} pieces, not {pieces}")
 
 
 def line_trials(

@@ -18,7 +18,7 @@ from handeye.systems.sigma.cli.jobs import (
 )
 
 Program = Annotated[
-    Path | None, Parameter(help="A program in MAL for the same board, `.mal`, instead of the one of handeye.")
+    Path | None, Parameter(help="A program in MAL for the same board, `.mal`, instead of handeye's program.")
 ]
 
 

@@ -52,7 +52,7 @@ def rack_y(number: int) -> float:
 def drawn(world: GantryWorld, count: int) -> tuple[Peg, ...]:
     """Return the pegs of a world, with their plates. Raises BadArgument if there are too many."""
     if not 1 <= count <= MOST:
-        raise BadArgument(f"an insertion has 1 to {MOST} pegs, not {count}")
+        raise BadArgument(f"an insertion must have 1 to {MOST} pegs, not {count}")
     numbers, pegs = world.numbers("insert"), list[Peg]()
     for number in range(1, count + 1):
         name = f"peg_{number}"

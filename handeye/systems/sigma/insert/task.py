@@ -55,7 +55,7 @@ class Insertion(JobTask):
         counted = 0 if watched.counted is None else watched.counted
         return {
             "at_depth": at_most(
-                max(proud), PROUD, "mm", "greatest height of a peg over the floor of its hole"
+                max(proud), PROUD, "mm", "greatest height of a peg above the floor of its hole"
             ),
             "in_the_hole": at_most(
                 max(beside), _IN_HOLE, "mm", "greatest distance of a peg from the middle of its hole"

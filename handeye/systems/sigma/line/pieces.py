@@ -60,7 +60,7 @@ def drawn(world: GantryWorld, count: int) -> tuple[LinePiece, ...]:
     """Return the pieces of a world, which fill the cells of the tray in order. Raises BadArgument if there are too
     many."""
     if not 1 <= count <= MOST:
-        raise BadArgument(f"the feeder has 1 to {MOST} pieces, not {count}")
+        raise BadArgument(f"the feeder must have 1 to {MOST} pieces, not {count}")
     numbers, pieces = world.numbers("line"), list[LinePiece]()
     first = [
         (middle + SWITCHED_ON_AT * STEP + world.normal(f"{SWITCHES}.{axis}", SWITCHES)) / MILLIMETRE

@@ -103,7 +103,7 @@ class Pump(Record, frozen=True, kw_only=True):
 def drawn(world: GantryWorld, screws: int) -> Pump:
     """Return the parts of a world. Raises BadArgument if the number of screws is impossible."""
     if not 1 <= screws <= MOST:
-        raise BadArgument(f"the plate of the pump has 1 to {MOST} screws, not {screws}")
+        raise BadArgument(f"the plate of the pump must have 1 to {MOST} screws, not {screws}")
 
     def fixture(name: str, at: Place) -> Place:
         x, y = (1000 * world.normal(f"{name}.{axis}", FIXTURES) for axis in "xy")

@@ -44,7 +44,7 @@ class HandDriver(Mechanism[DriverState]):
 
     def check(self, state: DriverState) -> None:
         if not 0 <= state.value <= 0xFFFF:
-            raise BadFile("the screwdriver cannot be set to such a value")
+            raise BadFile("the setting of the screwdriver is impossible")
 
     def restore(self, state: DriverState) -> None:
         self._state = state

@@ -79,7 +79,7 @@ class Plate(JobTask):
                 wrong,
                 0,
                 "parts",
-                "difference between the program's counts and the pins and screws that are right",
+                "difference between the program's counts and the pins and screws in place",
             ),
             "apart": at_most(watched.touched_ms, 0, "ms", "time for which the arms touched each other"),
         }

@@ -43,4 +43,4 @@ class PumpWitness(Witness[WatchedPump]):
     def check(self, state: WatchedPump) -> None:
         super().check(state)
         if state.touched_ms < 0:
-            raise BadFile("the arms cannot have touched for less than no time")
+            raise BadFile("the time for which the arms touched cannot be negative")

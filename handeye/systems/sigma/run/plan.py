@@ -119,7 +119,7 @@ def decode(data: bytes, name: str) -> MalPlan:
     try:
         plan = msgspec.json.decode(data, type=MalPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{name} is not sound: {error}") from None
+        raise BadFile(f"{name} is not a valid plan: {error}") from None
     sound(plan)
     return plan
 
