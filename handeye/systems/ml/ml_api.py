@@ -19,10 +19,8 @@ class Ml:
     cycle of 10 ms.
 
     >>> ml = handeye.Ml()
-    >>> ml.do("MOTOR 3 2000")
-    >>> ml.do("GETPOS 1 3")
-    >>> ml.do("PRINT &1"), ml.time
-    (['2000'], 0.27)
+    >>> ml.do("MOTOR 3 2000"), ml.do("GETPOS 1 3"), ml.do("PRINT &1")
+    ([], [], ['2000'])
     """
 
     def __init__(

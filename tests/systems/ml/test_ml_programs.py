@@ -330,3 +330,10 @@ def test_errors_trace_session_and_host_are_in_tables() -> None:
         assert b"".join(word.to_bytes(2, "big") for word in words).rstrip(b"\0 ") == text.encode()
     assert [ml.read("HL", 1, word) for word in (1, 2, 3)] == [1, 1, 0]
     assert failing("PUT LG 1 1 5", ml) == "M11"
+
+
+def test_a_statement_in_place_of_a_point_has_no_positions() -> None:
+    ml = Ml("5 POINT * 1 2 3 4 0 0 0 8 9 10 11 12\n5 STOP")
+    assert ml.listing == ["5 STOP"]
+    ml.do("5 POINT")
+    assert ml.listing == ["5 POINT"]
