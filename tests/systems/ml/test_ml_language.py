@@ -1,10 +1,11 @@
 """Lines of ML, their mistakes, and listings that can be read back."""
 
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
-from ml_bench import FOLLOWER, codes, messages, statements
+from ml_bench import FOLLOWER, PLANS, codes, messages, statements
 
 from handeye.core.codes import CODES as OTHER_CODES
 from handeye.core.diagnostics import render
@@ -122,6 +123,21 @@ def test_the_follower_has_one_unguarded_motion() -> None:
     found = checked(source)[1]
     assert [each.code for each in found] == ["unguarded-motion"]
     assert source.text[found[0].primary.span.start :].startswith("DMOVE 0 0 - & 1 - & 2")
+
+
+@pytest.mark.parametrize("file", sorted(PLANS.glob("*.ml")), ids=lambda file: file.stem)
+def test_our_programs_have_no_errors(file: Path) -> None:
+    found = checked(Source(name=file.name, text=file.read_text(encoding="utf-8")))[1]
+    assert [each.message for each in found if each.severity == "error"] == []
+
+
+def test_motions_without_a_guard_are_reported_together_and_fingers_are_not() -> None:
+    free = "10 HAND 500\n20 DMOTOR 3 5\n30 DMOTOR 3 5\n40 DMOTOR 3 5\n"
+    text = f"{free}50 SENSOR 8 1 9\n60 DMOTOR 3 5\n70 SENSOR\n80 DMOTOR 3 5"
+    assert messages(text) == [
+        "no sensor is guarded during this motion and the 2 motions after it",
+        "no sensor is guarded during this motion",
+    ]
 
 
 def test_a_motion_after_a_branch_on_a_flag_is_found_along_any_path() -> None:

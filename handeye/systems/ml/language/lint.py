@@ -6,10 +6,12 @@ be on.
 """
 
 from collections.abc import Iterator, Mapping
+from itertools import groupby
 from math import sqrt
 from typing import Final, NamedTuple
 
 from handeye.core.diagnostics import Diagnostic
+from handeye.core.plain_text import counted
 from handeye.systems.ml.language.codes import mistake
 from handeye.systems.ml.language.commands import MOTIONS
 from handeye.systems.ml.language.flow import Flow
@@ -53,18 +55,11 @@ def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
     """Yield the warnings for a program."""
     flow = Flow({number: line.statement for number, line in lines.items()})
     known = watched(flow)
-    motions = [number for number in known if lines[number].statement.code in MOTIONS - {"JOY"}]
-    guarding = any(each.statement.code in ("SENSOR", "WAND") for each in lines.values())
+    motions = sorted(number for number in known if lines[number].statement.code in MOTIONS - {"JOY"})
+    yield from _unguarded(lines, known, motions)
     jolts: set[str] = set()
-    for number in sorted(motions):
+    for number in motions:
         line, watch = lines[number], known[number]
-        if not watch.guarded:
-            told = "no sensor is guarded during this motion"
-            yield mistake(
-                "unguarded-motion", told if guarding else f"{told}, nor during any other", line.spans[0]
-            )
-            if not guarding:
-                return
         if watch.on:
             names = " or ".join(map(str, sorted(watch.on - {ANY}))) or "a sensor"
             which = f"sensor {names}" if watch.on - {ANY} else names
@@ -74,6 +69,20 @@ def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
             if jolt.message not in jolts:  # a limit is reported at the first motion that it makes too fast
                 jolts.add(jolt.message)
                 yield jolt
+
+
+def _unguarded(
+    lines: Mapping[int, Line], known: Mapping[int, Watch], motions: list[int]
+) -> Iterator[Diagnostic]:
+    """Warn of motions of the arm without a guard. Of motions that follow each other, the first one is marked."""
+    of_the_arm = [number for number in motions if lines[number].statement.code not in ("HAND", "DHAND")]
+    for guarded, group in groupby(of_the_arm, key=lambda number: bool(known[number].guarded)):
+        if not guarded:
+            first, *others = group
+            after = counted(len(others), "motion") if len(others) > 1 else "motion"
+            more = f" and the {after} after it" if others else ""
+            told = f"no sensor is guarded during this motion{more}"
+            yield mistake("unguarded-motion", told, lines[first].spans[0])
 
 
 def watched(flow: Flow) -> dict[int, Watch]:
