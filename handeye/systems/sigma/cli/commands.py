@@ -27,6 +27,8 @@ from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
 from handeye.systems.sigma.cli.axis import axis
+from handeye.systems.sigma.cli.borrow import borrow
+from handeye.systems.sigma.cli.bridge import bridge
 from handeye.systems.sigma.cli.bus import bus
 from handeye.systems.sigma.cli.chess import chess
 from handeye.systems.sigma.cli.crash import crash
@@ -256,6 +258,8 @@ _COMMANDS: Final = (
     insert,
     prco,
     line,
+    bridge,
+    borrow,
     moves,
     table1,
     diagnose,

@@ -1,0 +1,44 @@
+"""MAL as a language of planned programs, for the planner."""
+
+from collections.abc import Iterable
+from functools import partial
+
+from handeye.core.diagnostics import Diagnostic, arranged, problem
+from handeye.core.source import Span, read_source
+from handeye.program.diagnosis.plan_findings import NoConfiguration, PlanFinding
+from handeye.program.diagnosis.reach import NamedArm, reach_sentence
+from handeye.program.language import Language
+from handeye.program.program import Program
+from handeye.systems.sigma.bridge.translation import AT, LANGUAGE, translated
+
+_SAID = {
+    "hand-through-table": "the hand would go through the table",
+    "hand-through-fixture": "the hand would go through a fixture",
+    "carries-through-table": "what the hand holds would go through the table",
+    "carries-through-fixture": "what the hand holds would go through a fixture",
+    "stop-beyond-arm": "the arm cannot exert the force of this limit",
+    "force-beyond-arm": "the arm cannot exert this force",
+    "faint-force": "the arm may feel this force in free motion, from the friction of its joints",
+    "faint-moment": "the arm may feel this moment in free motion, from the friction of its joints",
+}
+
+
+def bridge(at: tuple[float, float] = AT) -> Language:
+    """Return the language of programs for a board whose corner is at `at` on the table, mm."""
+    return Language(name=LANGUAGE, read=read_source, compile=partial(translated, at=at), phrase=phrase)
+
+
+def phrase(program: Program, arm: NamedArm, findings: Iterable[PlanFinding]) -> list[Diagnostic]:
+    """Make diagnostics from the findings of the planner, at their lines."""
+    return arranged(_phrased(program, arm, finding) for finding in findings)
+
+
+def _phrased(program: Program, arm: NamedArm, finding: PlanFinding) -> Diagnostic:
+    step = program.steps[finding.step]
+    span: Span = program.whole.span("", step.line, step.span)
+    number = step.text.split()[0]
+    if isinstance(finding, NoConfiguration):
+        told = f"the {arm.name} arm cannot make the motion of line {number}: {reach_sentence(arm, finding.reason)}"
+    else:
+        told = f"line {number}: {_SAID.get(finding.code, finding.code)}"
+    return problem(finding.code, told, span)

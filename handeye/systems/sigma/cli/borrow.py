@@ -1,0 +1,67 @@
+"""The command that runs a MAL program with the Stanford arm in place of SUPERSIGMA's."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Json, WholeNumber, note, say
+
+MalFile = Annotated[Path, Parameter(help="A program in MAL for arm 1, `.mal`.")]
+
+
+def borrow(
+    file: MalFile,
+    /,
+    *,
+    at: Annotated[
+        tuple[float, float] | None,
+        Parameter(help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres."),
+    ] = None,
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: it decides the errors of the arm.")] = 0,
+    json: Json = False,
+) -> int:
+    """Run a MAL program with the Stanford arm in place of arm 1: its axes are those of the tool, and there is no bus.
+
+    The arm moves over the table of the water-pump cell. It moves at up to 150 mm/s. Without LIMIT, no force stops it;
+    after LIMIT, a force stops it within a servo period of 1/60 s. Programs that use arm 2, a light beam or another
+    device than HAND1 are refused. The run is not kept.
+
+    Exit code 0: all tasks have ended; 1: the program stopped before; 2: bad input; 130: interrupted.
+    """
+    from handeye.cli.panic_button import PanicButton
+    from handeye.core.source import read_source
+    from handeye.execution.servo import Halted
+    from handeye.systems.sigma.bridge.borrowed_arm import borrowed
+    from handeye.systems.sigma.bridge.borrowed_run import SAID, check_program, lines, run_borrowed
+    from handeye.systems.sigma.bridge.translation import AT
+    from handeye.systems.sigma.cli.commands import Printer, reported
+    from handeye.systems.sigma.cli.studies import put_study
+    from handeye.systems.sigma.mal.check import checked
+    from handeye.systems.sigma.run.plan import MalPlan, sound
+
+    source = read_source(file)
+    if not reported(source):
+        return 2
+    plan = MalPlan(name=file.name, text=source.text)
+    sound(plan)
+    check_program(checked(source)[0])
+    put = note if json else say
+    put(SAID)
+    printer = Printer(put)
+    with PanicButton() as panic:
+
+        def poll() -> None:
+            if panic():
+                raise Halted
+
+        try:
+            found = run_borrowed(plan.program, borrowed(seed, at or AT, poll), printer.event, poll)
+        except Halted:
+            raise KeyboardInterrupt from None
+    if json:
+        put_study("borrow", found, completed=found.completed, message=found.message, seed=seed)
+    else:
+        for line in lines(found):
+            say(line)
+    return 0 if found.completed else 1

@@ -1,0 +1,61 @@
+"""The command of the bridge: a MAL program as a plan for another arm."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Overwrite, TaskWords, say, show
+
+MalFile = Annotated[Path, Parameter(help="A program in MAL with a single task, `.mal`.")]
+
+
+def bridge(
+    file: MalFile,
+    /,
+    *,
+    at: Annotated[
+        tuple[float, float] | None,
+        Parameter(help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres."),
+    ] = None,
+    task: TaskWords = None,
+    output: Annotated[Path | None, Parameter(name=["--out", "-o"])] = None,
+    overwrite: Overwrite = False,
+) -> int:
+    """Turn a MAL program of MOVE, LIMIT, FORCE tests and ACTUATE into a plan for the Stanford arm.
+
+    `handeye run` runs the plan. A program with a line that cannot become a motion is refused, and each such line is
+    named.
+
+    Exit code 0: written; 2: bad input, or a refused program.
+
+    Parameters
+    ----------
+    output
+        File for the plan. Default: next to the program, with the ending .plan.json. An earlier plan at the default
+        place is replaced; to replace another file, give --overwrite.
+    """
+    from handeye import tasks
+    from handeye.core.diagnostics import has_errors
+    from handeye.core.files import beside, check_place
+    from handeye.core.plain_text import counted
+    from handeye.core.source import read_source
+    from handeye.planfile.store import PLAN, write_plan
+    from handeye.program.taught import Taught
+    from handeye.runs.scripts import planned
+    from handeye.systems.sigma.bridge import language
+    from handeye.systems.sigma.bridge.translation import AT
+
+    source = read_source(file)
+    work = tasks.task() if task is None else tasks.planned(tasks.named(task))
+    made = planned(source, Taught(), work, language.bridge(at or AT))
+    show(made.diagnostics, source, json=False)
+    if made.plan is None or has_errors(made.diagnostics):
+        return 2
+    target = output or beside(file, ".plan.json")
+    check_place(target, PLAN, overwrite=overwrite or output is None)
+    write_plan(target, made.plan)
+    program = made.plan.program
+    told = ", ".join((counted(len(program.steps), "step"), counted(len(made.plan.motions), "motion")))
+    say(f"{target}: {told}; the plan has the motions of the arm, and no bus")
+    return 0
