@@ -11,6 +11,17 @@ import pytest
 ROOT: Final = Path(__file__).parents[3]
 PAGE: Final = ROOT / "docs/sigma_checks.md"
 ROWS: Final = 54
+MACHINES: Final = {
+    "- Perfect motors: ": ("machine", "interleavings", "language", "runs", "table1"),
+    "- The wires of the bus, with an ideal machine on which the test sets forces and beams: ": (
+        "bus", "bus_commands", "diagnosis", "line", "over_wires",
+    ),
+    "- Two gantries with physics, in worlds without errors and in random worlds: ": (
+        "chess", "gantries", "handover", "insert", "line", "prco",
+    ),
+    "- One motor whose rotor lags and may slip: ": ("motors",),
+}  # fmt: skip
+"""The machines on which tests run, as the page describes them, and the files of these tests."""
 _ROW: Final = re.compile(r"^\| (?P<number>\d+) \| (?P<statement>.*?) \|.*\|.*\|$")
 
 
@@ -23,10 +34,34 @@ def _marked() -> Iterator[tuple[int, str]]:
                     yield mark.args[0], f"`{file.relative_to(ROOT)}::{name}`"
 
 
+def _listed(numbers: set[int]) -> str:
+    """Numbers in words, such as `rows 1 to 3, 5 and 7`."""
+    spans = [[number] for number in sorted(numbers) if number - 1 not in numbers]
+    for span in spans:
+        while span[-1] + 1 in numbers:
+            span.append(span[-1] + 1)
+    words = [
+        word
+        for span in spans
+        for word in ([f"{span[0]} to {span[-1]}"] if len(span) > 2 else [*map(str, span)])
+    ]
+    return "rows " + (" and ".join((", ".join(words[:-1]), words[-1])) if len(words) > 1 else words[0])
+
+
+def _head(line: str, shown: dict[int, list[str]]) -> str:
+    """A line of the list of machines, with the rows that their tests show."""
+    begin = next((each for each in MACHINES if line.startswith(each)), None)
+    if begin is None:
+        return line
+    files = tuple(f"/test_sigma_{name}.py:" for name in MACHINES[begin])
+    here = {row for row, tests in shown.items() if any(file in test for file in files for test in tests)}
+    return f"{begin}{_listed(here)}."
+
+
 def _written(line: str, shown: dict[int, list[str]]) -> str:
     row = _ROW.match(line)
     if row is None:
-        return line
+        return _head(line, shown)
     tests = sorted(shown.get(int(row["number"]), []))
     state = "shown" if tests else "open"
     return f"| {row['number']} | {row['statement']} | {state} | {', '.join(tests)} |"
