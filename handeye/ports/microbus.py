@@ -58,6 +58,8 @@ class Command(Record, frozen=True, kw_only=True):
 class BusFault(HandeyeError):
     """Raised if the bus did not carry an answer according to the protocol."""
 
+    number: int  # of the microcomputer that was asked
+
 
 class NoAnswer(BusFault):
     """Raised if a microcomputer did not send its whole answer before the time limit."""

@@ -24,6 +24,7 @@ from handeye.systems.sigma.mal.memory import (
     TypedNumber,
     Waiting,
 )
+from handeye.systems.sigma.protocol import name_of
 
 DEEPEST_GOSUB: Final = 1000
 LONGEST_PRINTED: Final = 2000  # characters of a line
@@ -64,7 +65,9 @@ class Operations(BusOperations):
                     return calculated
         except (Trap, BusFault, InvalidInput, OverflowError) as error:
             number = self.program.line_of(began).number
-            self.memory.fault = Fault(kind="trap", task=name, address=began, told=f"line {number}: {error}")
+            whose = f" ({name_of(error.number)})" if isinstance(error, BusFault) else ""
+            told = f"line {number}: {error}{whose}"
+            self.memory.fault = Fault(kind="trap", task=name, address=began, told=told)
         return calculated
 
     # -- tasks ---------------------------------------------------------------------------------------------
