@@ -1,4 +1,4 @@
-"""What the sensors of perfect motors sense: stimuli that are told beforehand, and outlines that the wand touches."""
+"""What the sensors of perfect motors sense: stimuli that are given beforehand, and outlines that the wand touches."""
 
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Literal

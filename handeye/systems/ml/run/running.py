@@ -64,7 +64,7 @@ class RunningMl(RunningSystem):
         assert isinstance(setup.plan, MlPlan)
         self._setup, self._around, self._plan = setup, around, setup.plan
         self._listing = listing(setup.plan)
-        self._held: list[SystemEvent] | None = []  # events that are told later; None: they are told at once
+        self._held: list[SystemEvent] | None = []  # events that are emitted later; None: at once
         self._hardware = self._open()
         self.machine = self._hardware.machine
         self.program = StoredProgram()
