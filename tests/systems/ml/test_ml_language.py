@@ -40,7 +40,7 @@ def test_sequence_numbers_go_from_1_to_5000(text: str, expected: list[str]) -> N
 def test_a_line_has_as_many_parameters_as_its_command_allows() -> None:
     assert codes(f"10 PRINT{' 1' * 15}") == []
     assert codes(f"10 PRINT{' 1' * 16}") == ["M03"]
-    assert "M03" not in codes("10 MOVE 1 2 3 4 0 0 0 8 9 10 11 12")
+    assert codes("10 MOVE 1 2 3 4 0 0 0 8 9 10 11 12") == ["unguarded-motion"]
     assert codes(f"10 MOVE{' 1' * 13}") == ["M03"]
     assert codes("10 SENSOR 5 0") == ["M03"]
     assert messages("10 SENSOR 5 0") == ["SENSOR takes 0, 1 or 3 parameters, not 2"]
@@ -207,3 +207,17 @@ def test_a_mistake_is_described_in_a_sentence(text: str, message: str) -> None:
 def test_hostile_lines_get_one_sentence(text: str, code: str) -> None:
     assert codes(text) == [code]
     assert not re.search(r"\n.*\n", messages(text)[0])
+
+
+def test_a_return_goes_only_where_bal_has_called() -> None:
+    called = "10 SENSOR 8 1 9\n20 BAL 7 80\n30 DMOTOR 3 5\n40 STOP\n"
+    text = f"{called}50 SENSOR\n60 DMOTOR 3 5\n70 STOP\n80 PRINT 1\n90 BRANCH &7"
+    assert codes(text) == []
+
+
+def test_where_paths_meet_the_worse_one_counts() -> None:
+    assert codes("10 GT? &1 0\n20 BRCOMP 40\n30 SENSOR 8 1 9\n40 DMOTOR 3 5") == ["unguarded-motion"]
+    flags = "10 SENSOR 8 1 9\n20 DMOTOR 3 5\n30 BRANCH 40 50 8\n40 PRINT 1\n50 DMOTOR 3 5"
+    assert codes(flags) == ["flag-left-on"]
+    speeds = "10 SENSOR 7 -300 300\n20 BRCOMP 40\n30 PUT MT 2 8 10\n40 DMOTOR 2 5"
+    assert codes(speeds) == ["too-fast"]
