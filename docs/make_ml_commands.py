@@ -16,9 +16,9 @@ TITLES: Final = {
 HEAD: Final = """# The commands of ML
 
 A line consists of a sequence number from 1 to 5000, a command, and 0 to 15 parameters. A line with a sequence number
-is stored; a line without one is executed at once. A parameter is a number from -32768 to 32767, or a reference:
-`&17` is the value of variable 17, `&&17` the value of the variable whose number it holds, and `-&17` the opposite
-value. There are 256 variables, and up to six `&`. A line that begins with `*` is a remark.
+is stored; a line without a number is executed immediately. A parameter is a number from -32768 to 32767, or a
+reference: `&17` is the value of variable 17, `&&17` the value of the variable whose number it holds, and `-&17` the
+opposite value. There are 256 variables, and up to six `&`. A line that begins with `*` is a remark.
 
 In the forms below, you may leave out what is in `[ ]`, and `...` repeats the parameter before it. `n` is the number
 of a statement, `v` and `w` are numbers of variables, `m` is a motor, `s` a sensor, `t` a table; `x` and `y` are

@@ -9,7 +9,7 @@ MEANINGS: Final[dict[str, str]] = {
     "M02": "a sequence number is not between 1 and 5000",
     "M03": "a command has too few or too many parameters",
     "M04": "a number does not fit into 16 bits, or limits are in the wrong order",
-    "M05": "a variable has no number between 1 and 256",
+    "M05": "the number of a variable is not between 1 and 256",
     "M06": "a reference has more than six `&`",
     "M07": "a statement does not exist",
     "M08": "a point does not exist, or was never filled",
@@ -19,7 +19,7 @@ MEANINGS: Final[dict[str, str]] = {
     "M12": "an arm is not installed",
     "M13": "a loop ends, or a subroutine returns, that has not begun",
     "M14": "an emergency has stopped the arm",
-    "M15": "the pump is off, or is on where it must be off",
+    "M15": "the pump is off although it must be on, or on although it must be off",
     "M16": "there is no host",
 }
 

@@ -147,7 +147,7 @@ def test_a_square_without_a_touch_is_no_turn_and_many_of_them_are_a_lost_followe
     lost = walked("F", "LLLL" * IDLE)
     assert lost.lost
     assert not walked("F", "LLLL" * (IDLE - 1)).lost
-    assert "it has touched nothing in 40 squares" in lost.text
+    assert "the wand has touched nothing in 40 squares" in lost.text
     assert followed(replace(lost, missed=0, statements=LONGEST - 1), (0, 0), (0, 0), lost.noticed).lost
 
 
@@ -228,7 +228,7 @@ def test_a_follower_that_finds_its_wall_no_more_says_that_it_is_lost() -> None:
     tracker.felt = replace(tracker.felt, missed=ROUND * IDLE - 1, heading=(-1, 0))
     result = done(runner)
     assert (result.exit_code, result.completed) == (1, False)
-    assert result.message.startswith("the follower is lost: it has touched nothing in 40 squares")
+    assert result.message.startswith("the follower is lost: the wand has touched nothing in 40 squares")
 
 
 @pytest.mark.ml_row(38)

@@ -97,7 +97,7 @@ def test_without_an_object_it_advances_until_a_goal_is_outside_the_travel() -> N
     ml = Ml(program("curve_follower"))
     ml.do("MOVE 0 0 8000 0")
     ml.do("RUN")
-    assert ml.stopped.startswith("M10: motor 3 can go from -10039 to 10039, and not to -11000")
+    assert ml.stopped.startswith("M10: motor 3 can go from -10039 to 10039, not to -11000")
     assert (ml.position(3), ml.read("EM", 1, 3)) == (-10_000, 4)
 
 

@@ -58,7 +58,9 @@ def test_a_number_has_16_bits(value: int, expected: list[str]) -> None:
 def test_six_ampersands_are_accepted_and_seven_are_not() -> None:
     assert codes("10 PRINT &&&&&&17") == []
     assert codes("10 PRINT &&&&&&&17") == ["M06"]
-    with pytest.raises(InvalidInput, match=r"^M06: a reference has 6 `&` at most; this one has 7"):
+    with pytest.raises(
+        InvalidInput, match=r"^M06: a reference can have at most 6 `&`, but this reference has 7"
+    ):
         Ml().do("PRINT &&&&&&&17")
 
 
@@ -182,10 +184,10 @@ def test_completion_offers_what_fits(typed: str, wanted: str) -> None:
         ("250", "there is no command after the number 250"),
         ("10 LOAD 1 5 * FIVE", "LOAD takes 2 parameters, not 4"),
         ("10 LOAD 1 &*", "`&*` is neither a number nor a reference"),
-        ("5 POINT * 1 2", "a POINT has the positions of 12 motors, not of 2"),
+        ("5 POINT * 1 2", "a POINT must have the positions of 12 motors, not of 2"),
         ("10 SENSOR 5 4 4", "the lower limit, 4, must be below the upper limit, 4"),
-        ("10 LOAD 1 1\n10 LOAD 1 2", "there are two statements 10; the second replaces the first"),
-        ("10 QUERY MT 13", "there is no line 13 in this table; the last one is 12"),
+        ("10 LOAD 1 1\n10 LOAD 1 2", "two statements have the number 10; the second replaces the first"),
+        ("10 QUERY MT 13", "there is no line 13 in this table; the last line is 12"),
         ("MOTOR 3 200", "MOTOR has no sequence number, so it cannot be stored"),
     ],
 )

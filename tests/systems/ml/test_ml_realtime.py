@@ -248,10 +248,10 @@ def test_position_and_goal_differ_in_motion_and_agree_at_rest() -> None:
 
 def test_a_goal_outside_the_travel_or_the_work_space_moves_nothing() -> None:
     arm = rig()
-    with pytest.raises(MlError, match=r"^M10: motor 3 can go from -10039 to 10039, and not to 10040$"):
+    with pytest.raises(MlError, match=r"^M10: motor 3 can go from -10039 to 10039, not to 10040$"):
         arm.right.start({2: 100, 3: 10_040})
     arm.right.write("WS", 3, 2, 500)
-    with pytest.raises(MlError, match=r"^M10: motor 3 can go from -10039 to 500, and not to 501$"):
+    with pytest.raises(MlError, match=r"^M10: motor 3 can go from -10039 to 500, not to 501$"):
         arm.right.start({2: 100, 3: 501})
     assert arm.right.goal(2) == 0
 

@@ -156,7 +156,7 @@ def test_an_interlock_that_a_person_opens_stops_the_program_and_persists() -> No
     runner.answer("proceed")
     advance(runner)
     assert printed(runner) == ["1"]
-    with pytest.raises(Refused, match=r"^an interlock is 0 or 1, not 2$"):
+    with pytest.raises(Refused, match=r"^an interlock must be 0 or 1, not 2$"):
         runner.experiment("interlock", "panic", (2.0,))
 
 

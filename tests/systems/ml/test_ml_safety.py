@@ -161,7 +161,11 @@ def test_a_word_of_do_switches_a_tool_at_the_next_cycle() -> None:
 def test_outputs_are_tested_while_the_pump_is_off_only() -> None:
     arm = rig()
     for test in (lambda: arm.right.digital_out(1, 1, 1), lambda: arm.right.analog_out(2, 100)):
-        with pytest.raises(MlError, match=r"^M15: outputs can be tested while the pump is off; it is on$"):
+        with pytest.raises(
+            MlError,
+            match=r"^M15: outputs can be tested only while the pump is off, but the pump is "
+            "on$",
+        ):
             test()
     arm.right.disable()
     arm.right.digital_out(1, 5, 4)

@@ -51,9 +51,9 @@ def test_a_word_that_is_written_is_read_back(table: str, line: int, word: int) -
     [
         ("XX", 1, 1, "there is no table XX; there are MT, ST"),
         ("fine", 1, 1, "there is no table fine"),
-        ("MT", 13, 1, "MT has lines 1 to 12, and no line 13"),
-        ("MT", 0, 1, "MT has lines 1 to 12, and no line 0"),
-        ("ST", 5, 17, "a line of ST has words 1 to 16, and no word 17"),
+        ("MT", 13, 1, "there is no line 13 in MT; its lines are 1 to 12"),
+        ("MT", 0, 1, "there is no line 0 in MT; its lines are 1 to 12"),
+        ("ST", 5, 17, "there is no word 17 in a line of ST; the words are 1 to 16"),
     ],
 )
 def test_a_word_that_does_not_exist_is_refused(table: str, line: int, word: int, message: str) -> None:

@@ -230,5 +230,5 @@ class Interpreter:
 
 def _variable(number: int) -> int:
     if not 1 <= number <= VARIABLES:
-        raise MlError("M05", f"there is no variable {number}; they are numbered from 1 to {VARIABLES}")
+        raise MlError("M05", f"there is no variable {number}; variables are numbered from 1 to {VARIABLES}")
     return number

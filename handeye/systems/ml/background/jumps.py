@@ -22,7 +22,7 @@ def branch(mos: "Interpreter", yes: int, no: int | None = None, *sensors: int) -
     flags, last = mos.level.flags, mos.level.shapes["ST"].lines
     for sensor in sensors:
         if not 1 <= abs(sensor) <= last:
-            raise MlError("M11", f"there is no sensor {sensor}; the last one is {last}")
+            raise MlError("M11", f"there is no sensor {sensor}; the last sensor is {last}")
     met = any((abs(each) in flags) == (each > 0) for each in sensors) if sensors else bool(flags)
     mos.go(yes if met else no)
 
@@ -41,7 +41,7 @@ def branch_and_link(mos: "Interpreter", variable: int, target: int) -> None:
 def gosub(mos: "Interpreter", target: int) -> None:
     """Go to a subroutine. From a typed line, its RETURN ends the program."""
     if mos.memory.executing and mos.register(*LINK):
-        raise MlError("M13", "GOSUB is not allowed in a subroutine that GOSUB has called; BAL is")
+        raise MlError("M13", "GOSUB is not allowed in a subroutine that GOSUB has called; use BAL")
     back = mos.memory.at if mos.memory.executing else 0
     mos.go(target)
     mos.set_register(*LINK, back + 1)
@@ -117,7 +117,7 @@ def _by_indicator(indicator: tuple[int, int]) -> Callable[..., None]:
 
 def _stored(mos: "Interpreter", code: str) -> None:
     if not mos.memory.executing:
-        raise MlError("M13", f"{code} works in a stored program only")
+        raise MlError("M13", f"{code} works only in a stored program")
 
 
 def _after_end(mos: "Interpreter", code: str) -> int:

@@ -58,7 +58,8 @@ ARM: Final = (
         "mm",
         Noise(0.01),
         0.05,
-        "Standard deviation of the wand's deflection from which on it signals, which is .1 mm. No source: our choice.",
+        "Standard deviation of the deflection at which the wand signals a contact; the nominal deflection is .1 mm. "
+        "No source: our choice.",
     ),
     quantity(
         STIFFNESS,
@@ -100,7 +101,7 @@ ARM: Final = (
         "mm",
         Noise(1.0),
         50.0,
-        "Standard deviation of a range. The paper: accurate to about 2 mm.",
+        "Standard deviation of a measured range. The paper: accurate to about 2 mm.",
     ),
     quantity(
         CONE,

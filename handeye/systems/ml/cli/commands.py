@@ -35,7 +35,7 @@ def run(
     *,
     first: Annotated[
         WholeNumber | None,
-        Parameter(help="The statement at which the program begins. Default: the first one."),
+        Parameter(help="The statement at which the program begins. Default: the first statement."),
     ] = None,
     left: Annotated[
         WholeNumber | None,
@@ -127,7 +127,8 @@ def assemble(
     /,
     *,
     out: Annotated[
-        Path | None, Parameter(name=["--out", "-o"], help="The program in ML. Default: it is printed.")
+        Path | None,
+        Parameter(name=["--out", "-o"], help="File for the program in ML. Default: print the program."),
     ] = None,
     overwrite: Overwrite = False,
 ) -> int:
@@ -185,7 +186,9 @@ def console(
     *,
     left: Annotated[
         bool,
-        Parameter(help="Install a left arm, which LEFT and RIGHT choose. It is slower and has fewer motors."),
+        Parameter(
+            help="Install a left arm, which LEFT and RIGHT choose. The left arm is slower and has fewer motors."
+        ),
     ] = False,
 ) -> int:
     """Open the terminal of 1975: lines with a number are stored, and all others are executed at once. ENABLE switches

@@ -185,7 +185,8 @@ class Console:
                 if command.category == category:
                     self._say(f"  {command.form}")
         self._say(
-            "A line with a sequence number is stored; any other line is executed at once. Ctrl-C is the panic button."
+            "A line with a sequence number is stored; any other line is executed immediately. Ctrl-C is the panic "
+            "button."
         )
 
 

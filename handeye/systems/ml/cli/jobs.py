@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from handeye.trials.sweep import Sweep
 
 JobSeed = Annotated[
-    WholeNumber, Parameter(help="Seed of the world: it decides the errors of the arm, and where parts lie.")
+    WholeNumber,
+    Parameter(help="Seed of the world: it determines the errors of the arm, and where parts lie."),
 ]
 NumberOfWorlds = Annotated[
     WholeNumber, Parameter(name="--n", help="Number of worlds; world K has the seed --seed plus K.")

@@ -65,7 +65,7 @@ class Felt(Record, frozen=True, kw_only=True):
         if self.closed:
             return f"the circuit is closed: {felt}"
         why = (
-            f"it has touched nothing in {counted(self.missed // ROUND, 'square')}"
+            f"the wand has touched nothing in {counted(self.missed // ROUND, 'square')}"
             if self.missed >= ROUND * IDLE
             else f"the circuit is open after {counted(self.statements, 'statement')}"
         )

@@ -45,7 +45,7 @@ def judge(touches: Array, outline: Array, before: Array) -> Findings:
             "mm",
             "greatest distance of the outline from the nearest touch",
         ),
-        "turned": at_most(turning, 0, "", "difference of the turns around the plate from one turn"),
+        "turned": at_most(turning, 0, "", "difference between the number of turns around the plate and one"),
         "unmoved": at_most(moved, UNMOVED, "mm", "greatest displacement of the plate"),
     }
 

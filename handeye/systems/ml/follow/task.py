@@ -48,17 +48,22 @@ VARIATION: Final = Variation(
         "mm",
         Noise(1.0),
         10.0,
-        "Standard deviation of the plate's position along x and y. No source: our choice, as laid by hand.",
+        "Standard deviation of the plate's position along x and y. No source: our choice, for a plate laid by hand.",
     ),
     quantity(
         _TURNED,
         "deg",
         Noise(0.1),
         10.0,
-        "Standard deviation of the plate's rotation. No source: our choice, as laid along a line.",
+        "Standard deviation of the plate's rotation. No source: our choice, for a plate laid along a line.",
     ),
     quantity(
-        _FRICTION, "", Range(0.25, 0.45), 2.0, "Friction of plate and table. No source: our choice.", 0.35
+        _FRICTION,
+        "",
+        Range(0.25, 0.45),
+        2.0,
+        "Coefficient of friction between plate and table. No source: our choice.",
+        0.35,
     ),
 )
 
@@ -83,7 +88,7 @@ class Plate(Mechanism[Laid]):
 
     def check(self, state: Laid) -> None:
         if state != self.laid:
-            raise BadFile("another plate lay on its table")
+            raise BadFile("a different plate lay on its table")
 
     def restore(self, state: Laid) -> None:
         self.laid = state

@@ -82,7 +82,7 @@ class _Assembler:
             return
         self._number += STEP
         if self._number > LAST:
-            told = f"a program can have {LAST // STEP} statements at most"
+            told = f"a program can have at most {LAST // STEP} statements"
             raise _Mistaken(mistake("too-many-statements", told, Span(start=start, end=start + 1)))
         offset = 0
         if label := _LABEL.match(text):
@@ -94,13 +94,13 @@ class _Assembler:
 
     def _value(self, kind: str, value: str | None, span: Span) -> int:
         if (kind == "EQU") != (value is not None):
-            wants = "EQU takes one number" if kind == "EQU" else "VAR takes nothing"
+            wants = "EQU takes one number" if kind == "EQU" else "VAR takes no operand"
             raise _Mistaken(mistake("bad-definition", wants, span))
         if value is not None:
             return int(value)
         self._variables += 1
         if self._variables > VARIABLES:
-            raise _Mistaken(mistake("bad-definition", f"there are {VARIABLES} variables at most", span))
+            raise _Mistaken(mistake("bad-definition", f"there are at most {VARIABLES} variables", span))
         return self._variables
 
     def _define(self, name: str, value: int, span: Span) -> None:

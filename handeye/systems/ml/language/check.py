@@ -34,7 +34,7 @@ def checked(source: Source, *, two_arms: bool = False) -> tuple[dict[int, Line],
             continue
         if line.number in stored:
             first = Label(span=stored[line.number].span, text="the first")
-            told = f"there are two statements {line.number}; the second replaces the first"
+            told = f"two statements have the number {line.number}; the second replaces the first"
             found.append(mistake("line-replaced", told, line.span, first))
         stored[line.number] = line
     stored = dict(sorted(stored.items()))
@@ -68,9 +68,9 @@ class _Check:
                 continue
             kind, span = command.kind(at), line.place(at)
             if kind == "variable" and not 1 <= value <= VARIABLES:
-                yield mistake("M05", f"there is no variable {value}; the last one is {VARIABLES}", span)
+                yield mistake("M05", f"there is no variable {value}; the last variable is {VARIABLES}", span)
             elif kind == "sensor" and not 1 <= abs(value) <= SENSORS:
-                yield mistake("M11", f"there is no sensor {value}; the last one is {SENSORS}", span)
+                yield mistake("M11", f"there is no sensor {value}; the last sensor is {SENSORS}", span)
             elif kind == "sensor" and value < 0 and command.code != "BRANCH":
                 yield mistake("M11", f"there is no sensor {value}", span)
             elif kind == "table":
@@ -81,7 +81,7 @@ class _Check:
             elif kind in ("line", "word") and shape is not None:
                 last = shape.lines if kind == "line" else shape.words
                 if not 1 <= value <= last:
-                    told = f"there is no {kind} {value} in this table; the last one is {last}"
+                    told = f"there is no {kind} {value} in this table; the last {kind} is {last}"
                     yield mistake("M11", told, span)
         match line.statement.code, line.statement.parameters:
             case "SENSOR", (_, int(lower), int(upper)) if upper - lower < 2:
@@ -110,7 +110,7 @@ class _Check:
         for at, motor, goal in goals:
             lower, upper = _TRAVEL.get(motor, (0, 0))  # type: ignore[arg-type]  # a reference is not in it
             if motor in _TRAVEL and isinstance(goal, int) and not lower <= goal <= upper:
-                told = f"motor {motor} cannot go to {goal}; it goes from {lower} to {upper}"
+                told = f"motor {motor} cannot go to {goal}; its range is {lower} to {upper}"
                 yield mistake("M10", told, line.place(at))
 
     def places(self, line: Line) -> Iterator[Diagnostic]:

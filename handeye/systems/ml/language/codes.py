@@ -35,7 +35,7 @@ CODES: Final[dict[str, MlCode]] = {
         example="10 LOAD 1 32768", cure="use numbers from -32768 to 32767, and give the lower limit first",
     ),
     "M05": MlCode(
-        meaning="a variable has no number between 1 and 256", example="10 LOAD 3 &257",
+        meaning="the number of a variable is not between 1 and 256", example="10 LOAD 3 &257",
         cure="use `&1` to `&256`",
     ),
     "M06": MlCode(
@@ -64,10 +64,10 @@ CODES: Final[dict[str, MlCode]] = {
     ),
     "M13": MlCode(
         meaning="a loop ends, or a subroutine returns, that never begins", example="10 NEXTI",
-        cure="write LOOPI before NEXTI, LOOPJ before NEXTJ, and call the subroutine by GOSUB",
+        cure="write LOOPI before NEXTI, LOOPJ before NEXTJ, and call the subroutine with GOSUB",
     ),
     "bad-parameter": MlCode(
-        meaning="a parameter has no form that its command accepts", example="10 LOAD 1 ABC",
+        meaning="a parameter has a form that its command does not accept", example="10 LOAD 1 ABC",
         cure="write a number such as `-100`, or a reference such as `&17` or `-&17`",
     ),
     "flag-left-on": MlCode(
@@ -93,11 +93,11 @@ CODES: Final[dict[str, MlCode]] = {
     ),
     "not-stored": MlCode(
         meaning="a line of a file has no sequence number", example="MOTOR 3 2000",
-        cure="number the line; `handeye ml` executes lines without a number at once",
+        cure="number the line; `handeye ml` executes lines without a number immediately",
     ),
     "point-not-filled": MlCode(
         meaning="the arm goes to a POINT that nothing fills", example="5 POINT\n10 GOPOINT 5",
-        cure="fill it by DEFPOINT or JOY, or give its positions: `5 POINT * 0 0 2000 ...`", severity="warning",
+        cure="fill the point with DEFPOINT or JOY, or give its positions: `5 POINT * 0 0 2000 ...`", severity="warning",
     ),
     "too-fast": MlCode(
         meaning="a motion is so fast that its own start trips the limit of a finger's strain",
@@ -116,11 +116,11 @@ SYMBOLIC: Final[dict[str, MlCode]] = {
         cure="write `NAME EQU number`, or `NAME VAR`",
     ),
     "bad-name": MlCode(
-        meaning="a name is a command or a table, or has other characters than letters, digits and `_`",
+        meaning="a name is a command or a table, or contains characters other than letters, digits and `_`",
         example="STOP EQU 5", cure="choose another name, which begins with a letter",
     ),
     "name-twice": MlCode(
-        meaning="a name is defined twice", example="A EQU 5\nA VAR", cure="give each value a name of its own",
+        meaning="a name is defined twice", example="A EQU 5\nA VAR", cure="give each value a different name",
     ),
     "too-many-statements": MlCode(
         meaning="a symbolic program has more than 1000 statements", example="STOP\n" * 1001,
@@ -128,7 +128,7 @@ SYMBOLIC: Final[dict[str, MlCode]] = {
     ),
     "unknown-name": MlCode(
         meaning="a name of a symbolic program is not defined", example="BRANCH AGAIN",
-        cure="define it by EQU, by VAR or as a label",
+        cure="define the name with EQU or VAR, or as a label",
     ),
 }  # fmt: skip
 """Mistakes in symbolic programs, besides those of ML."""

@@ -66,14 +66,14 @@ def _names(usage: str) -> tuple[str, ...]:
 
 _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "control": (
-        ("ENABLE", "", "Switch the pump on. No motor moves; each holds the position where it is.", "ENABLE"),
+        ("ENABLE", "", "Switch the pump on. No motor moves; each motor holds its present position.", "ENABLE"),
         ("DISABLE", "", "Freeze all motors, then switch the pump off.", "DISABLE"),
         ("EXIT", "", "Switch the pump off and leave MOS.", "EXIT"),
         ("LEFT", "", "The commands that follow are for the left arm.", "LEFT"),
         ("RIGHT", "", "The commands that follow are for the right arm, as at the start.", "RIGHT"),
         ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
-        ("RUN", "[n]", "Run the stored program from a statement, or from the first.", "RUN 100"),
-        ("TRY", "[n]", "Run the stored program one statement at a time: each waits for a key.", "TRY"),
+        ("RUN", "[n]", "Run the stored program from a statement, or from the first statement.", "RUN 100"),
+        ("TRY", "[n]", "Run the stored program one statement at a time: each statement waits for a key.", "TRY"),
         ("TRACE", "[x]", "Print each statement with its values before it runs; `TRACE 0` ends this.", "TRACE"),
     ),
     "flow": (
@@ -87,11 +87,12 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("BROVFL", "n1 [n2]", "Go to n1 if the overflow indicator is on, otherwise to n2 or to the next statement. "
                               "The indicator stays on.", "40 BROVFL 100 200"),
         ("DELAY", "x", "Wait x hundredths of a second. The sensors stay guarded.", "50 DELAY 100"),
-        ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another one by GOSUB.", "60 GOSUB 900"),
+        ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another subroutine with GOSUB.", "60 GOSUB 900"),
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
          "70 IF &1 100 200 300"),
         ("LOOPI", "x [v]", "Run the statements up to NEXTI x times; variable v counts from 1.", "10 LOOPI 3 20"),
-        ("LOOPJ", "x [v]", "Run the statements up to NEXTJ x times; it may stand inside LOOPI, and LOOPI inside it.",
+        ("LOOPJ", "x [v]", "Run the statements up to NEXTJ x times; LOOPJ may stand inside LOOPI, and LOOPI inside "
+        "LOOPJ.",
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),
         ("NEXTJ", "", "The end of the statements that LOOPJ repeats.", "70 NEXTJ"),
@@ -120,15 +121,16 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("WAND", "[s]", "Assign the wand to a sensor, or to sensor 1, and expect no contact.", "10 WAND"),
     ),
     "data": (
-        ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. It does nothing when it "
-                      "runs.", "5 POINT"),
+        ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. The statement does "
+                      "nothing when it is executed.", "5 POINT"),
     ),
     "arithmetic": (
         ("ADD", "v x", "Add to a variable.", "50 ADD 1 -1"),
         ("COMPOFF", "", "Set the comparison indicator off.", "10 COMPOFF"),
         ("COMPON", "", "Set the comparison indicator on.", "10 COMPON"),
         ("DADD", "v x [y]", "Add to a pair of variables, v high and v+1 low: x, or the pair x y.", "20 DADD 1 500"),
-        ("DIVD", "v x [w]", "Divide a variable and round toward zero; variable w gets the rest.", "30 DIVD 1 10 2"),
+        ("DIVD", "v x [w]", "Divide a variable and round toward zero; variable w gets the remainder.", "30 DIVD 1 "
+        "10 2"),
         ("DLOAD", "v x [y]", "Set a pair of variables, v high and v+1 low, to x, or to x y.", "10 DLOAD 1 500"),
         ("EQ?", "x y", "Set the comparison indicator on if x equals y, or else off.", "30 EQ? &1 0"),
         ("GE?", "x y", "Set the comparison indicator on if x is at least y, or else off.", "30 GE? &1 0"),
@@ -142,15 +144,17 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("LT?", "x y", "Set the comparison indicator on if x is less than y, or else off.", "30 LT? &1 0"),
         ("MULT", "v x [w]", "Multiply a variable; variable w gets the high word of the product.", "20 MULT 1 25"),
         ("NE?", "x y", "Set the comparison indicator on if x differs from y, or else off.", "30 NE? &1 0"),
-        ("OVFLOFF", "", "Set the overflow indicator off. Nothing else in a running program does.", "10 OVFLOFF"),
+        ("OVFLOFF", "", "Set the overflow indicator off. No other statement of a running program does this.", "10 "
+        "OVFLOFF"),
         ("OVFLON", "", "Set the overflow indicator on.", "10 OVFLON"),
-        ("PUT", "t line word x", "Write a word of a table. The real-time level uses it from the next cycle on.",
+        ("PUT", "t line word x", "Write a word of a table. The real-time level uses the new value from the next "
+        "cycle on.",
          "50 PUT MT 2 8 10"),
     ),
     "edit": (
-        ("ERASE", "n1 [n2]", "Erase a statement, or all from n1 to n2.", "ERASE 500 550"),
+        ("ERASE", "n1 [n2]", "Erase a statement, or all statements from n1 to n2.", "ERASE 500 550"),
         ("FILE", "t line word x ...", "Write consecutive words of a table.", "FILE MT 2 8 10"),
-        ("LIST", "[n1 [n2]]", "List the stored program, a statement, or all from n1 to n2.", "LIST 100 200"),
+        ("LIST", "[n1 [n2]]", "List the stored program, a statement, or all statements from n1 to n2.", "LIST 100 200"),
         ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the last one first.", "QPOINT"),
         ("QUERY", "t [line [word]]", "Show a table, a line of it, or a word.", "QUERY ST 5"),
     ),
@@ -162,14 +166,14 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "host": (
         ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),
-        ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored one.", "CMSLOAD FOLLOW"),
+        ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored program.", "CMSLOAD FOLLOW"),
         ("DHAND", "x11 [x12]", "Move the fingers by distances from their goals.", "30 DHAND -50"),
         ("GOLINE", "n1 n2", "Go to the nearest position on the line through two POINTs.", "40 GOLINE 5 10"),
         ("GOMEAN", "n1 n2", "Go to the position halfway between two POINTs.", "40 GOMEAN 5 10"),
         ("GROT", "x [y [z]]", "Rotate the gripper about its own axes: yaw, pitch, roll, in .01 degree.", "40 GROT 500"),
         ("GTRANS", "x [y [z]]", "Move the gripper along its own axes, in .001 inch.", "40 GTRANS 0 0 250"),
         ("QUIT", "", "Close the session with the host.", "QUIT"),
-        *((f"UPROC{letter}", "[x ...]", "Call a procedure of the user's on the host.", f"50 UPROC{letter} 1")
+        *((f"UPROC{letter}", "[x ...]", "Call a procedure of the user on the host.", f"50 UPROC{letter} 1")
           for letter in "ABCD"),
         ("VMCNTL", "", "Start the interpreter of the arm language on the host.", "VMCNTL"),
     ),

@@ -78,7 +78,7 @@ def code_explained(code: str) -> str | None:
     code = code.upper() if code.upper() in MEANINGS else code.casefold()
     known = CODES.get(code) or SYMBOLIC.get(code)
     if known is None:
-        more = "Programs are not checked for this; it stops a running program."
+        more = "The checker does not look for this mistake; it stops a running program."
         return f"error[{code}]: {MEANINGS[code]}\n{more}" if code in MEANINGS else None
     ending, check = (".sym", assembled) if code in SYMBOLIC else (".ml", checked)
     source = Source(name=f"example{ending}", text=known.example)

@@ -168,7 +168,7 @@ def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
         most = int(limit / a_unit)
         cure = (
             f"write `PUT MT {-motor} {_SPEED} {most}` before the motion" if most
-            else "widen the limit: even the slowest motion trips it"
+            else "widen the limit: even the slowest motion trips this limit"
         )  # fmt: skip
         yield mistake("too-fast", told, line.spans[0], help=cure)
 

@@ -26,7 +26,7 @@ from handeye.systems.ml.tables.layout import SHAPES
 from handeye.systems.ml.tables.store import word_of
 
 LONGEST_LINE: Final = 500  # characters
-_REMARK: Final = "write a remark on a line of its own, behind `*`"
+_REMARK: Final = "write a remark on a separate line, after `*`"
 _FIRST: Final = re.compile(r"[ \t]*(\S+)")
 _PARAMETER: Final = re.compile(
     r"""[ \t]*(?:(?P<minus>-)?[ \t]*(?P<depth>(?:&[ \t]*)*)(?P<digits>[0-9]+)(?=[ \t]|$)
@@ -70,7 +70,7 @@ def parsed_line(text: str, start: int = 0, row: int = 1) -> tuple[Line | None, D
     """Parse a line that begins at the offset `start` of its text. Returns the line, and the mistake; both are None
     for a remark and for an empty line."""
     if len(text) > LONGEST_LINE:
-        told = f"a line has {LONGEST_LINE} characters at most; this one has {len(text)}"
+        told = f"a line can have at most {LONGEST_LINE} characters, but this line has {len(text)}"
         return None, mistake("long-line", told, Span(start=start, end=start + 1))
     try:
         return _line(text, start, row), None
@@ -120,7 +120,9 @@ def _span(match: re.Match[str], group: int | str, start: int) -> Span:
 def _sequence_number(text: str, span: Span) -> int:
     number = int(text) if text.isascii() and text.isdigit() else 0
     if not 1 <= number <= LAST:
-        raise _Mistaken(mistake("M02", f"a sequence number is from 1 to {LAST}, not {quoted(text)}", span))
+        raise _Mistaken(
+            mistake("M02", f"a sequence number must be between 1 and {LAST}, not {quoted(text)}", span)
+        )
     return number
 
 
@@ -151,9 +153,14 @@ def _point(text: str, at: int, start: int) -> tuple[list[_Written], Point]:
     if not written or written[0].text != "*":
         return written, ()
     if len(written) != MOTORS + 1:
-        told = f"a POINT has the positions of {MOTORS} motors, not of {len(written) - 1}"
+        told = f"a POINT must have the positions of {MOTORS} motors, not of {len(written) - 1}"
         raise _Mistaken(
-            mistake("M03", told, written[0].span, help=f"give {MOTORS} numbers, or none and no `*`")
+            mistake(
+                "M03",
+                told,
+                written[0].span,
+                help=f"give {MOTORS} numbers after `*`, or neither numbers nor `*`",
+            )
         )
     return [], tuple(_constant(each) for each in written[1:])
 
@@ -183,11 +190,11 @@ def _constant(written: _Written) -> int:
 
 def _reference(written: _Written) -> Reference:
     if written.depth > DEEPEST:
-        told = f"a reference has {DEEPEST} `&` at most; this one has {written.depth}"
+        told = f"a reference can have at most {DEEPEST} `&`, but this reference has {written.depth}"
         raise _Mistaken(mistake("M06", told, written.span))
     index = int(written.digits)
     if not 1 <= index <= VARIABLES:
-        told = f"there is no variable {quoted(written.digits)}; the last one is {VARIABLES}"
+        told = f"there is no variable {quoted(written.digits)}; the last variable is {VARIABLES}"
         raise _Mistaken(mistake("M05", told, written.span))
     return Reference(index, written.depth, written.minus)
 

@@ -139,7 +139,7 @@ class RealTime(Cycles, Level):
         line, space = self._motor(motor), self._memory.WS[motor - 1]
         lower, upper = max(line.lower, space.lower), min(line.upper, space.upper)
         if not lower <= goal <= upper:
-            raise MlError("M10", f"motor {motor} can go from {lower} to {upper}, and not to {goal}")
+            raise MlError("M10", f"motor {motor} can go from {lower} to {upper}, not to {goal}")
 
     def _set_paces(self) -> None:
         """Let motors arrive together if that is asked for in AR; if not, each goes as fast as it can."""
@@ -209,7 +209,7 @@ class RealTime(Cycles, Level):
 
     def _refuse_while_enabled(self) -> None:
         if self.enabled:
-            raise MlError("M15", "outputs can be tested while the pump is off; it is on")
+            raise MlError("M15", "outputs can be tested only while the pump is off, but the pump is on")
 
 
 def _fits(memory: ArmMemory, own: ArmMemory) -> bool:

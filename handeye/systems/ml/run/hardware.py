@@ -55,7 +55,7 @@ class Hardware(ABC):
     def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:
         """Continue from a copy of a state. Raises BadFile if it does not fit."""
         if memory:
-            raise BadFile("the saved state is of perfect motors")
+            raise BadFile("the saved state belongs to perfect motors")
 
     @abstractmethod
     def signal(self, interlock: str, *, on: bool) -> None:
@@ -93,7 +93,7 @@ class PerfectHardware(Hardware):
 
     def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:
         if {*memory} != {*self._arms}:
-            raise BadFile("the saved state is of other arms")
+            raise BadFile("the saved state belongs to other arms")
         for side, arm in self._arms.items():
             arm.remember(memory[side], self.machine.now)
 

@@ -132,7 +132,7 @@ def decode(data: bytes, name: str) -> MlPlan:
     try:
         plan = msgspec.json.decode(data, type=MlPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{name} is not sound: {error}") from None
+        raise BadFile(f"{name} is not a valid plan: {error}") from None
     sound(plan)
     return plan
 

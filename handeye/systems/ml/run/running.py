@@ -371,7 +371,7 @@ class RunningMl(RunningSystem):
         number = value[0]
         if what == "interlock":
             if number not in (0.0, 1.0):
-                raise Refused(f"an interlock is 0 or 1, not {number:g}")
+                raise Refused(f"an interlock must be 0 or 1, not {number:g}")
             self._hardware.signal(name, on=bool(number))
         elif number != int(number) or not LOWEST <= number <= HIGHEST:
             raise Refused(f"{number:g} is not an integer of 16 bits")

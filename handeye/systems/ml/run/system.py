@@ -87,7 +87,7 @@ class MlSystem(System):
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {
             "proceed": "proceed: enable the arm, and continue after this statement",
-            "retry": "retry: enable the arm, and execute it again",
+            "retry": "retry: enable the arm, and execute the statement again",
             "skip": "skip: end the program here",
         }
 

@@ -150,9 +150,11 @@ class Tables:
         if shape is None:
             raise MlError("M11", f"there is no table {table}; there are {', '.join(SHAPES)}")
         if not 1 <= line <= shape.lines:
-            raise MlError("M11", f"{table} has lines 1 to {shape.lines}, and no line {line}")
+            raise MlError("M11", f"there is no line {line} in {table}; its lines are 1 to {shape.lines}")
         if not 1 <= word <= shape.words:
-            raise MlError("M11", f"a line of {table} has words 1 to {shape.words}, and no word {word}")
+            raise MlError(
+                "M11", f"there is no word {word} in a line of {table}; the words are 1 to {shape.words}"
+            )
         if not shape.internal:
             self._page_in(table, (line - 1) // PAGE)
         return shape

@@ -47,7 +47,7 @@ VARIATION: Final = Variation(
         "mm",
         Noise(1.5),
         5.0,
-        "Standard deviation of a vehicle's position along x and y. No source: our choice, as laid by hand.",
+        "Standard deviation of a vehicle's position along x and y. No source: our choice, for a plate laid by hand.",
     ),
     quantity(
         _TURNED, "deg", Noise(2.0), 8.0, "Standard deviation of a vehicle's rotation. No source: our choice."
