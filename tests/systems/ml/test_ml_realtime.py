@@ -146,6 +146,7 @@ def test_rearming_while_out_of_range_sets_the_flag_within_a_cycle_and_nothing_mo
     arm.right.expect(5, -178, 450)
     assert list(arm.right.flags) == []
     assert arm.move({3: 2000}) == 1
+    assert [event.cycles for event in arm.seen(Posted)] == [1]
     arm.pass_cycles(50)
     assert (arm.right.position(3), arm.right.goal(3), list(arm.right.flags)) == (0, 0, [5])
 

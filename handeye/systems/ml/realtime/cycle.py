@@ -118,6 +118,8 @@ class Cycles:
     def sample(self) -> None:
         """Read all inputs; enter positions into MT and readings into ST."""
         memory, reading = self._memory, self._axes.read()
+        if not memory.AR[0].posted:
+            memory.AR[0].waited = wrap(memory.AR[0].waited + 1)
         q, channels, checked = reading.q.tolist(), reading.channels, False
         for axis, motor, _ in self._motors:
             memory.AI[motor.number - 1] = saturated(q[axis] / motor.unit)
@@ -182,7 +184,6 @@ class Cycles:
             line.status = INSTALLED | (AT_GOAL if at_goal else MOVING) | (line.status & FROZEN)
         if arm.posted:
             return
-        arm.waited = wrap(arm.waited + 1)
         if there:
             memory.CY[0].goals = wrap(memory.CY[0].goals + 1)
             done = GoalLine(
