@@ -26,8 +26,9 @@ _STATE: Final = (
     "mocap_pos", "mocap_quat", "userdata",
 )  # fmt: skip
 """The integration state, by the names of its arrays; the clock is the rest of it."""
-_FIGURES: Final = ("actuator_trnid",)
-"""Figures of the model that a cell changes and keeps in the state of a mechanism, beside those kept as figures."""
+_FIGURES: Final = ("actuator_trnid", "geom_solimp")
+"""Figures of the model that a cell changes, beside those kept as figures in its state: kept by a mechanism, or changed
+for some steps only."""
 
 Call = Callable[..., Any]
 Written = tuple[str, Any]
@@ -106,6 +107,9 @@ class Tape:
         self._cell, self._data = cell, truth.data
         self._places = places(truth.model, truth.data, self.figures)
         self._before: dict[str, bytes] = {}
+        self._figured: dict[
+            bytes, Any
+        ] = {}  # figures of shapes: they are many, and return to the same values
         self._moves: list[Move] = []
 
     @contextmanager
@@ -131,8 +135,10 @@ class Tape:
 
     def _written(self) -> Iterator[Written]:
         for name, place in self._places.items():
-            if place[...].tobytes() != self._before.get(name):
-                yield name, np.array(place[...])
+            now = place[...].tobytes()
+            if now != self._before.get(name):
+                values = np.array(place[...])
+                yield name, self._figured.setdefault(now, values) if name.startswith("model.geom") else values
 
     def _cut(self) -> None:
         """End a stretch."""

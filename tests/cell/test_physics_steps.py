@@ -1,10 +1,10 @@
-"""Long steps of physics while nothing touches, and short ones for contact."""
+"""Long steps of physics while nothing touches but what is carried, and short ones for contact."""
 
 import mujoco
 import numpy as np
 import pytest
 
-from handeye.cell.physics_stepper import LONGER, PhysicsStepper
+from handeye.cell.physics_stepper import LONGER, Carrying, PhysicsStepper
 from handeye.core.pose import Array
 
 SHORT = 1 / 960
@@ -87,3 +87,118 @@ def test_the_step_of_the_model_is_the_short_one_for_who_looks_on() -> None:
     ball = Falling()
     ball.fall(3)
     assert ball.model.opt.timestep == SHORT
+
+
+TRAY = """<mujoco><option timestep="{short}" integrator="implicitfast"/><worldbody>
+<body name="tray" gravcomp="1"><joint name="up" type="slide" axis="0 0 1"/>
+<geom type="box" size=".1 .1 .01" {soft}/></body>
+<body name="ball" pos="0 0 .0599995"><freejoint/><geom size=".05" mass=".5" {soft}/></body>
+<geom type="box" size=".1 .01 .01" pos="0 0 {bar}"/>
+</worldbody><actuator><velocity joint="up" kv="100000"/></actuator></mujoco>"""
+RISING = 0.05  # m/s
+SOFT = f'solref="{2 * SHORT} 1" solimp=".99 .99 .001"'  # the stiffest that short steps allow
+
+
+class Lift:
+    """A tray that rises with a ball on it, beneath a bar."""
+
+    def __init__(self, *, carries: bool = True, bar: float = 1.0) -> None:
+        self.model = mujoco.MjModel.from_xml_string(TRAY.format(short=SHORT, bar=bar, soft=SOFT))
+        self.data = mujoco.MjData(self.model)
+        self.data.ctrl[0], self.data.qvel[[0, 3]] = RISING, RISING
+        carrying = Carrying(hand="tray", pairs=(("tray", "ball"),)) if carries else None
+        self.stepper = PhysicsStepper(self.model, self.data, carrying)
+        mujoco.mj_forward(self.model, self.data)
+
+    def rise(self, periods: int) -> "Lift":
+        for _ in range(periods):
+            self.stepper.step(PERIOD)
+        return self
+
+    @property
+    def sunk(self) -> float:
+        """Depth of the ball in the tray, m."""
+        return float(0.06 - (self.data.qpos[3] - self.data.qpos[0]))
+
+
+def test_what_is_carried_through_the_air_takes_long_steps_and_what_is_not_carried_short_ones(
+    steps: list[float],
+) -> None:
+    Lift().rise(4)
+    assert steps == [LONGER * SHORT] * (4 * PERIOD // LONGER)
+    steps.clear()
+    Lift(carries=False).rise(4)
+    assert steps == [SHORT] * (4 * PERIOD)
+
+
+def test_a_load_sinks_as_deep_in_long_steps_as_in_short_ones() -> None:
+    """Over a step four times as long a contact would be sixteen times as soft."""
+    long, short = Lift().rise(60), Lift(carries=False).rise(60)
+    assert long.sunk == pytest.approx(short.sunk, rel=0.02)
+    assert long.model.geom_solimp.tobytes() == short.model.geom_solimp.tobytes()
+
+
+def test_a_load_that_loses_its_contact_does_so_in_short_steps(steps: list[float]) -> None:
+    """The tray is drawn away from beneath the ball."""
+    lift, like = Lift().rise(4), Lift().rise(4)
+    for each in (lift, like):
+        each.data.ctrl[0] = -2.0 * RISING
+    steps.clear()
+    lift.rise(1)
+    assert steps[-PERIOD:] == [SHORT] * PERIOD
+    mujoco.mj_step(like.model, like.data, PERIOD)
+    assert lift.data.qpos.tobytes() == like.data.qpos.tobytes()
+
+
+def test_a_load_that_meets_something_else_does_so_in_short_steps(steps: list[float]) -> None:
+    """The ball rises 20 mm to the bar: from the period in which it meets it, all is as if all steps had been short."""
+    clear = 0.02
+    lift, like = (Lift(bar=0.06 + 0.05 + 0.01 + clear) for _ in range(2))
+    while not lift.data.time > 0.0 or steps[-1] > SHORT:
+        like.data.qpos[:], like.data.qvel[:] = lift.data.qpos, lift.data.qvel
+        like.data.qacc_warmstart[:] = lift.data.qacc_warmstart
+        lift.rise(1)
+    assert lift.data.time == pytest.approx(clear / RISING, abs=2 * PERIOD * SHORT)
+    mujoco.mj_step(like.model, like.data, PERIOD)
+    assert lift.data.qpos.tobytes() == like.data.qpos.tobytes()
+
+
+CAROUSEL = """<mujoco><option timestep="{short}" integrator="implicitfast" cone="elliptic" impratio="50"/><worldbody>
+<body name="tray"><joint name="round" axis="0 0 1"/><geom type="box" size=".1 .1 .01" pos=".5 0 0" {soft}/></body>
+<body name="box" pos=".5 0 .0299999"><freejoint/>
+<geom type="box" size=".02 .02 .02" friction="{grip}" priority="1" {soft}/></body>
+</worldbody><actuator><velocity joint="round" kv="100000"/></actuator></mujoco>"""
+
+
+def slipped(*, carries: bool, grip: float = 1.0, periods: int = 120) -> tuple[float, float]:
+    """How far (m) and by what angle (rad) a box slips on a tray that carries it along an arc at 1 rad/s; `grip` is the
+    coefficient of friction.
+    """
+    model = mujoco.MjModel.from_xml_string(CAROUSEL.format(short=SHORT, soft=SOFT, grip=grip))
+    data = mujoco.MjData(model)
+    data.ctrl[0] = data.qvel[0] = data.qvel[6] = 1.0  # rad/s
+    data.qvel[2] = 0.5  # m/s
+    carrying = Carrying(hand="tray", pairs=(("tray", "box"),)) if carries else None
+    stepper = PhysicsStepper(model, data, carrying)
+    mujoco.mj_forward(model, data)
+    for _ in range(periods):
+        stepper.step(PERIOD)
+    mujoco.mj_kinematics(model, data)
+    R = data.body("tray").xmat.reshape(3, 3).T @ data.body("box").xmat.reshape(3, 3)
+    at = data.body("tray").xmat.reshape(3, 3).T @ data.body("box").xpos
+    return float(np.hypot(*(at - (0.5, 0.0, 0.03))[:2])), float(np.arctan2(R[1, 0], R[0, 0]))
+
+
+def test_what_the_hand_carries_along_an_arc_is_not_left_behind() -> None:
+    """In short steps it is, by half a step times the acceleration of the arc, .5 m/s2, for 2 s: .52 mm."""
+    short, long = slipped(carries=False), slipped(carries=True)
+    assert short[0] == pytest.approx(0.5 * SHORT * 0.5 * 2.0, rel=0.1)
+    assert long[0] < short[0] / 10
+    assert abs(long[1]) < 1e-4
+
+
+def test_a_load_that_friction_does_not_hold_slips_off_as_in_short_steps() -> None:
+    """The arc takes .5 m/s2 of friction, a coefficient of .051; with .03 the box slides outwards."""
+    short, long = (slipped(carries=carries, grip=0.03, periods=30)[0] for carries in (False, True))
+    assert short > 0.02
+    assert long == pytest.approx(short, rel=0.05)

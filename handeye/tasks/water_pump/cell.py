@@ -7,6 +7,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera, make_renderer
 from handeye.cell.hand import SimulatedHand, SimulatedLamp, SimulatedScrewdriver
+from handeye.cell.physics_stepper import Carrying, PhysicsStepper
 from handeye.cell.rendering import RendererMaker
 from handeye.cell.signal_lines import SignalLines
 from handeye.cell.simulated import SimulatedCell
@@ -65,5 +66,15 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
         ),
         mechanisms=(*mishaps, threads, Clamping(model, data, threads, allowed=rest)),
         lines=lines,
+        stepper=PhysicsStepper(model, data, carrying(world.screws)),
         noise=noise,
     )
+
+
+def carrying(screws: int) -> Carrying:
+    """List the pairs of bodies that may touch while the simulator takes long steps: the hand and any loose
+    part, which the hand then holds, and the screwdriver and its screw."""
+    hand, driver, fastened = f"{ARM}link6", "driver", [f"screw{k}" for k in range(screws)]
+    loose = ("base", "gasket", "top", "pin0", "pin1", driver, *fastened)
+    held = [(hand, part) for part in loose]
+    return Carrying(hand=hand, pairs=(*held, *((driver, screw) for screw in fastened)))
