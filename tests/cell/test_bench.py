@@ -202,7 +202,7 @@ def test_a_machine_without_power_sleeps_and_one_that_holds_keeps_its_grip() -> N
 
 @pytest.mark.parametrize("goal", [[0.1], [0.1, 0.1, 0.1], 0.1])
 def test_a_goal_has_a_number_for_each_axis(bench: Bench, goal: object) -> None:
-    with pytest.raises(BadArgument, match=r"^a goal of both is 2 numbers, one for each axis$"):
+    with pytest.raises(BadArgument, match=r"^a goal of both must have 2 numbers, one for each axis$"):
         machine(bench).put(np.array(goal))
 
 

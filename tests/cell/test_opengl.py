@@ -48,7 +48,7 @@ def test_where_opengl_is_too_old_pictures_are_ray_cast(old: None) -> None:
 
 def test_asked_for_by_name_it_is_refused_with_the_driver_s_reason(old: None) -> None:
     with pytest.raises(
-        Refused, match=rf"^OpenGL does not work on this machine \({TOO_OLD}\); photographs need it"
+        Refused, match=rf"^OpenGL does not work on this machine \({TOO_OLD}\); photographs need OpenGL"
     ):
         make_renderer("gl", MODEL)
 
