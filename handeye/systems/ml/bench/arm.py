@@ -1,6 +1,6 @@
 """The rectilinear arm on a bench: potentiometers that err, a wand, strain gauges, a range finder, and switches.
 
-The repeatability of a slide is an error of its potentiometer. It is drawn anew for each motion: the reading agrees
+The repeatability of a slide is an error of its potentiometer. It is drawn again for each motion: the reading agrees
 with the goal, but the slide stops elsewhere.
 """
 

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 class StationHardware(Hardware):
     """The arm of a station."""
 
+    watched = 2
+
     def __init__(self, station: Station, tell: Tell) -> None:
         self.station, self._arm = station, station.arm
         self.machine = station.machine(tell)

@@ -80,7 +80,7 @@ class Station:
 
 
 def _nothing(value: float) -> None:
-    """Switch a tool that is not there."""
+    """Switch a tool that the station lacks."""
 
 
 def _stand(bench: Bench, at: Mapping[int, float]) -> None:
