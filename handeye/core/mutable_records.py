@@ -15,6 +15,8 @@ import numpy as np
 
 from handeye.core.brief import Brief
 
+_PLAIN: Final = frozenset((bool, int, float, str, type(None)))
+"""Types of most values, which are shared without asking further."""
 _SHARED: Final = (bool, int, float, str, bytes, tuple, frozenset, type(None), np.generic)
 Kept = TypeVar("Kept", bound="MutableRecord")
 
@@ -29,7 +31,12 @@ def copied(record: Kept) -> Kept:
     """Take a snapshot of a record, independent of later changes. Raises TypeError for a mutable value of another
     type.
     """
-    return type(record)(**{name: _copied(getattr(record, name)) for name in record.__struct_fields__})
+    return type(record)(
+        **{
+            name: value if type(value := getattr(record, name)) in _PLAIN else _copied(value)
+            for name in record.__struct_fields__
+        }
+    )
 
 
 def put_back(record: Kept, snapshot: Kept) -> None:
@@ -48,9 +55,9 @@ def _copied(value: Any) -> Any:
     if isinstance(value, MutableRecord):
         return copied(value)
     if isinstance(value, dict):
-        return {key: _copied(item) for key, item in value.items()}
+        return {key: item if type(item) in _PLAIN else _copied(item) for key, item in value.items()}
     if isinstance(value, list):
-        return [_copied(item) for item in value]
+        return [item if type(item) in _PLAIN else _copied(item) for item in value]
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
         return value
