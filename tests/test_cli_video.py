@@ -152,7 +152,10 @@ REFUSALS = {
         "2",
     ): "give either the length or the speed of a video, not both: each determines the other",
     ("--speed", "1e-9"): "at 1e-09 times the speed of the run, the video would take ",
-    ("--camera", "nowhere"): "no camera nowhere; there are orbit, follow, tv, studio, pump, work, belt",
+    (
+        "--camera",
+        "nowhere",
+    ): "there is no camera nowhere; the cameras are orbit, follow, tv, studio, pump, work, belt",
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
     ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",

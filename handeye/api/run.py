@@ -62,7 +62,7 @@ class Run:
     """A run of a plan in a world, which pauses where you ask. `handeye.begin` starts a run.
 
     Methods that advance the run return the `State` in which the run pauses; `State.why` gives the reason for the
-    pause. A `with` block closes the run at its end.
+    pause. The run is closed when its `with` block ends.
 
     In the example, `CLOSE .5` expects a part at least half an inch thick between the fingers. The hand is empty, so
     the program calls the operator.

@@ -45,7 +45,7 @@ class WorldModel:
 
     def measure(self, part: str, X_WP: Pose) -> None:
         if part not in self.parts:
-            raise NoSuchName(f"no part {part}; there are {', '.join(self.parts)}")
+            raise NoSuchName(f"there is no part {part}; the parts are {', '.join(self.parts)}")
         self.state.measured[part] = X_WP
 
     def part(self, name: str) -> Pose:

@@ -49,7 +49,9 @@ def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list
     if camera == FOLLOW:
         return list(_follow(trace, trace.overview, stages, rate))
     if camera not in cameras:
-        raise NoSuchName(f"no camera {camera}; there are {', '.join([ORBIT, FOLLOW, *cameras])}")
+        raise NoSuchName(
+            f"there is no camera {camera}; the cameras are {', '.join([ORBIT, FOLLOW, *cameras])}"
+        )
     return [camera] * len(stages)
 
 

@@ -100,5 +100,7 @@ def test_a_camera_of_the_scene_stands_still(trace: Trace) -> None:
 
 
 def test_there_is_no_other_camera(trace: Trace) -> None:
-    with pytest.raises(InvalidInput, match=r"^no camera belt; there are orbit, follow, tv, studio$"):
+    with pytest.raises(
+        InvalidInput, match=r"^there is no camera belt; the cameras are orbit, follow, tv, studio$"
+    ):
         views(trace, "belt", [0], RATE)

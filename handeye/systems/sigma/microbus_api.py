@@ -118,7 +118,7 @@ class Microbus:
             self._bus.wait(end)
 
     def self_test(self) -> list[str]:
-        """Run the self-tests of power-on, and return their results in sentences."""
+        """Run the power-on self-tests, and return their results in sentences."""
         return told(power_on(self._bus, SUPERSIGMA))
 
     @property
@@ -153,7 +153,9 @@ class Microbus:
 
 def _op(name: str) -> Op:
     if name.upper() not in Op.__members__:
-        raise NoSuchName(f"no operation is called {quoted(name)}; there are {', '.join(Op.__members__)}")
+        raise NoSuchName(
+            f"there is no operation {quoted(name)}; the operations are {', '.join(Op.__members__)}"
+        )
     return Op[name.upper()]
 
 

@@ -106,7 +106,9 @@ def number_of(name: str | int) -> int:
             raise BadArgument(f"the number of a microcomputer must be between 0 and 255, not {name}")
         return name
     if name.upper() not in LINE_NUMBERS:
-        raise NoSuchName(f"no microcomputer is called {quoted(name)}; there are {', '.join(NUMBERS)}")
+        raise NoSuchName(
+            f"there is no microcomputer {quoted(name)}; the microcomputers are {', '.join(NUMBERS)}"
+        )
     return LINE_NUMBERS[name.upper()]
 
 

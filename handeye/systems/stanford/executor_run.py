@@ -304,7 +304,7 @@ class RunningPlan(RunningSystem):
         elif what == "position" and len(value) == 6:
             known = self.plan.program.positions
             if name not in known:
-                raise NoSuchName(f"no position {name}; there are {', '.join(known)}")
+                raise NoSuchName(f"there is no position {name}; the positions are {', '.join(known)}")
             x, y, z, o, a, t = value
             self.state.world.moved[name] = Position(at=(x, y, z, o, a, t), of=known[name].of)
         else:

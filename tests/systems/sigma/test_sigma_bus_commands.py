@@ -71,9 +71,9 @@ def test_every_kind_of_fault_can_be_asked_for_by_its_name_alone(fault: str) -> N
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        ("demo --fault nonsense", "no fault of the bus is called `nonsense`; there are stuck-low"),
+        ("demo --fault nonsense", "there is no bus fault `nonsense`; the bus faults are stuck-low"),
         ("demo --fault no-turn", "there is no regenerator before segment 1 on this bus"),
-        ("demo --fault dead:Q9", "no microcomputer is called `Q9`"),
+        ("demo --fault dead:Q9", "there is no microcomputer `Q9`"),
         ("demo --fault dead:77", "there is no microcomputer 77 on this bus"),
         ("demo --fault stuck-low:0:9", "the bit of a fault must be between 0 and 7, not 9"),
         (
@@ -245,14 +245,17 @@ def test_the_log_from_python_is_that_of_the_port() -> None:
 @pytest.mark.parametrize(
     ("wrong", "why"),
     [
-        (lambda bus: bus.command("Q1", steps=1), "no microcomputer is called `Q1`; there are X1, Y1"),
-        (lambda bus: bus.command("X1", "JUMP"), "no operation is called `JUMP`; there are MOVE"),
+        (
+            lambda bus: bus.command("Q1", steps=1),
+            "there is no microcomputer `Q1`; the microcomputers are X1, Y1",
+        ),
+        (lambda bus: bus.command("X1", "JUMP"), "there is no operation `JUMP`; the operations are MOVE"),
         (lambda bus: bus.command("X1"), "a move in steps must be between 1 and 65535, not 0"),
         (lambda bus: bus.command("X1", "POSITION"), "POSITION asks; use ask"),
         (lambda bus: bus.ask("X1", "MOVE"), "the answer to MOVE has no known length"),
         (lambda bus: bus.pause(-1), "a time on the bus must be between 0 and 86400 s, not -1 s"),
         (lambda bus: bus.diagram(1, 0), "a diagram must end after its beginning"),
-        (lambda _: handeye.Microbus(faults=["dead:Q"]), "no microcomputer is called `Q`"),
+        (lambda _: handeye.Microbus(faults=["dead:Q"]), "there is no microcomputer `Q`"),
         (lambda _: handeye.Microbus(clock_spread=2), "the clock error must be a fraction from 0 to 1"),
     ],
 )

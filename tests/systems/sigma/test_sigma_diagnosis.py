@@ -177,9 +177,9 @@ def test_a_player_runs_a_program(tmp_path: Path) -> None:
         ("force", "the form is `force ARM`"),
         ("clocks X1", "the form is `clocks`"),
         ("force 3", "the arm must be 1 or 2, not `3`"),
-        ("rail Q1", "no axis is called `Q1`; there are X1, Y1"),
-        ("swap 77", "no microcomputer is called `77`; there are X1"),
-        ("accuse the suply", "no part is called `the suply`; "),
+        ("rail Q1", "there is no axis `Q1`; the axes are X1, Y1"),
+        ("swap 77", "there is no microcomputer `77`; the microcomputers are X1"),
+        ("accuse the suply", "there is no part `the suply`; "),
         ("run nothing.mal", "nothing.mal"),
     ],
 )
@@ -200,7 +200,7 @@ def test_every_part_that_can_have_a_fault_can_be_accused() -> None:
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        ("--fault nonsense", "no fault is called `nonsense`; there are bit, interface"),
+        ("--fault nonsense", "there is no fault `nonsense`; the faults are bit, interface"),
         ("--fault bit --all", "--fault, --all and --game exclude each other"),
         ("--game --json", "a game has no --json"),
     ],

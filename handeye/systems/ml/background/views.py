@@ -32,7 +32,7 @@ def show_tables(mos: "Interpreter", level: Level) -> None:
 
 
 def packed(text: str, word: int) -> int:
-    """Return two characters of a text as a word; characters outside ASCII are question marks."""
+    """Return two characters of a text as a word; characters outside ASCII become question marks."""
     pair = text[2 * word - 2 : 2 * word].ljust(2) if 2 * word - 2 < len(text) else "\0\0"
     high, low = pair.encode("ascii", "replace")
     return high << 8 | low

@@ -84,7 +84,7 @@ def defect(text: str) -> BusDefect:
     """
     name, *rest = text.split(":")
     if name not in KINDS:
-        raise NoSuchName(f"no fault of the bus is called {quoted(name)}; there are {', '.join(KINDS)}")
+        raise NoSuchName(f"there is no bus fault {quoted(name)}; the bus faults are {', '.join(KINDS)}")
     kind = KINDS[name]
     fields = [*([kind.where] if kind.where else []), *([kind.value] if kind.value else [])]
     if len(rest) > len(fields):

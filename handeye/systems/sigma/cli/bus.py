@@ -265,7 +265,7 @@ def self_test(
     seed: Seed = 0,
     json: Json = False,
 ) -> int:
-    """Run the self-tests of power-on: the computer, the segments, each microcomputer, the status lines.
+    """Run the power-on self-tests: the computer, the segments, each microcomputer, the status lines.
 
     Exit code 0: all tests passed; 1: a test failed; 2: bad input.
     """

@@ -245,7 +245,7 @@ FAULTS: Final[dict[str, Fault]] = {
 def planted(name: str, seed: int | None = None) -> Planted:
     """Return the fault called `name`, at its usual place or, with a seed, at a random place. Raises NoSuchName."""
     if name not in FAULTS:
-        raise NoSuchName(f"no fault is called {quoted(name)}; there are {', '.join(FAULTS)}")
+        raise NoSuchName(f"there is no fault {quoted(name)}; the faults are {', '.join(FAULTS)}")
     rng = None if seed is None else random_numbers(seed, f"diagnosis {name}")
     return FAULTS[name].plant(name, Draw(rng))
 

@@ -37,14 +37,14 @@ class Means(NamedTuple):
 
 
 MEANS: Final = {
-    "selftest": Means("selftest", "the self-tests of power-on"),
+    "selftest": Means("selftest", "the power-on self-tests"),
     "clocks": Means("clocks", "measure how long each microcomputer takes to answer"),
     "strobe": Means(
         "strobe", "let a microcomputer become free in the middle of a command to another microcomputer"
     ),
-    "force": Means("force ARM", "load each component of a wrist with known forces"),
+    "force": Means("force ARM", "apply known forces to a wrist, along each of its axes X, Y and Z"),
     "beam": Means(
-        "beam ARM", "read the light beam of a hand: free, with a rod in it, and with a grey glass in it"
+        "beam ARM", "read the light beam of a hand: free, with a rod in it, and with a grey filter in it"
     ),
     "grip": Means("grip ARM", "close a hand on a block that is not in the middle of its fingers"),
     "origin": Means("origin AXIS", "move to the low end of a rail with ORIGIN"),
@@ -245,13 +245,15 @@ def _arm(text: str) -> int:
 
 def _axis(text: str) -> str:
     if text.upper() not in AXES:
-        raise NoSuchName(f"no axis is called {quoted(text)}; there are {', '.join(AXES)}")
+        raise NoSuchName(f"there is no axis {quoted(text)}; the axes are {', '.join(AXES)}")
     return text.upper()
 
 
 def _name(text: str) -> str:
     if text.upper() not in NUMBERS:
-        raise NoSuchName(f"no microcomputer is called {quoted(text)}; there are {', '.join(NUMBERS)}")
+        raise NoSuchName(
+            f"there is no microcomputer {quoted(text)}; the microcomputers are {', '.join(NUMBERS)}"
+        )
     return text.upper()
 
 
@@ -274,5 +276,5 @@ def known_part(text: str) -> str:
     parts, typed = _all_parts(), " ".join(text.lower().split())
     if typed not in parts:
         near = suggestion(typed, parts) or "`parts` lists them"
-        raise NoSuchName(f"no part is called {quoted(text)}; {near}")
+        raise NoSuchName(f"there is no part {quoted(text)}; {near}")
     return parts[typed]

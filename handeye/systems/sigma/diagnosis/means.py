@@ -19,7 +19,7 @@ from handeye.systems.sigma.protocol import ANSWERS, COMPONENTS, FORCE_STEP_N, NU
 TRAVEL: Final = {"X": 16_000, "Y": 10_667, "Z": 5_333}  # steps, as the machine's drawing has it
 FREE_MOVE: Final = {"X": 6_000, "Y": 5_000, "Z": 3_500}  # steps at full speed
 LOADS: Final = (0.0, 17.05, 34.1)  # N: between them, each bit of the converter is 0 and 1
-GREY: Final = 0.7  # of the light passes a grey glass
+GREY: Final = 0.7  # of the light passes a grey filter
 PULL_N: Final = 120.0  # of the spring balance; a sound motor holds 200 N at low speed
 OFF_PERCENT: Final = 3.5  # of a clock, from which it is wrong
 SIDEWAYS_N: Final = 3.0  # with which fingers that close on the block push at least
@@ -64,7 +64,7 @@ class SelfTests:
 
 
 def self_tests(at: Technician) -> SelfTests:
-    """Run the self-tests of power-on: computer, segments, microcomputers, and status lines at rest."""
+    """Run the power-on self-tests: computer, segments, microcomputers, and status lines at rest."""
     return SelfTests(tuple(test for test in power_on(at.bus, at.layout) if test.fault))
 
 
@@ -292,7 +292,7 @@ class Forces:
 
 
 def forces(at: Technician, arm: int) -> Forces:
-    """Load each component of a wrist with known forces, and read the wrist."""
+    """Apply known forces to a wrist, along each of its axes, and read the wrist."""
     readings = []
     for component, name in enumerate(COMPONENTS):
         for newtons in LOADS:
@@ -305,7 +305,7 @@ def forces(at: Technician, arm: int) -> Forces:
 
 @dataclass(frozen=True, slots=True)
 class Beam:
-    """Whether a light beam reads as interrupted: when free, with a rod, and with a grey glass. None if there
+    """Whether a light beam reads as interrupted: when free, with a rod, and with a grey filter. None if there
     was no answer."""
 
     arm: int
@@ -317,12 +317,12 @@ class Beam:
     def lines(self) -> Sequence[str]:
         words = {True: "cut", False: "free", None: "no answer"}
         return [
-            f"beam {self.arm}: nothing {words[self.free]}, a rod {words[self.rod]}, grey glass {words[self.glass]}"
+            f"beam {self.arm}: nothing {words[self.free]}, a rod {words[self.rod]}, grey filter {words[self.glass]}"
         ]
 
 
 def beam(at: Technician, arm: int) -> Beam:
-    """Hold nothing, a rod, and a grey glass into a light beam, and read it."""
+    """Hold nothing, a rod, and a grey filter into a light beam, and read it."""
     found: list[bool | None] = []
     for passes in (1.0, 0.0, GREY):
         at.shade(arm, passes)

@@ -1,4 +1,4 @@
-"""Sets up the runs of jobs: a program, and the pieces on the board of the gantries."""
+"""Sets up the runs of jobs. A job is a program together with the pieces on the gantries' board."""
 
 from typing import Final
 

@@ -1,4 +1,4 @@
-"""Defines SUPERSIGMA as a system. It builds runs, and provides the words for them."""
+"""Builds the runs of MAL programs, and provides the texts with which the stepper describes them."""
 
 from collections.abc import Mapping
 from typing import Final
