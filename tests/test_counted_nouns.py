@@ -46,6 +46,8 @@ NEVER_ONE = {
     ("handeye/video/request.py", "self.speed"),  # as given, in what refuses it
     ("handeye/cli/sweeps.py", "sweep.kind"),  # a word
     ("handeye/cli/programs.py", "' or more' if errors == LIMIT else ''"),
+    ("handeye/systems/ml/cli/commands.py", "category"),  # a word
+    ("handeye/systems/ml/run/job_trials.py", "means['motions']"),  # a mean over worlds: over twenty
     ("handeye/systems/sigma/diagnosis/game.py", "len(FAULTS)"),
     ("handeye/systems/sigma/run/job_trials.py", "means['commands']"),  # a mean over boards: over a thousand
     ("handeye/systems/sigma/table1.py", "len(ROWS)"),

@@ -46,6 +46,19 @@ def test_a_sensor_or_an_interlock_is_sensed_at_a_place(
     assert printed in out + err
 
 
+def test_a_program_runs_on_the_simulated_arm_in_a_world(handeye: Command, program: Path) -> None:
+    """The strain gauges of the arm have other errors in another world."""
+    text = "5 SENSOR 1 -1 1\n10 DMOTOR 3 2000\n20 GETPOS 1 3\n30 GETSEN 2 4\n40 PRINT &1 &2"
+    program.write_text(text, encoding="utf-8")
+    strains = set()
+    for seed in ("0", "1"):
+        code, out, _ = handeye("ml", "run", program, "--arm", "rectilinear", "--seed", seed, "--no-keep")
+        y, strain = map(int, out.splitlines()[0].split())
+        assert (code, abs(y - 2000) <= 6) == (0, True)
+        strains.add(strain)
+    assert len(strains) == 2
+
+
 def test_the_result_has_the_fields_of_an_assembly_and_figures_of_its_own(
     handeye: Command, program: Path
 ) -> None:
@@ -73,7 +86,10 @@ def test_an_error_stops_the_program_with_exit_code_1(handeye: Command, program: 
         (("--sense", "8=1@6:0"), "there is no motor 6"),
         (("--first", "11"), "has no statement 11"),
         (("--left", "11"), "has no statement 11"),
-        (("--seed", "3"), "--seed"),
+        (("--seed", "3"), "--seed applies only to `--arm rectilinear`"),
+        (("--arm", "rectilinear", "--sense", "8=1200"), "--sense applies only to `--arm none`"),
+        (("--arm", "rectilinear", "--left", "10"), "--left applies only to `--arm none`"),
+        (("--arm", "purbrick"), "--arm"),
     ],
 )
 def test_what_cannot_be_run_is_refused_in_a_sentence(

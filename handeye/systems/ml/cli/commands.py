@@ -11,7 +11,7 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Details, Json, NoKeep, Out, Overwrite, WholeNumber, note, say, show
 from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
 from handeye.core.diagnostics import has_errors, quoted, suggestion
-from handeye.core.errors import InvalidInput, NoSuchName
+from handeye.core.errors import BadArgument, InvalidInput, NoSuchName
 from handeye.core.files import check_new, write_whole
 from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
@@ -20,6 +20,7 @@ from handeye.systems.ml.cli.follow import follow
 from handeye.systems.ml.cli.toys import blocks, train
 from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.language.check import checked
+from handeye.systems.ml.run.plan import ArmName
 
 MlFile = Annotated[Path, Parameter(help="A program in ML, `.ml`.")]
 
@@ -33,6 +34,17 @@ def run(
     file: MlFile,
     /,
     *,
+    arm: Annotated[
+        ArmName,
+        Parameter(
+            help="The machine: `none` has perfect motors, which nothing obstructs; `rectilinear` is the simulated arm "
+            "over an empty table, with the wand in its left finger."
+        ),
+    ] = "none",
+    seed: Annotated[
+        WholeNumber,
+        Parameter(help="Seed of the world of `--arm rectilinear`: it determines the errors of the arm."),
+    ] = 0,
     first: Annotated[
         WholeNumber | None,
         Parameter(help="The statement at which the program begins. Default: the first statement."),
@@ -61,7 +73,7 @@ def run(
     live: Live = False,
     on_stop: OnStop = None,
 ) -> int:
-    """Run a program with perfect motors, which nothing obstructs. The arm is enabled first. A step is one statement.
+    """Run a program. The arm is enabled first. A step is one statement.
 
     Exit code 0: the program has ended; 1: an error or an emergency has stopped it; 2: bad input; 130: interrupted.
     """
@@ -73,20 +85,35 @@ def run(
     from handeye.systems.ml.run.plan import MlPlan, sound
 
     check_kept(no_keep, out)
+    _check_machine(arm, seed=seed, left=left, sense=sense)
     stimuli = tuple(sensed(each) for each in sense or ())
     source = read_source(file)
     if not reported(source, two_arms=left is not None):
         return 2
-    plan = MlPlan(name=file.name, text=source.text, first=first, left=left, stimuli=stimuli)
+    plan = MlPlan(name=file.name, text=source.text, arm=arm, first=first, left=left, stimuli=stimuli)
     sound(plan)
-    setup = Setup(system="ml", plan=plan, world=WorldSpec(seed=0), camera="auto", judged=True)
+    judged = arm == "none"  # what any program does to an empty table is neither right nor wrong
+    setup = Setup(system="ml", plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=judged)
     return work(
         Job(
             start=Checkpoint(setup=setup), out=out, keep=not (no_keep or step), details=details, overwrite=overwrite,
-            breaks=breaks or (), step=step, live=live, on_stop=on_stop, json=json, referee=True,
+            breaks=breaks or (), step=step, live=live, on_stop=on_stop, json=json, referee=judged,
             listening=() if step else (Printer(note if json else say),),
         )
     )  # fmt: skip
+
+
+def _check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str] | None) -> None:
+    """Raise BadArgument if an option of a run does not apply to its machine."""
+    if arm == "none":
+        if seed:
+            raise BadArgument("--seed applies only to `--arm rectilinear`: perfect motors have no errors")
+    elif sense:
+        raise BadArgument("--sense applies only to `--arm none`: the rectilinear arm has sensors of its own")
+    elif left is not None:
+        raise BadArgument(
+            "--left applies only to `--arm none`: the rectilinear arm has no left arm beside it"
+        )
 
 
 class Printer(Observer):

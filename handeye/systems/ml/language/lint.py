@@ -162,8 +162,8 @@ def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
     limit, sensor = min((limit, sensor) for sensor, limit in watch.limits)
     if speed * a_unit > limit:
         told = (
-            f"motor {-motor} starts with {speed} units a cycle, whose jolt of {speed * a_unit:.0f} g trips the limit "
-            f"of sensor {sensor}, {limit} g"
+            f"motor {-motor} starts with {counted(speed, 'unit')} a cycle, whose jolt of {speed * a_unit:.0f} g "
+            f"trips the limit of sensor {sensor}, {limit} g"
         )
         most = int(limit / a_unit)
         cure = (
