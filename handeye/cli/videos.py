@@ -1,15 +1,16 @@
 """The command that makes a video of a run."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Overwrite, Size, TaskWords, note, notes, say, width_and_height
+from handeye.cli.common import Overwrite, Size, TaskWords, complain, note, notes, say, width_and_height
 from handeye.cli.programs import check_task, made_known
 from handeye.cli.trace_files import RunOrTrace, motion_file, run_or_newest
+from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
@@ -117,3 +118,20 @@ def drawing() -> Iterator["Progress"]:
                 note(f"drawing frame {done + 1} of {of}")
 
         yield told
+
+
+def filmed(make: "Callable[[Progress], object]") -> bool:
+    """Make the video of a run that has ended. If that fails, report the error and return False."""
+    try:
+        with drawing() as told:
+            make(told)
+    except InvalidInput as error:
+        complain(error)
+        return False
+    return True
+
+
+def check_apart(video: Path, out: Path | None) -> None:
+    """Raise CannotWrite if a video would be written into the folder of its run."""
+    if out is not None and video.absolute().is_relative_to(out.absolute()):
+        raise CannotWrite(f"{video} is in the folder of --out, which belongs to a run; choose another place")

@@ -25,9 +25,9 @@ from handeye.systems.sigma.chess.pieces import BY_HEIGHT, LIMITS, drawn
 from handeye.systems.sigma.chess.task import CHESS, HEIGHT
 from handeye.systems.sigma.gantries.machine import Gantries
 from handeye.systems.sigma.gantries.world import GantryWorld
-from handeye.systems.sigma.run.job_trials import JobWork
 from handeye.systems.sigma.run.jobs import job_plan, job_setup
 from handeye.systems.sigma.run.plan import MOST_PIECES, MalPlan, decode, encode
+from handeye.trials.jobs import JobRow, JobWork
 from handeye.trials.sweep import Case
 
 Command = Callable[..., tuple[int, str, str]]
@@ -121,7 +121,9 @@ def test_a_program_that_sorts_wrongly_and_says_that_it_is_done_is_a_silent_failu
 @pytest.mark.slow
 def test_a_beam_that_is_stuck_is_not_mistaken_for_a_piece(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Gantries, "beam", lambda *_: True)
-    row = JobWork(plan=job_plan("chess", 1), world=FEW)(Case(trials=(0,), seed=11))[0]
+    row = JobWork(setup=job_setup(job_plan("chess", 1), FEW), row=JobRow, settings={})(
+        Case(trials=(0,), seed=11)
+    )[0]
     assert (row.outcome, "RAIL" in row.detail) == ("stopped", True)
 
 

@@ -4,11 +4,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from handeye.cli.judged_jobs import ANY_RUN, JobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
 from handeye.systems.ml.cli.jobs import (
-    ANY_RUN,
-    JobOptions,
     JobSeed,
     NumberOfWorlds,
     carry_out,

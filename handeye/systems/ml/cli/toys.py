@@ -1,10 +1,9 @@
 """The commands of the toy blocks and the toy train, for one world and for many worlds."""
 
+from handeye.cli.judged_jobs import ANY_RUN, JobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
 from handeye.systems.ml.cli.jobs import (
-    ANY_RUN,
-    JobOptions,
     JobSeed,
     NumberOfWorlds,
     carry_out,
@@ -64,9 +63,7 @@ def blocks_trials(
     from handeye.systems.ml.run.job_trials import BLOCKS_TRIALS
     from handeye.systems.ml.run.jobs import job_plan
 
-    return carry_out_trials(
-        BLOCKS_TRIALS, job_plan("blocks"), n, seed, errors, options, title="three blocks", again=""
-    )
+    return carry_out_trials(BLOCKS_TRIALS, job_plan("blocks"), n, seed, errors, options, title="three blocks")
 
 
 def train_trials(
@@ -88,5 +85,5 @@ def train_trials(
     from handeye.systems.ml.run.jobs import job_plan
 
     return carry_out_trials(
-        TRAIN_TRIALS, job_plan("train"), n, seed, errors, options, title="a train of three", again=""
+        TRAIN_TRIALS, job_plan("train"), n, seed, errors, options, title="a train of three"
     )

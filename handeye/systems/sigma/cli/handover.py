@@ -66,5 +66,5 @@ def handover_trials(
 
     return carry_out_trials(
         HANDOVER_TRIALS, job_plan("handover", MOST), n, seed, errors, options,
-        title="hand-over of four pieces", again="",
+        title="hand-over of four pieces",
     )  # fmt: skip

@@ -1,34 +1,21 @@
-"""What the commands of all jobs share: the options of a run, the run with its video, and trials."""
+"""What the commands of all jobs share: the options of a run, the run, and trials."""
 
-import shlex
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import (
-    Details,
-    Json,
-    NoKeep,
-    Out,
-    Overwrite,
-    WholeNumber,
-    complain,
-    note,
-    positive,
-    say,
-)
-from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
-from handeye.cli.sweeps import SweepOptions, carry_out_sweep
-from handeye.cli.videos import drawing
+from handeye.cli import judged_jobs
+from handeye.cli.common import WholeNumber, note, say
+from handeye.cli.judged_jobs import carry_out_job, carry_out_job_trials
+from handeye.cli.sweeps import SweepOptions
 from handeye.cli.world_options import Faults, OwnErrorOptions, broken
-from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.tasks import any_task
 
 if TYPE_CHECKING:
-    from handeye.systems.sigma.run.job_trials import JobRow
+    from handeye.systems.sigma.run.job_trials import BoardRow
     from handeye.systems.sigma.run.plan import JobName, MalPlan
     from handeye.trials.sweep import Sweep
 
@@ -42,20 +29,10 @@ NumberOfBoards = Annotated[
 
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
-class JobOptions:
+class JobOptions(judged_jobs.JobOptions):
     """Options of a run of a job, except its world."""
 
-    json: Json = False
-    details: Details = False
-    out: Out = None
-    video: Annotated[Path | None, Parameter(help="Video of the run, .webp, .webm or .mp4, 14 s long.")] = None
     fault: Faults = None
-    overwrite: Overwrite = False
-    no_keep: NoKeep = False
-    breaks: Break = None
-    step: Step = False
-    live: Live = False
-    on_stop: OnStop = None
 
 
 ANY_RUN: Final = JobOptions()
@@ -81,35 +58,16 @@ def job_or_own_plan(job: "JobName", pieces: int, file: Path | None) -> "MalPlan 
 
 def carry_out(plan: "MalPlan", seed: int, errors: OwnErrorOptions, options: JobOptions) -> int:
     """Run the plan of a job and let its referee judge; make the video. Returns the exit code."""
-    from handeye.cli.job import Job, work
-    from handeye.runs.snapshot import Checkpoint
     from handeye.systems.sigma.cli.commands import Printer
     from handeye.systems.sigma.run.jobs import job_setup
 
-    out, video = options.out, options.video
-    check_kept(options.no_keep, out)
     world = broken(errors.of(plan.job).spec(seed), options.fault, any_task(plan.job))
-    setup = job_setup(plan, world)
-    with TemporaryDirectory() as aside:
-        folder = out
-        if video is not None:
-            _check_video(video, out, overwrite=options.overwrite)
-            folder = out or Path(aside) / "run"
-        printers = () if options.step else (Printer(note if options.json else say),)
-        code = work(
-            Job(
-                start=Checkpoint(setup=setup), out=folder, keep=not (options.no_keep or options.step),
-                details=options.details, overwrite=options.overwrite, breaks=options.breaks or (), step=options.step,
-                live=options.live, on_stop=options.on_stop, json=options.json, referee=True, listening=printers,
-            )
-        )  # fmt: skip
-        if video is None or folder is None or code not in (0, 1, 3):
-            return code
-        return code or (0 if _filmed(folder, video, overwrite=options.overwrite) else 2)
+    printers = () if options.step else (Printer(note if options.json else say),)
+    return carry_out_job(job_setup(plan, world), options, printers)
 
 
 def carry_out_trials(
-    sweep: "Sweep[JobRow]",
+    sweep: "Sweep[BoardRow]",
     plan: "MalPlan",
     n: int,
     seed: int,
@@ -117,57 +75,12 @@ def carry_out_trials(
     options: SweepOptions,
     *,
     title: str,
-    again: str,
+    again: str = "",
 ) -> int:
-    """Run the plan of a job on many boards; returns the exit code.
+    """Run the plan of a job on many boards; returns the exit code."""
+    from handeye.systems.sigma.run.jobs import job_setup
 
-    Args:
-        title: what the trials do, as their heading.
-        again: the words that repeat a trial besides its seed and the errors.
-    """
-    from handeye.systems.sigma.run.job_trials import JobWork
-    from handeye.trials.folder import head_of
-    from handeye.trials.sweep import cases
-
-    positive(n, "trial")
-    options.check()
-    world = errors.of(plan.job).spec(seed)
-    words = " ".join(filter(None, (again, shlex.join(errors.words()))))
-    return carry_out_sweep(
-        sweep,
-        JobWork(plan=plan, world=world),
-        cases(seed, range(n)),
-        head_of(sweep, world, settings={"pieces": str(plan.pieces)}),
-        options,
-        title=f"{title}, on boards from seed {seed} on",
-        again=lambda row: f"handeye trials {plan.job} --n 1 --seed {row.seed} {words}".rstrip(),
-        more={"pieces": plan.pieces},
-    )
-
-
-def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
-    """Raise InvalidInput before the run if the video could not be written after it."""
-    from handeye.cell.opengl import context
-    from handeye.core.files import check_place
-    from handeye.video.formats import format_of
-
-    check_place(video, format_of(video).kind, overwrite=overwrite)
-    context()
-    if out is not None and video.absolute().is_relative_to(out.absolute()):
-        raise CannotWrite(f"{video} is in the folder of --out, which belongs to a run; choose another place")
-
-
-def _filmed(folder: Path, video: Path, *, overwrite: bool) -> bool:
-    """Make the video from the trace of the run. If that fails, report the error and return False."""
-    from handeye.runs.folder import TRACE
-    from handeye.trace.reading import read_trace
-    from handeye.video.making import make_video
-    from handeye.video.request import VideoRequest
-
-    try:
-        with drawing() as told:
-            make_video(read_trace(folder / TRACE), video, VideoRequest(), overwrite=overwrite, told=told)
-    except InvalidInput as error:
-        complain(error)
-        return False
-    return True
+    return carry_out_job_trials(
+        sweep, partial(job_setup, plan), n, seed, errors, options, settings={"pieces": plan.pieces},
+        title=f"{title}, on boards from seed {seed} on", again=again,
+    )  # fmt: skip

@@ -1,12 +1,8 @@
 """The commands of the plate of the pump: one world, and many."""
 
-from pathlib import Path
-from typing import Annotated
-
-from cyclopts import Parameter
-
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.systems.sigma.cli.handover import Program
 from handeye.systems.sigma.cli.jobs import (
     ANY_RUN,
     JobOptions,
@@ -16,10 +12,6 @@ from handeye.systems.sigma.cli.jobs import (
     carry_out_trials,
     job_or_own_plan,
 )
-
-Program = Annotated[
-    Path | None, Parameter(help="A program in MAL for the same board, `.mal`, instead of handeye's program.")
-]
 
 
 def prco(
@@ -67,5 +59,5 @@ def prco_trials(
 
     return carry_out_trials(
         PRCO_TRIALS, job_plan("prco", MOST), n, seed, errors, options,
-        title="plate of the pump", again="",
+        title="plate of the pump",
     )  # fmt: skip

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Final
 from cyclopts import Parameter
 from rich.status import Status
 
-from handeye.cli.common import Json, Overwrite, WholeNumber, complain, note, notes, positive, put_json, say
+from handeye.cli.common import Json, Overwrite, WholeNumber, note, notes, positive, put_json, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions, carry_out_sweep
-from handeye.cli.videos import drawing
+from handeye.cli.videos import check_apart, filmed
 from handeye.cli.world_options import ANY_OWN_ERRORS, Faults, OwnErrorOptions, broken
-from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.core.variation import WorldSpec
@@ -132,8 +132,10 @@ def _work(name: "JobName", world: WorldSpec, blocks: int | None, kept: KeptOptio
     from handeye.systems.trig.run.job_video import JobVideo
 
     start = setup_of_job(name, world, blocks)
-    _check_apart(kept)
-    video = None if kept.video is None else JobVideo(kept.video, overwrite=kept.overwrite)
+    video = None
+    if kept.video is not None:
+        check_apart(kept.video, kept.out)
+        video = JobVideo(kept.video, overwrite=kept.overwrite)
     folder = None if kept.out is None else open_new(kept.out, start, overwrite=kept.overwrite)
     with PanicButton() as panic:
         done, job = _carried_out(start, panic, folder, video)
@@ -145,8 +147,8 @@ def _work(name: "JobName", world: WorldSpec, blocks: int | None, kept: KeptOptio
         put_json(done)
     else:
         _tell(done)
-    filmed = video is None or _filmed(video, job, done)
-    return CODES[done.outcome] or (0 if filmed else 2)
+    made = video is None or filmed(lambda told: video.write(job, done.ended_s, told))
+    return CODES[done.outcome] or (0 if made else 2)
 
 
 def _carried_out(
@@ -203,27 +205,6 @@ def _taught(
         if isinstance(error, Halted):
             raise KeyboardInterrupt from None
         raise
-
-
-def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
-    """Write the video. If that fails, report the error and return False."""
-    try:
-        with drawing() as told:
-            video.write(job, done.ended_s, told)
-    except InvalidInput as error:
-        complain(error)
-        return False
-    return True
-
-
-def _check_apart(kept: KeptOptions) -> None:
-    """Raise CannotWrite if the video would be written into the run's folder."""
-    if kept.out is None or kept.video is None:
-        return
-    if kept.video.absolute().is_relative_to(kept.out.absolute()):
-        raise CannotWrite(
-            f"{kept.video} is in the folder of --out, which belongs to a run; choose another place"
-        )
 
 
 def _tell(done: "JobReport") -> None:

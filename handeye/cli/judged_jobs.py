@@ -1,0 +1,130 @@
+"""What the commands of all jobs share: the options of a run, the run with its video, and trials."""
+
+import shlex
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Details, Json, NoKeep, Out, Overwrite, positive
+from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
+from handeye.cli.sweeps import SweepOptions, carry_out_sweep
+from handeye.cli.videos import check_apart, filmed
+from handeye.cli.world_options import OwnErrorOptions
+
+if TYPE_CHECKING:
+    from handeye.core.variation import WorldSpec
+    from handeye.runs.observer import Observer
+    from handeye.runs.setup import Setup
+    from handeye.trials.sweep import Sweep
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobOptions:
+    """Options of a run of a job, except its world."""
+
+    json: Json = False
+    details: Details = False
+    out: Out = None
+    video: Annotated[Path | None, Parameter(help="Video of the run, .webp, .webm or .mp4, 14 s long.")] = None
+    overwrite: Overwrite = False
+    no_keep: NoKeep = False
+    breaks: Break = None
+    step: Step = False
+    live: Live = False
+    on_stop: OnStop = None
+
+
+ANY_RUN: Final = JobOptions()
+
+
+def carry_out_job(setup: "Setup", options: JobOptions, listening: "Sequence[Observer]" = ()) -> int:
+    """Run a job and let its referee judge; make the video. Returns the exit code."""
+    from handeye.cli.job import Job, work
+    from handeye.runs.snapshot import Checkpoint
+
+    out, video, overwrite = options.out, options.video, options.overwrite
+    check_kept(options.no_keep, out)
+    with TemporaryDirectory() as aside:
+        folder = out
+        if video is not None:
+            _check_video(video, out, overwrite=overwrite)
+            folder = out or Path(aside) / "run"
+        code = work(
+            Job(
+                start=Checkpoint(setup=setup), out=folder, keep=not (options.no_keep or options.step),
+                details=options.details, overwrite=overwrite, breaks=options.breaks or (), step=options.step,
+                live=options.live, on_stop=options.on_stop, json=options.json, referee=True, listening=listening,
+            )
+        )  # fmt: skip
+        if video is None or folder is None or code not in (0, 1, 3):
+            return code
+        return code or (0 if _filmed(folder, video, overwrite=overwrite) else 2)
+
+
+def carry_out_job_trials(
+    sweep: "Sweep[Any]",
+    setup_of: "Callable[[WorldSpec], Setup]",
+    n: int,
+    seed: int,
+    errors: OwnErrorOptions,
+    options: SweepOptions,
+    *,
+    settings: Mapping[str, object],
+    title: str,
+    again: str,
+) -> int:
+    """Run a job in many worlds; returns the exit code.
+
+    Args:
+        settings: those of all trials, recorded with each of them.
+        title: what the trials do, as their heading.
+        again: the words that repeat a trial besides its seed and the errors.
+    """
+    from handeye.trials.folder import head_of
+    from handeye.trials.jobs import JobWork
+    from handeye.trials.sweep import cases
+
+    positive(n, "trial")
+    options.check()
+    world = errors.of(sweep.kind).spec(seed)
+    words = " ".join(filter(None, (again, shlex.join(errors.words()))))
+    return carry_out_sweep(
+        sweep,
+        JobWork(setup=setup_of(world), row=sweep.row, settings=settings),
+        cases(seed, range(n)),
+        head_of(sweep, world, settings={name: str(value) for name, value in settings.items()}),
+        options,
+        title=title,
+        again=lambda row: f"handeye trials {sweep.kind} --n 1 --seed {row.seed} {words}".rstrip(),
+        more=settings,
+    )
+
+
+def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
+    """Raise InvalidInput before the run if the video could not be written after it."""
+    from handeye.cell.opengl import context
+    from handeye.core.files import check_place
+    from handeye.video.formats import format_of
+
+    check_place(video, format_of(video).kind, overwrite=overwrite)
+    context()
+    check_apart(video, out)
+
+
+def _filmed(folder: Path, video: Path, *, overwrite: bool) -> bool:
+    """Make the video from the trace of the run. If that fails, report the error and return False."""
+    from handeye.runs.folder import TRACE
+    from handeye.trace.reading import read_trace
+    from handeye.video.making import make_video
+    from handeye.video.request import VideoRequest
+
+    return filmed(
+        lambda told: make_video(
+            read_trace(folder / TRACE), video, VideoRequest(), overwrite=overwrite, told=told
+        )
+    )
