@@ -54,7 +54,9 @@ def camera_here(kind: CameraKind) -> Literal["gl", "ray"]:
 
 
 def whole(_: type, tokens: Sequence[Token]) -> int:
-    """A whole number as typed; raises ValueError if the text is no whole number, such as 1.5, or is too large."""
+    """Convert typed text to a whole number. Raises ValueError if the text is not a whole number (1.5, for example), or
+    if the number is too large.
+    """
     typed = tokens[0].value
     if not re.fullmatch(r"[+-]?[0-9]+", typed):
         raise ValueError(f"{quoted(typed)} is not a whole number")

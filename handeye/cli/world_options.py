@@ -48,7 +48,8 @@ class ErrorOptions:
             help="Errors, or groups of errors, to switch off, separated by commas; `handeye world` lists their "
             "names. `assemble`, `run` and `trials assembly` also accept senses (vision, touch, search, force, "
             "centring): without a sense, the program relies on its plan. These commands also accept macros of the "
-            "program, and skip them: for example HEADS and TOOLS, which check screws and tools of the pump.",
+            "program, and skip them: for example HEADS, which checks the screws of the "
+            "pump, and TOOLS, which checks that the screwdriver and the pins are back in their places.",
             consume_multiple=False,
         ),
     ] = None

@@ -18,13 +18,13 @@ from handeye.trace.quantities import quantity_text, values_text
 from handeye.trace.sentences import inches, sentence
 
 _CAME_TO: Final[dict[Kind, str]] = {
-    "right": "finished with the work right",
-    "wrong": "finished with the work wrong",
+    "right": "finished, and the work is right",
+    "wrong": "finished, and the work is wrong",
     "ended": "finished",
     "stopped": "stopped and called the operator",
     "panic": "was stopped by the panic button",
     "paused": "has not finished",
-    "broken off": "was not recorded to its end",
+    "broken off": "was recorded only in part",
 }
 THINNED: Final = "One trace is thinned: events are compared, but not the sensor readings between them."
 COURSE: Final = "Both runs took the same course: the same steps, stops, errors and answers."

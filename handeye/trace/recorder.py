@@ -182,7 +182,7 @@ class Recorder:
             for message in until(read_messages(old, lenient=True), events):
                 writing.copy(message)
             file.move(part(self._path))
-        except (DecodeError, KeyError, ValueError):  # frames or channels that there are not in this scene
+        except (DecodeError, KeyError, ValueError):  # frames or channels that this scene does not have
             self._abandon(file)
             raise CannotWrite(
                 f"the trace at {self._path} belongs to another scene; move the file elsewhere"

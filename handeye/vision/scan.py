@@ -77,8 +77,8 @@ def _intensities(picture: object) -> NDArray[np.float32]:
 
 
 class Scan:
-    """A picture for beams, with a window that beams cannot leave. It counts the beams, and the points read, for
-    timing and display.
+    """A picture in which beams (straight rays) search for edges, within a window. It counts the beams, and the points
+    that they read, for timing and display.
     """
 
     def __init__(self, picture: NDArray[np.generic]) -> None:

@@ -50,10 +50,10 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
         return
     met = sum(motion.trip is not None for motion in motions)
     yield note(
-        f"{counted(len(motions), 'guarded motion')}; a guard stopped {met} of them. Each curve is the guarded "
+        f"{counted(len(motions), 'guarded motion')}; stopped by a guard: {met}. Each curve is the guarded "
         "quantity: the force of the hand along an axis, a moment, or the torque of the screwdriver. The dashed line "
-        f"is the limit; the dot is where the guard tripped and ended the motion.{how} Click a figure to show that "
-        "moment of the run."
+        f"is the limit; the dot is where the guard tripped and ended the motion.{how} Click a figure to go to "
+        "that motion in the run."
     )
     stages = [(stage, list(those)) for stage, those in groupby(motions, lambda motion: motion.stage)]
     for number, (stage, those) in enumerate(stages):
@@ -63,7 +63,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
 def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Markup:
     """Return the plots of a stage, collapsed unless `shown`."""
     met = sum(motion.trip is not None for motion in motions)
-    said = f"{counted(len(motions), 'guarded motion')}, {met} of them stopped by a guard"
+    said = f"{counted(len(motions), 'guarded motion')}, {met} stopped by a guard"
     summary = element("summary", element("h3", stage), " ", element("span", said))
     figures = element("div", *map(_figure, motions), class_="figures")
     return element("details", summary, figures, open=shown, class_="stage")

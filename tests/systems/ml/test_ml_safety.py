@@ -83,7 +83,7 @@ def test_a_reading_outside_both_limits_sets_the_flag_and_is_an_emergency() -> No
         ("table_1", "INTERLOCK", 3, "the fuse of work table 1 has opened"),
         ("table_2", "INTERLOCK", 4, "the fuse of work table 2 has opened"),
         ("machine_check", "CLASS", 6, "the System/7 reports a machine check"),
-        ("power", "CLASS", 7, "the System/7 warns of its power or its temperature"),
+        ("power", "CLASS", 7, "the System/7 reports a power or temperature warning"),
     ],
 )
 def test_the_panic_button_and_every_interlock_stop_a_motion_within_a_cycle(

@@ -63,7 +63,7 @@ CODES: Final[dict[str, MlCode]] = {
         cure="`QUERY` shows a table; `handeye ml words` lists all tables",
     ),
     "M13": MlCode(
-        meaning="a loop ends, or a subroutine returns, that never begins", example="10 NEXTI",
+        meaning="the end of a loop, or a RETURN, without its beginning", example="10 NEXTI",
         cure="write LOOPI before NEXTI, LOOPJ before NEXTJ, and call the subroutine with GOSUB",
     ),
     "bad-parameter": MlCode(

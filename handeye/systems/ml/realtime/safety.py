@@ -21,7 +21,7 @@ _INTERLOCKS: Final[Mapping[str, tuple[str, str]]] = {
     "table_2": ("INTERLOCK", "the fuse of work table 2 has opened"),
     "program_check": ("CLASS", "the System/7 reports a program check"),
     "machine_check": ("CLASS", "the System/7 reports a machine check"),
-    "power": ("CLASS", "the System/7 warns of its power or its temperature"),
+    "power": ("CLASS", "the System/7 reports a power or temperature warning"),
 }
 
 
