@@ -153,6 +153,10 @@ class Level(ABC):
     def emergency(self, cause: str, statement: int) -> None:
         """Freeze all motors, switch the pump off, and record cause and statement in the table EM."""
 
+    @abstractmethod
+    def look(self) -> None:
+        """Look for an emergency between two cycles. No time passes, and no flag comes on."""
+
     @property
     @abstractmethod
     def stopped(self) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 from run_bench import FELT, HELD, NEAR, begin, lines, printed, program, ran
 
 from handeye.core.errors import BadFile, Refused
@@ -17,6 +18,7 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.systems.ml.happenings import Nullified
 from handeye.systems.ml.machine.surroundings import Stimulus
 from handeye.systems.ml.realtime.happenings import Froze, LimitCrossed
+from handeye.systems.ml.run.hardware import Ending
 from handeye.systems.ml.run.running import RunningMl
 
 FAR = Stimulus(channel="range", value=0.2, motor=3, beyond=2750)
@@ -158,6 +160,78 @@ def test_an_interlock_that_a_person_opens_stops_the_program_and_persists() -> No
     assert printed(runner) == ["1"]
     with pytest.raises(Refused, match=r"^an interlock must be 0 or 1, not 2$"):
         runner.experiment("interlock", "panic", (2.0,))
+
+
+ENDINGS = {
+    "nullified": "10 SENSOR 5 -100 100\n20 MOTOR 3 1000\n30 MOTOR 3 2000\n40 MOTOR 3 3000",
+    "printed": "10 LOAD 1 1\n20 MOTOR 3 100\n30 PRINT 1",
+    "ended": "10 LOAD 1 1\n20 MOTOR 3 100\n30 STOP",
+}
+
+
+@pytest.mark.ml_row(25)
+@pytest.mark.parametrize("text", ENDINGS.values(), ids=ENDINGS)
+def test_no_program_ends_before_a_last_look_at_the_interlocks(text: str) -> None:
+    """The remaining statements wait for no motion."""
+    runner = Runner(begin(text, replace(FELT, beyond=500)))
+    advance(runner, steps=2)
+    runner.experiment("interlock", "panic", (1.0,))
+    advance(runner)
+    assert runner.call is not None
+    assert runner.call.message == "the panic button is pressed"
+    assert not runner.finish()
+
+
+@pytest.mark.ml_row(25)
+def test_no_job_ends_before_a_last_look_at_the_interlocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    runner = Runner(begin("10 MOTOR 3 100\n20 PRINT 1\n30 PRINT 2"))
+    advance(runner, steps=1)
+    runner.experiment("interlock", "door", (1.0,))
+    assert isinstance(runner.system, RunningMl)
+    monkeypatch.setattr(runner.system.hardware, "ending", lambda _: Ending(done=True, text="done"))
+    advance(runner)
+    assert runner.call is not None
+    assert runner.call.message == "the door of the room is open"
+    assert not runner.finish()
+
+
+@pytest.mark.ml_row(25)
+@pytest.mark.parametrize("delay", [3, 4])
+def test_the_slower_arm_looks_at_the_interlocks_before_its_program_ends(delay: int) -> None:
+    runner = Runner(begin(f"10 STOP\n100 DELAY {delay}\n110 PRINT 1", left=100))
+    advance(runner, steps=2)
+    runner.experiment("interlock", "panic", (1.0,))
+    advance(runner)
+    assert runner.call is not None
+    assert runner.call.message == "the panic button is pressed"
+
+
+@pytest.mark.ml_row(25)
+def test_an_emergency_of_an_arm_whose_program_has_ended_is_reported() -> None:
+    """Emergency limits of the right arm, which the left arm does not have."""
+    text = "10 PUT ST 5 14 100\n20 PUT ST 5 15 1\n30 STOP\n100 DELAY 50\n110 PRINT 1"
+    runner = ran(text, Stimulus(channel="right_strain_x", value=5.0, since=20), left=100)
+    assert printed(runner) == ["1"]
+    assert runner.call is not None
+    assert runner.call.message == "sensor 5 is outside its emergency limits"
+    runner.answer("skip")
+    assert runner.call is None
+
+
+@pytest.mark.ml_row(43)
+def test_an_arm_waits_for_its_motion_though_the_program_of_the_other_ends() -> None:
+    runner = ran("10 MOTOR 3 8000\n20 GETPOS 1 3\n30 PRINT &1\n40 STOP\n100 MOTOR 3 100", first=100, left=10)
+    assert printed(runner) == ["8000"]
+    assert runner.finish()
+
+
+def test_an_error_keeps_its_sentence_where_each_statement_takes_a_cycle() -> None:
+    runner = ran("5 PUT CY 1 5 1\n10 LOAD 1 20000\n20 MOTOR 3 &1\n30 PRINT 7")
+    assert runner.call is not None
+    assert runner.call.message.startswith("M10: motor 3 can go from -10039 to 10039, not to 20000")
+    runner.answer("proceed")
+    advance(runner)
+    assert (printed(runner), runner.finish()) == (["7"], True)
 
 
 @pytest.mark.ml_row(53)

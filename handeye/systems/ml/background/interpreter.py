@@ -89,11 +89,23 @@ class Interpreter:
         """End the program."""
         self.memory.at, self.memory.waits, self.memory.trying = 0, "", False
 
+    def conclude(self) -> None:
+        """End the program, and stop it if a last look at the sensors and interlocks finds an emergency."""
+        self.end()
+        for level in (self._own, self.level):
+            level.look()
+        self.check()
+
+    def check(self) -> bool:
+        """Stop the program if an emergency has stopped the arm. Returns True if it has been stopped."""
+        if not self.memory.stopped and (why := self._emergency):
+            self._stop(why)
+        return bool(self.memory.stopped)
+
     def ready(self) -> bool:
         """Return True, and end the wait, if no statement waits any longer. Stops the program in an emergency."""
         memory, level = self.memory, self.level
-        if self.running and (why := self._emergency):
-            self._stop(why)
+        if self.running and self.check():
             return True
         if memory.waits == "joy" and not jog(self):
             return False
@@ -116,8 +128,11 @@ class Interpreter:
         except InvalidInput as error:
             self.level.emergency("PROGRAM", number)
             self._stop(f"{error} (statement {number})")
+            return
         if not memory.waits:
             self._count()
+        if not self.running:
+            self.conclude()
 
     def type_line(self, text: str) -> None:
         """Store a line that has a sequence number; execute any other line. Raises MlError or BadArgument, and then

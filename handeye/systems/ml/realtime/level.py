@@ -164,9 +164,7 @@ class RealTime(Cycles, Level):
     def enable(self) -> None:
         if self.enabled:
             return
-        self.sample()
-        self.check_interlocks()
-        if (found := danger(self._memory, self.spec)) is not None:
+        if (found := self._danger()) is not None:
             raise MlError("M14", f"the pump stays off: {emergency_text(found, self.spec)}")
         self._power(on=True)
         self._freeze()
@@ -174,6 +172,16 @@ class RealTime(Cycles, Level):
         memory.SF[:] = [replace(lock, tripped=0) for lock in memory.SF]
         memory.EM[0] = replace(memory.EM[0], persists=0)
         self._told(PumpSwitched, on=True)
+
+    def look(self) -> None:
+        if self.enabled and (found := self._danger()) is not None:
+            self._stop(found, self._statement)
+
+    def _danger(self) -> Danger | None:
+        """Read all inputs. Returns the cause for an emergency that they show, or None."""
+        self.sample()
+        self.check_interlocks()
+        return danger(self._memory, self.spec)
 
     def disable(self) -> None:
         if not self.enabled:

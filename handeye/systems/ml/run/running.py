@@ -159,7 +159,7 @@ class RunningMl(RunningSystem):
         ending = self._hardware.ending(turn.memory.executing) if self._stopped is None else None
         if ending is not None and ending.done:
             for each in self.interpreters.values():
-                each.end()
+                each.conclude()
         if ending is None or ending.done:
             self._stand()
             self._call()
@@ -172,11 +172,20 @@ class RunningMl(RunningSystem):
 
     def _pass(self) -> None:
         """Let cycles pass until a statement can be executed, or until all programs have ended."""
-        while (waiting := self._unfinished) and not any([each.ready() for each in waiting]):  # noqa: C419 - asks all
-            self._poll()
-            self.machine.cycle()
-            if self.machine.now % self._hardware.watched == 0:
-                self._watch()
+        while waiting := self._unfinished:
+            ready = [each.memory for each in waiting if each.ready()]
+            if any(memory.at or memory.stopped for memory in ready):
+                return
+            if self._unfinished:
+                self._cycle()
+        for each in self.interpreters.values():
+            each.check()
+
+    def _cycle(self) -> None:
+        self._poll()
+        self.machine.cycle()
+        if self.machine.now % self._hardware.watched == 0:
+            self._watch()
 
     def _watch(self) -> None:
         """Report the present state of the machine and of the tables."""
