@@ -76,6 +76,31 @@ def test_absent_motors_are_found_before_the_program_runs(text: str) -> None:
     assert "M09" in codes(text)
 
 
+@pytest.mark.ml_row(43)
+@pytest.mark.parametrize(
+    ("text", "left", "found"),
+    [
+        ("10 MOTOR 3 100\n20 STOP\n100 MOTOR 12 5", 100, ["M09"]),
+        ("10 MOTOR 3 100\n20 STOP\n100 MOTOR 3 12000\n110 MOTOR 2 7000", 100, ["M10"]),
+        ("10 MOTOR 3 12000\n20 STOP\n100 MOTOR 3 12000", 100, ["M10"]),
+        ("10 LEFT\n20 MOVE 0 0 12000\n30 RIGHT\n40 MOVE 0 0 12000", None, ["M10"]),
+        ("10 LEFT\n20 MOVE 5 0 0 0\n30 GETPOS 1 12\n40 HAND 50 0\n50 DHAND 50 0", None, ["M09"] * 3),
+        (
+            "10 GOSUB 100\n20 LEFT\n30 GOSUB 100\n40 STOP\n100 MOTOR 3 12000\n110 MOTOR 1 50\n120 RETURN",
+            None,
+            [],
+        ),
+        ("10 GOSUB 100\n20 LEFT\n30 GOSUB 100\n40 STOP\n100 MOTOR 3 17000\n120 RETURN", None, ["M10"]),
+        ("10 STOP\n100 MOTOR 3 12000", None, []),  # a program for a left arm, perhaps
+    ],
+)
+def test_motors_and_goals_are_those_of_the_arm_that_a_statement_commands(
+    text: str, left: int | None, found: list[str]
+) -> None:
+    mistakes = checked(Source(name="t.ml", text=text), left=left)[1]
+    assert [each.code for each in mistakes if each.severity == "error"] == found
+
+
 @pytest.mark.ml_row(34)
 def test_no_table_has_the_name_of_a_command() -> None:
     assert messages("10 GET 1 IF 1 1") == ["`IF` is a command, so no table has this name"]

@@ -298,7 +298,7 @@ def test_a_freeze_of_one_arm_leaves_the_other_going() -> None:
 
 @pytest.mark.ml_row(43)
 def test_the_left_arm_lacks_motors_that_the_right_one_has() -> None:
-    runner = ran("10 DELAY 1\n20 STOP\n100 MOVE 0 10 20 30 0 0 0 0 0 0 5 100", left=100)
+    runner = ran("10 DELAY 1\n20 STOP\n100 LOAD 1 12\n110 MOTOR &1 100", left=100)
     assert runner.call is not None
     assert runner.call.message.startswith("M09: the left arm has no motor 12")
 

@@ -88,7 +88,7 @@ def run(
     _check_machine(arm, seed=seed, left=left, sense=sense)
     stimuli = tuple(sensed(each) for each in sense or ())
     source = read_source(file)
-    if not reported(source, two_arms=left is not None):
+    if not reported(source, first=first, left=left):
         return 2
     plan = MlPlan(name=file.name, text=source.text, arm=arm, first=first, left=left, stimuli=stimuli)
     sound(plan)
@@ -127,9 +127,9 @@ class Printer(Observer):
             self._put(event.text)
 
 
-def reported(source: Source, *, two_arms: bool = False) -> bool:
+def reported(source: Source, *, first: int | None, left: int | None) -> bool:
     """Print the mistakes of a program. Returns True if there are no errors."""
-    found = checked(source, two_arms=two_arms)[1]
+    found = checked(source, first=first, left=left)[1]
     show(found, source, json=False)
     return not has_errors(found)
 

@@ -1,28 +1,37 @@
 """Checks a program: sequence numbers, jumps, points, motors, sensors, tables and loops, and how it uses its
 sensors."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Final
 
 from handeye.core.diagnostics import Diagnostic, Label, arranged, has_errors
 from handeye.core.source import Source
 from handeye.systems.ml.language.codes import mistake
 from handeye.systems.ml.language.commands import COMMANDS, TABLE_NAMES
+from handeye.systems.ml.language.flow import Flow
 from handeye.systems.ml.language.lint import lint
 from handeye.systems.ml.language.parser import parsed
 from handeye.systems.ml.language.syntax import FINGERS, VARIABLES, Line, Parameter, Statement
-from handeye.systems.ml.machine.rectilinear import RIGHT
+from handeye.systems.ml.level import Side
+from handeye.systems.ml.machine.rectilinear import LEFT, RIGHT
+from handeye.systems.ml.machine.spec import ArmSpec
 from handeye.systems.ml.tables.layout import SENSORS, SHAPES
 
-_TRAVEL: Final = {motor.number: (motor.lower, motor.upper) for motor in RIGHT.motors}
+_ARMS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
+_CHOICES: Final[dict[str, Side]] = {"RIGHT": "right", "LEFT": "left"}
 _PAIRS: Final = {"NEXTI": "LOOPI", "NEXTJ": "LOOPJ", "RETURN": "GOSUB"}
 _AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN": 2}
 """Numbers of POINTs that commands take."""
 
 
-def checked(source: Source, *, two_arms: bool = False) -> tuple[dict[int, Line], list[Diagnostic]]:
-    """Return the stored lines of a program by their numbers, in ascending order, and the mistakes. Motors are those
-    of the right arm; with two arms they are not checked.
+def checked(
+    source: Source, *, first: int | None = None, left: int | None = None
+) -> tuple[dict[int, Line], list[Diagnostic]]:
+    """Return the stored lines of a program by their numbers, in ascending order, and the mistakes.
+
+    Args:
+        first: the statement at which the program begins; None: the one with the lowest number.
+        left: the statement at which the program of the left arm begins; None: it has no program.
     """
     lines, found = parsed(source)
     complete = not has_errors(found)
@@ -33,12 +42,13 @@ def checked(source: Source, *, two_arms: bool = False) -> tuple[dict[int, Line],
             found.append(mistake("not-stored", told, line.span))
             continue
         if line.number in stored:
-            first = Label(span=stored[line.number].span, text="the first")
+            earlier = Label(span=stored[line.number].span, text="the first")
             told = f"two statements have the number {line.number}; the second replaces the first"
-            found.append(mistake("line-replaced", told, line.span, first))
+            found.append(mistake("line-replaced", told, line.span, earlier))
         stored[line.number] = line
     stored = dict(sorted(stored.items()))
-    check = _Check(stored, two_arms)
+    first = min(stored, default=0) if first is None else first
+    check = _Check(stored, [(first, "right"), (left or 0, "left")] if complete else [])
     for line in stored.values():
         found += check.parameters(line)
         found += check.motors(line)
@@ -53,12 +63,12 @@ def checked(source: Source, *, two_arms: bool = False) -> tuple[dict[int, Line],
 class _Check:
     """The checks of single lines, which know the whole program."""
 
-    def __init__(self, lines: Mapping[int, Line], two_arms: bool) -> None:
+    def __init__(self, lines: Mapping[int, Line], starts: list[tuple[int, Side]]) -> None:
         self._lines = lines
         self._statements = {number: line.statement for number, line in lines.items()}
         self._codes = {each.code for each in self._statements.values()}
         self._loads = "CMSLOAD" in self._codes
-        self._two_arms = two_arms or "LEFT" in self._codes
+        self._sides = commanded(Flow(self._statements), starts)
 
     def parameters(self, line: Line) -> Iterator[Diagnostic]:
         """Check the numbers of variables and sensors, and the places in tables."""
@@ -89,29 +99,11 @@ class _Check:
                 yield mistake("limits-empty", told, line.place(1))
 
     def motors(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the motors of a line, and constant goals."""
-        if self._two_arms:
-            return
-        code, values = line.statement.code, line.statement.parameters
-        for at, value in enumerate(values):
-            if COMMANDS[code].kind(at) == "motor" and isinstance(value, int) and value not in _TRAVEL:
-                yield mistake("M09", f"motor {value} is not installed", line.place(at))
-            elif code in ("MOVE", "DMOVE") and at + 1 not in _TRAVEL and value != 0:
-                yield mistake(
-                    "M09", f"motor {at + 1} is not installed, so it cannot be moved", line.place(at)
-                )
-        goals: list[tuple[int, Parameter, Parameter]] = []
-        match code, values:
-            case "MOTOR", (number, value):
-                goals = [(1, number, value)]
-            case (("MOVE" | "HAND"), _):
-                first = 1 if code == "MOVE" else FINGERS
-                goals = [(at, first + at, value) for at, value in enumerate(values)]
-        for at, motor, goal in goals:
-            lower, upper = _TRAVEL.get(motor, (0, 0))  # type: ignore[arg-type]  # a reference is not in it
-            if motor in _TRAVEL and isinstance(goal, int) and not lower <= goal <= upper:
-                told = f"motor {motor} cannot go to {goal}; its range is {lower} to {upper}"
-                yield mistake("M10", told, line.place(at))
+        """Check the motors of a line, and constant goals. A line that may command either arm must suit one."""
+        sides = self._sides.get(line.number or 0) or _ARMS
+        mistakes = [list(_motors(line, _ARMS[side])) for side in _ARMS if side in sides]
+        if all(mistakes):
+            yield from mistakes[0]
 
     def places(self, line: Line) -> Iterator[Diagnostic]:
         """Check that the statements and POINTs exist to which a line refers."""
@@ -156,3 +148,44 @@ class _Check:
             after = (number for number, each in self._statements.items() if each.code == end)
             if not any(number > (line.number or 0) for number in after):
                 yield mistake("loop-without-end", f"{code} has no {end} after it", line.spans[0])
+
+
+def commanded(flow: Flow, starts: Iterable[tuple[int, Side]]) -> dict[int, set[Side]]:
+    """Return the arms that each statement may command, if programs begin at some statements with some arms."""
+    known: dict[int, set[Side]] = {}
+    todo = [start for start in starts if start[0] in flow.statements]
+    while todo:
+        number, side = todo.pop()
+        if side in known.setdefault(number, set()):
+            continue
+        known[number].add(side)
+        chosen = _CHOICES.get(flow.statements[number].code, side)
+        todo += [(way, chosen) for way in flow.ways(number) if way is not None]
+    return known
+
+
+def _motors(line: Line, arm: ArmSpec) -> Iterator[Diagnostic]:
+    """Find motors that an arm lacks, and constant goals that it cannot reach."""
+    travel = {motor.number: (motor.lower, motor.upper) for motor in arm.motors}
+    of_arm = "" if arm is RIGHT else f" of the {arm.side} arm"
+    code, values = line.statement.code, line.statement.parameters
+    first = FINGERS if code in ("HAND", "DHAND") else 1
+    for at, value in enumerate(values):
+        if COMMANDS[code].kind(at) == "motor" and isinstance(value, int) and value not in travel:
+            yield mistake("M09", f"motor {value}{of_arm} is not installed", line.place(at))
+        elif first + at not in travel and (
+            code == "HAND" or (code in ("MOVE", "DMOVE", "DHAND") and value != 0)
+        ):
+            told = f"motor {first + at}{of_arm} is not installed, so it cannot be moved"
+            yield mistake("M09", told, line.place(at))
+    goals: list[tuple[int, Parameter, Parameter]] = []
+    match code, values:
+        case "MOTOR", (number, value):
+            goals = [(1, number, value)]
+        case (("MOVE" | "HAND"), _):
+            goals = [(at, first + at, value) for at, value in enumerate(values)]
+    for at, motor, goal in goals:
+        lower, upper = travel.get(motor, (0, 0))  # type: ignore[arg-type]  # a reference is not in it
+        if motor in travel and isinstance(goal, int) and not lower <= goal <= upper:
+            told = f"motor {motor}{of_arm} cannot go to {goal}; its range is {lower} to {upper}"
+            yield mistake("M10", told, line.place(at))

@@ -52,7 +52,8 @@ CODES: Final[dict[str, MlCode]] = {
     ),
     "M09": MlCode(
         meaning="a motor is not installed", example="10 MOTOR 6 100",
-        cure="use motors 1 to 4 and 8 to 12; give 0 for motors 5, 6 and 7 in MOVE and DMOVE",
+        cure="use motors 1 to 4 and 8 to 12 of the right arm, or 2 to 4 and 8 to 11 of the left arm; give 0 for absent "
+        "motors in MOVE and DMOVE",
     ),
     "M10": MlCode(
         meaning="a goal is outside the travel of its motor", example="10 MOTOR 3 12000",

@@ -44,7 +44,7 @@ class MlPlan(Record, frozen=True, kw_only=True):
     @property
     def lines(self) -> Mapping[int, Line]:
         """The stored statements by their numbers. Raises BadFile if the text has errors."""
-        return stored(self.name, self.text, two_arms=self.left is not None)
+        return stored(self.name, self.text, self.first, self.left)
 
     @property
     def task(self) -> str:
@@ -95,9 +95,9 @@ class MlListing:
 
 
 @lru_cache(maxsize=8)
-def stored(name: str, text: str, *, two_arms: bool = False) -> Mapping[int, Line]:
+def stored(name: str, text: str, first: int | None, left: int | None) -> Mapping[int, Line]:
     """Return the lines of a program by their numbers. Raises BadFile if the text has errors."""
-    lines, found = checked(Source(text=text, name=name), two_arms=two_arms)
+    lines, found = checked(Source(text=text, name=name), first=first, left=left)
     if errors := [each for each in found if each.severity == "error"]:
         raise BadFile(f"{name} has {counted(len(errors), 'mistake')}, the first: {errors[0].message}")
     return lines
