@@ -623,7 +623,7 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
             "same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
         (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as they do between kinds of "
-            "processors; the first: A"),
+            "processors; the first difference: A"),
     ],
 )  # fmt: skip
 def test_verify_has_three_answers_and_names_the_processors(

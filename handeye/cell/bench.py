@@ -72,12 +72,12 @@ class Bench(Clock, Mechanism[BenchTime]):
         """Add a mechanism. It acts on the scene as time passes, after the mechanisms added before."""
         self._parts.append(part)
 
-    def cell(self, *others: Mechanism[Any], kind: type[SnapshotCell] = SnapshotCell) -> SnapshotCell:
+    def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
         """Make a cell of this bench and of `others`, mechanisms that do not act as time passes. The scene must not
         change from now on.
         """
         noise = np.random.Generator(np.random.PCG64(0))
-        return kind(self.model, self.data, (self, *self._parts, *others), noise)
+        return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 
     def replace(self, spec: mujoco.MjSpec) -> None:
         """Continue with a changed scene. Everything that exists in both scenes keeps its state."""

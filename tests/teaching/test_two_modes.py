@@ -210,4 +210,4 @@ def test_a_macro_with_a_parameter_is_carried_out_with_its_operand(console: Conso
     assert console.steps == ["OPEN 3.5"]
     assert "`9` is too large for the gap of `OPEN`" in console.read("WIDE 9")
     assert console.repl.functions[-1] == "WIDE 2"
-    assert "`WIDE` needs its G" in console.read("DO WIDE")
+    assert "the G of `WIDE` is missing" in console.read("DO WIDE")

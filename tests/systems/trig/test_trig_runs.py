@@ -165,7 +165,7 @@ def test_what_the_arm_meets_calls_the_operator_and_is_tried_again(monkeypatch: p
     monkeypatch.setattr(AxesArm, "back", lambda *_: Resistance(force=4.0, limit=3.0))
     assert advance(runner).kind == "operator"
     assert isinstance(runner.events[-1], OperatorCalled)
-    assert "the finger met 4.0 N" in runner.events[-1].message
+    assert "the finger met a force of 4.0 N" in runner.events[-1].message
     monkeypatch.undo()
     runner.answer("proceed")
     assert (advance(runner).kind, runner.undone) == ("end", True)

@@ -14,7 +14,7 @@ END: Final = None  # in place of the number of a line: the program ends
 
 @dataclass(frozen=True, slots=True)
 class Unknown:
-    """A value that depends on the way by which the program comes to a line, or on a force."""
+    """A value that depends on the way by which the program reaches a line, or on a force."""
 
 
 UNKNOWN: Final = Unknown()

@@ -89,11 +89,7 @@ class RunningMal(RunningSystem):
     @cached_property
     def cell(self) -> "SnapshotCell | None":
         others = () if self._witness is None else (self._witness,)
-        if self._gantries is None:
-            return None
-        from handeye.systems.sigma.gantries.cell import BoardCell
-
-        return self._gantries.bench.cell(*others, kind=BoardCell)
+        return None if self._gantries is None else self._gantries.bench.cell(*others)
 
     @property
     def joints(self) -> tuple[str, ...]:
