@@ -38,5 +38,5 @@ def test_a_position_of_no_part_stays_where_it_is() -> None:
 
 
 def test_an_unknown_part_is_refused_with_those_there_are() -> None:
-    with pytest.raises(InvalidInput, match=r"^no part LID; there are BASE$"):
+    with pytest.raises(InvalidInput, match=r"^there is no part LID; the parts are BASE$"):
         world().measure("LID", planar(0, 0, 0, 0))
