@@ -185,7 +185,9 @@ def _motors(line: Line, arm: ArmSpec) -> Iterator[Diagnostic]:
         case (("MOVE" | "HAND"), _):
             goals = [(at, first + at, value) for at, value in enumerate(values)]
     for at, motor, goal in goals:
-        lower, upper = travel.get(motor, (0, 0))  # type: ignore[arg-type]  # a reference is not in it
-        if motor in travel and isinstance(goal, int) and not lower <= goal <= upper:
+        if not isinstance(motor, int) or motor not in travel or not isinstance(goal, int):
+            continue
+        lower, upper = travel[motor]
+        if not lower <= goal <= upper:
             told = f"motor {motor}{of_arm} cannot go to {goal}; its range is {lower} to {upper}"
             yield mistake("M10", told, line.place(at))

@@ -57,8 +57,8 @@ class Flow:
         if isinstance(target, Reference):
             plain = target.depth == 1 and not target.negative
             yield from self._loaded.get(target.index, ()) if likely and plain else self.numbers
-        elif target in self.statements:
-            yield target  # type: ignore[misc]  # a number
+        elif isinstance(target, int) and target in self.statements:
+            yield target
 
     def _having(self, code: str) -> Iterator[int]:
         return (number for number in self.numbers if self.statements[number].code == code)

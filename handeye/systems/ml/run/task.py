@@ -1,38 +1,7 @@
-"""Defines the task of an ML program on perfect motors. No errors are drawn, and there is no referee."""
+"""The task of an ML program on perfect motors."""
 
-from __future__ import annotations
+from typing import Final
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final, Literal
+from handeye.tasks.perfect_motors import PerfectMotors
 
-from handeye.core.errors import Refused
-from handeye.core.units import MILLIMETRES
-from handeye.core.variation import Variation, WorldSpec
-from handeye.judge.finding import Findings
-from handeye.tasks.interface import AnyTask, Words
-
-if TYPE_CHECKING:
-    import mujoco
-
-    from handeye.cell.truth import Truth
-
-
-class MlTask(AnyTask):
-    """A task for perfect motors, without scene and referee."""
-
-    name = "ml"
-    words = Words(product="the program", done="The program has ended.")
-    joint_kinds: Mapping[str, Literal["revolute", "prismatic"]] = {}
-    measures = MILLIMETRES
-
-    def variation(self) -> Variation:
-        return Variation()
-
-    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        raise Refused("perfect motors cannot be seen")
-
-    def judge(self, truth: Truth) -> Findings:
-        return {}
-
-
-ML_TASK: Final = MlTask()
+ML_TASK: Final = PerfectMotors("ml")
