@@ -1,11 +1,17 @@
-"""Make the run that `handeye report --demo` shows: its thinned trace, its result, and a picture of its end.
+"""Make the recorded runs that handeye includes.
 
 python docs/make_demo.py [DIR]
+python docs/make_demo.py chess
 
-DIR holds the run, kept by `handeye assemble --seed 15 --camera gl --out DIR`. Without DIR, the command first makes the
-run. It needs OpenGL.
+Without `chess`, make the run that `handeye report --demo` shows: its thinned trace, its result, and a picture of its
+end. DIR holds the run, kept by `handeye assemble --seed 15 --camera gl --out DIR`. Without DIR, the command first makes
+the run. It needs OpenGL.
+
+With `chess`, make the run that `handeye demo chess` shows: its whole trace and its result, of
+`handeye sigma chess --pieces 3 --seed 4`.
 """
 
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -22,10 +28,11 @@ DEMO = ROOT / "demo"
 SEED = 15
 PICTURE = "end_pump"
 SIZE = (960, 720)
+CHESS = ("sigma", "chess", "--pieces", "3", "--seed", "4")
 
 
 def make(run: Path) -> None:
-    """Make all files."""
+    """Make all files of the pump."""
     (DEMO / "pictures").mkdir(parents=True, exist_ok=True)
     write_thinned(handeye.open(run), DEMO / "trace.mcap")
     (DEMO / "result.json").write_bytes((run / "result.json").read_bytes())
@@ -33,11 +40,22 @@ def make(run: Path) -> None:
     cv2.imwrite(str(DEMO / f"pictures/{PICTURE}.webp"), shot, [cv2.IMWRITE_WEBP_QUALITY, 80])
 
 
+def make_chess(run: Path) -> None:
+    """Make all files of the chess board."""
+    (DEMO / "chess").mkdir(exist_ok=True)
+    for name in ("trace.mcap", "result.json"):
+        (DEMO / "chess" / name).write_bytes((run / name).read_bytes())
+
+
 if __name__ == "__main__":
-    if sys.argv[1:]:
-        make(Path(sys.argv[1]))
-    else:
-        with tempfile.TemporaryDirectory() as folder:
-            run = Path(folder) / "pump"
+    with tempfile.TemporaryDirectory() as folder:
+        run = Path(folder) / "run"
+        if sys.argv[1:] == ["chess"]:
+            typed = [sys.executable, "-m", "handeye", *CHESS, "--out", str(run)]
+            subprocess.run(typed, cwd=ROOT, check=True)  # noqa: S603 - fixed words
+            make_chess(run)
+        elif sys.argv[1:]:
+            make(Path(sys.argv[1]))
+        else:
             handeye.assemble(seed=SEED, camera="gl", out=run)
             make(run)

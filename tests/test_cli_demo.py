@@ -29,6 +29,13 @@ def test_it_writes_the_recorded_report_and_prints_its_path(command: Command) -> 
     assert err.splitlines()[1] == "Open demo.html in a browser."
 
 
+def test_another_recorded_run_is_shown_by_its_name(command: Command) -> None:
+    assert command("demo", "chess")[:2] == (0, "demo.html\n")
+    assert Path("demo.html").read_bytes().endswith(str(resources.demo() / "chess").encode())
+    code, _, err = command("demo", "ches")
+    assert (code, err) == (2, "handeye: there is no recorded run `ches`; did you mean `chess`?\n")
+
+
 def test_it_can_be_repeated_and_replaces_nothing_else(command: Command) -> None:
     assert command("demo")[0] == command("demo")[0] == 0
     mine = Path("demo.html")

@@ -8,11 +8,18 @@ from typing import Annotated, Final
 from cyclopts import Parameter
 
 from handeye.cli.common import CALLED, Overwrite, note, say
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import NoSuchName
 
 PAGE: Final = "demo.html"
 
 
 def demo(
+    run: Annotated[
+        str | None,
+        Parameter(help="The recorded run: `chess`, for example. Default: the assembly of the pump."),
+    ] = None,
+    /,
     *,
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the page, .html.")] = Path(PAGE),
     overwrite: Overwrite = False,
@@ -23,6 +30,9 @@ def demo(
     Writes the report of a run included with handeye, as `report --demo` does, and prints the path of the page. If
     standard output is a terminal, the page opens in a browser. Nothing is simulated, and the page needs no network.
 
+    `handeye demo chess` shows another recorded run: an arm of 1981 sorts chess pieces by one light beam. Its page
+    lists each statement of the program and each command on the bus.
+
     Exit code 0: the page is written; 2: bad input.
     """
     from handeye.cli.reports import page_of
@@ -30,9 +40,12 @@ def demo(
     from handeye.core.files import check_place, write_over
     from handeye.report.page.document import REPORT
 
+    if run is not None and run not in resources.recorded():
+        hint = suggestion(run, resources.recorded())
+        raise NoSuchName(f"there is no recorded run {quoted(run)}" + (f"; {hint}" if hint else ""))
     check_place(output, REPORT)
     note("Writing the page of a recorded run; this takes a few seconds.")
-    page = page_of(resources.demo())
+    page = page_of(resources.demo() / (run or ""))
     if not (output.exists() and output.read_bytes() == page):
         check_place(output, REPORT, overwrite=overwrite)
         write_over(output, page, REPORT)

@@ -39,6 +39,11 @@ def demo() -> Path:
     return folder("demo")
 
 
+def recorded() -> tuple[str, ...]:
+    """Return the names of further recorded runs, which are folders in the folder `demo`."""
+    return tuple(sorted(trace.parent.name for trace in demo().glob("*/trace.mcap")))
+
+
 def docs() -> Path:
     """Return the folder of the documentation."""
     return folder("docs")

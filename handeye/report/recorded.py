@@ -9,7 +9,7 @@ from handeye.core.errors import BadFile
 from handeye.planfile.plan import Plan
 from handeye.program.program import Program
 from handeye.results.result import Result
-from handeye.tasks import known
+from handeye.tasks import known, known_any
 from handeye.tasks.interface import HistoricalTiming
 from handeye.trace.reading import plan_of
 from handeye.trace.trace import Trace
@@ -69,7 +69,7 @@ def told_faults(run: RecordedRun) -> Iterator[tuple[str, str]]:
     """Yield each injected fault in the form in which users type it, and a sentence on its effect. The sentence
     is empty if the task is unknown."""
     world = run.trace.head.world
-    task = known(run.trace.head.task)
+    task = known_any(run.trace.head.task)
     for fault in world.faults:
         if task is None:
             yield str(fault), ""

@@ -89,7 +89,7 @@ def _remarks(result: Result, *, short: bool = False) -> Iterator[RenderableType]
 
 def told_faults(result: Result) -> Iterator[str]:
     """Yield the faults injected in a run, in the form in which users type them."""
-    task = known(result.task)
+    task = known_any(result.task)
     for fault in result.world.faults:
         yield str(fault) if task is None else task.faults(result.world).written(fault)
 

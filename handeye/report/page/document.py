@@ -20,7 +20,7 @@ from handeye.report.facts.told import told
 from handeye.report.page.felt import How, channels_section, felt_section
 from handeye.report.page.moments import moments
 from handeye.report.page.planned import planned_section
-from handeye.report.page.record import facts, record_section
+from handeye.report.page.record import facts, record_section, world_quantities
 from handeye.report.page.referee import findings_table, referee_section
 from handeye.report.page.seen import seen_section
 from handeye.report.page.timing import timing_section
@@ -126,4 +126,4 @@ def _account_sections(run: RecordedRun) -> Iterator[Markup]:
     yield channels_section(run.trace)
     if run.result is not None and run.result.checks:
         yield section("referee", "What the referee measured", findings_table(run.result.checks))
-    yield section("record", "World and versions", facts(run))
+    yield section("record", "World and versions", facts(run), *world_quantities(run))

@@ -24,14 +24,18 @@ from handeye.program.senses import assumption
 from handeye.report.facts.again import command
 from handeye.report.recorded import RecordedRun, told_faults
 from handeye.results.world_page import QuantityReport, report
-from handeye.tasks import known
+from handeye.tasks import known_any
 from handeye.trace.sentences import renderer_name
 
 
 def record_section(run: RecordedRun) -> Markup:
     """Return the section with the conditions of the run."""
     return section(
-        "record", "World, versions, and how to repeat the run", *_again(run), facts(run), *_world(run)
+        "record",
+        "World, versions, and how to repeat the run",
+        *_again(run),
+        facts(run),
+        *world_quantities(run),
     )
 
 
@@ -59,8 +63,12 @@ def facts(run: RecordedRun) -> Markup:
         ("seed", str(head.world.seed)),
         ("errors", f"{head.world.level}, drawing {head.world.drawing}"),
         ("plan", element("code", head.plan)),
-        ("arm", element("span", f"{head.arm} ", element("code", head.arm_digest))),
-        ("pictures by", renderer_name(head.camera)),
+        *(
+            ()
+            if not head.arm
+            else [("arm", element("span", f"{head.arm} ", element("code", head.arm_digest)))]
+        ),
+        *(() if head.camera.method == "none" else [("pictures by", renderer_name(head.camera))]),
         *((f"without {sense}", assumption(sense)) for sense in head.lacking),
         *((f"{part} by", name) for part, name in head.own_parts.items()),
         ("versions", ", ".join(f"{name} {version}" for name, version in head.versions.items())),
@@ -84,7 +92,8 @@ def _overrides(run: RecordedRun) -> Iterator[tuple[str, Content]]:
         yield "scaled", f"{name} by {factor:g}"
 
 
-def _world(run: RecordedRun) -> Iterator[Markup]:
+def world_quantities(run: RecordedRun) -> Iterator[Markup]:
+    """Yield the quantities of the run's world, or a note on why they cannot be listed."""
     try:
         quantities = _quantities(run)
     except InvalidInput as fault:
@@ -109,7 +118,7 @@ def _quantities(run: RecordedRun) -> tuple[QuantityReport, ...]:
     """Return the quantities of the run's world. Quantities that the user set come first. Raises InvalidInput if
     another version of handeye drew the world differently.
     """
-    task, world = known(run.trace.head.task), run.trace.head.world
+    task, world = known_any(run.trace.head.task), run.trace.head.world
     if task is None:
         return ()
     variation = task.variation()

@@ -30,7 +30,7 @@ from handeye.report.page.source import excerpt
 from handeye.report.photographs import Photograph, shown
 from handeye.report.recorded import RecordedRun, told_faults
 from handeye.results.result import Check
-from handeye.tasks import known
+from handeye.tasks import known_any
 from handeye.tasks.interface import Words
 from handeye.trace.sentences import sentence
 
@@ -39,7 +39,7 @@ _NEUTRAL: Final = Words(done="The referee found everything right.", product="the
 
 def title(run: RecordedRun, outcome: Outcome) -> str:
     """Say in one sentence how the run ended."""
-    task = known(run.trace.head.task)
+    task = known_any(run.trace.head.task)
     words = _NEUTRAL if task is None else task.words
     apart = None if run.result is None else run.result.apart
     line = "" if outcome.step is None else f"line {outcome.step.place}"
