@@ -199,14 +199,20 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
     another object, or hold the object askew. If the next grasp reads the same gap, it is reported.
     """
     state, gap = run.state, run.drive.sensed.gap
-    objects = run.plan.program.held.items()
-    name, held = next((each for each in objects if state.place in each[1].positions), ("", None))
-    if held is None or held.thickness is None or gap <= EMPTY_GAP or thick(gap, held.thickness):
+    name, thickness = _nominal(run)
+    if thickness is None or gap <= EMPTY_GAP or thick(gap, thickness):
         return None
     again = state.unlike is not None and abs(gap - state.unlike) <= SKEW
     state.unlike = gap
     within = at_least(gap, least) and (maximum is None or at_most(gap, maximum))
-    return GapUnlike(gap=round(gap, 6), thickness=held.thickness, held=name) if again or within else None
+    return GapUnlike(gap=round(gap, 6), thickness=thickness, held=name) if again or within else None
+
+
+def _nominal(run: ExecutionContext) -> tuple[str, float | None]:
+    """Return the name of the object held here and its nominal thickness (m), or None if it is not known."""
+    objects = run.plan.program.held.items()
+    known = ((name, held.thickness) for name, held in objects if run.state.place in held.positions)
+    return next(known, ("", None))
 
 
 def _thick_enough(run: ExecutionContext, least: float) -> Fault | None:
@@ -218,8 +224,10 @@ def _thick_enough(run: ExecutionContext, least: float) -> Fault | None:
 
 
 def _switches_open(run: ExecutionContext) -> Fault:
-    first, second = run.drive.sensed.touch
-    return _switch_wrong(SwitchesOpen(fingers=(not first, not second), gap=round(run.drive.sensed.gap, 6)))
+    (first, second), gap = run.drive.sensed.touch, run.drive.sensed.gap
+    _, thickness = _nominal(run)
+    fits = thickness is not None and thick(gap, thickness)
+    return _switch_wrong(SwitchesOpen(fingers=(not first, not second), gap=round(gap, 6), fits=fits))
 
 
 def _switch_wrong(cause: Cause) -> Fault:

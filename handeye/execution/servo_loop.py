@@ -15,7 +15,7 @@ from handeye.arm.converters import sliding
 from handeye.arm.dynamics import Dynamics
 from handeye.arm.exertion import Exertion
 from handeye.arm.ik import solve
-from handeye.arm.joint_agreement import JointAgreement, crept
+from handeye.arm.joint_agreement import JointAgreement, Scatter, crept, scattered, swings_unevenly
 from handeye.arm.joint_drag import alone, stiff
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import constants
@@ -35,6 +35,7 @@ from handeye.program.diagnosis.causes import (
     JointBehind,
     JointName,
     JointSensesApart,
+    RateScatters,
 )
 from handeye.touch.guards import ActiveGuard, Monitor, Trip
 from handeye.touch.senses import FREE_FORCE, off_zero
@@ -262,19 +263,42 @@ class ServoLoop(Servo):
 
         If friction is known, dither first keeps the joints sliding to and fro. Without dither, the joints could
         rest anywhere within their friction, and the tare would contain that friction.
+
+        The force on the hand is computed from the rates, so a tachometer that scatters would be felt as a force. If
+        the joints slide unevenly, the arm therefore also holds still without dither, and the rates are checked.
+        """
+        if (yield from self._taring()):
+            scatter = yield from self._resting()
+            if scatter is not None:
+                return self._scatters(scatter)
+        return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
+
+    def _taring(self) -> Motion[bool]:
+        """Take the present force as zero. Returns True if the dither makes the joints slide unevenly although the
+        screwdriver, which would shake the arm, is at rest.
         """
         here, dither, settle = self.dynamics(), DITHER * self.state.friction, self.arm.servo.settle
-        felt = []
+        felt, rates = [], []
         self.state.tare = np.zeros(6)
         for tick in range(2 * settle if dither.any() else settle):
             shaken = dither if tick % 2 else -dither
             yield from self._approach(here, self.state.q, estimate=True, taring=True, dither=shaken)
             felt.append(self.state.wrench)
+            rates.append(self.sensed.qd)
         if dither.any():
             yield from self._approach(here, self.state.q, estimate=False)  # the joints come to rest
         self.state.tare = np.mean(felt[-settle:], axis=0)
         self.state.wrench = np.zeros(6)
-        return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
+        shaken_only = bool(dither.any()) and not self.state.tool
+        return shaken_only and swings_unevenly(self.arm, here.M, dither, np.array(rates[-settle:]))
+
+    def _resting(self) -> Motion[Scatter | None]:
+        """Hold still. Returns the joint whose rate readings scatter too much at the end, or None."""
+        here, rates = self.dynamics(), []
+        for _ in range(2 * self.arm.servo.settle):
+            yield from self._approach(here, self.state.q, estimate=False)
+            rates.append(self.sensed.qd)
+        return scattered(self.arm, np.array(rates[-self.arm.servo.settle :]))
 
     # -- stopping -----------------------------------------------------------------------------------
 
@@ -351,6 +375,12 @@ class ServoLoop(Servo):
             potentiometer=round(found.potentiometer, 6), tachometer=round(found.tachometer, 6),
             braked=found.braked,
         )  # fmt: skip
+        return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
+
+    def _scatters(self, found: Scatter) -> Outcome:
+        cause = RateScatters(
+            joint=self._named(found.joint), scatter=round(found.scatter, 6), limit=round(found.limit, 6)
+        )
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 
     def _behind(self, met: Array, swing: Array) -> Outcome | None:

@@ -5,7 +5,7 @@ from math import radians
 import numpy as np
 
 from handeye.arm.converters import position_step
-from handeye.arm.joint_agreement import Disagreement, JointAgreement, jumped
+from handeye.arm.joint_agreement import Disagreement, JointAgreement, jumped, scattered
 from handeye.arm.robots.stanford import STANFORD
 
 ROLL = 5
@@ -73,3 +73,13 @@ def test_a_joint_that_is_struck_in_a_servo_period_has_not_jumped() -> None:
     q, struck = REST.copy(), REST.copy()
     q[ROLL], struck[ROLL] = radians(0.5), 3.3
     assert jumped(STANFORD, q, REST, struck) is None
+
+
+def test_a_joint_that_is_struck_once_while_the_arm_holds_still_does_not_scatter() -> None:
+    rates = np.zeros((8, len(REST)))
+    rates[3:5, ROLL] = 0.5, -0.4
+    assert scattered(STANFORD, rates) is None
+    rates[:, ROLL] = np.resize((0.02, -0.02), 8)
+    said = scattered(STANFORD, rates)
+    assert said is not None
+    assert said.joint == ROLL

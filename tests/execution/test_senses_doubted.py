@@ -94,6 +94,19 @@ def test_a_switch_that_stays_open_on_something_is_told() -> None:
     assert "the switch of the -y finger is open although something 1.00 in thick" in run.told
 
 
+@pytest.mark.parametrize(("thick", "beside"), [(1.0, False), (1.3, True)])
+def test_a_finger_whose_switch_stays_open_may_stand_beside_something_where_the_gap_is_too_wide(
+    thick: float, beside: bool
+) -> None:
+    run = fake_run("OPEN 2\nMOVE T\nCLOSE .1", held={"PIN": Held(positions=("T",), boxes=(), thickness=INCH)})
+    run.cell.hand.thickness = lambda _: thick * INCH
+    right = run.cell.hand.read
+    run.cell.hand.read = lambda: replace(right(), touch=(right().touch[0], False))  # type: ignore[method-assign]
+    assert run.go().errors == [errors.SWITCH_WRONG]
+    assert ("beside their tips" in run.told) == beside
+    assert "motor" not in run.told  # the other switch shows its force
+
+
 def test_a_finger_that_the_hand_does_not_come_off_has_no_switch_of_its_own() -> None:
     run = gripping("OPEN 2\nCENTER .1", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
     assert run.errors == [errors.SWITCH_WRONG]
@@ -232,6 +245,17 @@ def test_a_tachometer_that_reads_nothing_is_told_with_its_joint() -> None:
     assert run.errors == [errors.JOINT_SENSE_WRONG]
     assert "column has moved" in run.told
     assert run.told.endswith("0.0 degrees by its tachometer)")
+
+
+@pytest.mark.parametrize(("sd", "found"), [(0.03, [errors.JOINT_SENSE_WRONG]), (0.0, [errors.NO_FORCE])])
+def test_a_tachometer_that_scatters_is_told_before_its_force_is_felt(sd: float, found: list[int]) -> None:
+    """The joints of the fake arm are shaken without any friction: the widest swing that a sound arm can have."""
+    run, rng = fake_run(DOWN), np.random.default_rng(1)
+    run.executor.run.drive.state.friction = np.array([2.0, 3.0, 6.0, 0.5, 0.5, 0.25])
+    reading(run, lambda read: replace(read, qd=read.qd + rng.normal(0, sd) * np.eye(6)[0])).go()
+    assert run.errors == found
+    if sd:
+        assert "the tachometer reading of the column scatters by" in run.told
 
 
 def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:

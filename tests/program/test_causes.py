@@ -66,9 +66,24 @@ WORDS: list[tuple[c.Cause, str]] = [
         "the switch of the +y finger is closed although the fingers are open",
     ),
     (
-        c.SwitchesOpen(fingers=(True, True), gap=0.3 * INCH),
+        c.SwitchesOpen(fingers=(True, True), gap=0.3 * INCH, fits=True),
         "the switches of both fingers are open although something 0.30 in thick holds the fingers apart: the "
         "switches have failed, or the fingers' motor is weak",
+    ),
+    (
+        c.SwitchesOpen(fingers=(True, False), gap=0.3 * INCH),
+        "the switch of the +y finger is open although something 0.30 in thick holds the fingers apart: the switch "
+        "has failed, or something stands between the fingers beside their tips",
+    ),
+    (
+        c.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
+        "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still, allowed: 0.6 "
+        "degrees/s; or its drive shakes it",
+    ),
+    (
+        c.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
+        "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still, allowed: 0.25 in/s; or "
+        "its drive shakes it",
     ),
     (
         c.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),

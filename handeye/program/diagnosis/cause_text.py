@@ -64,8 +64,8 @@ def cause_sentence(cause: Cause) -> str:
             c.SwitchesClosed() | c.SwitchesOpen() | c.SwitchesCrossed() | c.SwitchesHard() | c.GapAstray()
             | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
             | c.DrivesUnlike() | c.CurrentShort()
-            | c.JointSensesApart() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
-            | c.PictureNoisy()
+            | c.JointSensesApart() | c.RateScatters() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated()
+            | c.PictureBlank() | c.PictureNoisy()
         ):  # fmt: skip
             return doubt_sentence(cause)
         case c.NoPicture():
@@ -199,7 +199,7 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return f"{_switches(cause.fingers)} closed although the fingers are open"
         case c.SwitchesOpen():
             held = f"something {_inches(cause.gap)} thick holds the fingers apart"
-            return f"{_switches(cause.fingers)} open although {held}: {_numb(cause.fingers)}"
+            return f"{_switches(cause.fingers)} open although {held}: {_untouched(cause)}"
         case c.SwitchesCrossed():
             still = f"still closed after the hand moved {_inches(cause.moved)} towards it, away from the part"
             return (
@@ -251,6 +251,12 @@ def doubt_sentence(cause: c.SenseCause) -> str:
                 f"{cause.joint.name} has moved {pot} by its potentiometer and {tachometer} by its tachometer"
             )
             return f"{ways}, although its brake is set; or the brake slips" if cause.braked else ways
+        case c.RateScatters():
+            scatter, limit = (_rate(cause.joint, rate) for rate in (cause.scatter, cause.limit))
+            return (
+                f"the tachometer reading of the {cause.joint.name} scatters by {scatter} while the arm holds still, "
+                f"allowed: {limit}; or its drive shakes it"
+            )
         case c.JointAlone():
             return _alone(cause)
         case c.CurrentSilent():
@@ -290,9 +296,17 @@ def _switches(fingers: tuple[bool, bool]) -> str:
 
 
 def _numb(fingers: tuple[bool, bool]) -> str:
-    return (
-        f"{'the switches have' if all(fingers) else 'the switch has'} failed, or the fingers' motor is weak"
-    )
+    return f"{_failed(fingers)}, or the fingers' motor is weak"
+
+
+def _untouched(cause: c.SwitchesOpen) -> str:
+    """Write why the switches are open. A switch that is closed shows that the motor is strong enough."""
+    causes = _numb(cause.fingers) if all(cause.fingers) else _failed(cause.fingers)
+    return causes if cause.fits else f"{causes}, or something stands between the fingers beside their tips"
+
+
+def _failed(fingers: tuple[bool, bool]) -> str:
+    return f"{'the switches have' if all(fingers) else 'the switch has'} failed"
 
 
 def _named(fingers: tuple[bool, bool]) -> list[str]:
@@ -314,6 +328,10 @@ def _alone(cause: c.JointAlone) -> str:
     took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
     tilted = "; or the arm no longer stands upright" if cause.one_way else ""
     return f"{cause.joint.name} takes {takes} {name} to move; at the start it took {took} {name}{tilted}"
+
+
+def _rate(joint: c.JointName, rate: float) -> str:
+    return f"{rate / INCH:.2f} in/s" if joint.kind == "prismatic" else f"{rate / DEGREE:.1f} degrees/s"
 
 
 def _way(joint: c.JointName, way: float) -> str:

@@ -147,10 +147,15 @@ class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` are open although an object holds the driven fingers apart at `gap` (m)."""
+    """The switches of `fingers` are open although an object holds the driven fingers apart at `gap` (m).
+
+    `fits` is True if the gap is that of the object that should be held. If it is not, or if the thickness of the
+    object is unknown, another object may stand between the fingers where no switch feels it.
+    """
 
     fingers: tuple[bool, bool]
     gap: float
+    fits: bool = False
 
 
 class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
@@ -220,6 +225,16 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
     potentiometer: float
     tachometer: float
     braked: bool = False
+
+
+class RateScatters(CauseRecord, frozen=True, kw_only=True):
+    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound one scatters by at most
+    `limit`. Both are median deviations from the median, rad/s or m/s.
+    """
+
+    joint: JointName
+    scatter: float
+    limit: float
 
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
@@ -432,8 +447,8 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
 SenseCause = (
     SwitchesClosed | SwitchesOpen | SwitchesCrossed | SwitchesHard | GapAstray | GapStill | GapJumped | GapUnlike
-    | CurrentUnlike | CurrentShort | MotorSlow | DrivesUnlike | ForceInAir | JointSensesApart | JointAlone
-    | CurrentSilent | PictureRepeated | PictureBlank | PictureNoisy
+    | CurrentUnlike | CurrentShort | MotorSlow | DrivesUnlike | ForceInAir | JointSensesApart | RateScatters
+    | JointAlone | CurrentSilent | PictureRepeated | PictureBlank | PictureNoisy
 )  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong
