@@ -1,5 +1,4 @@
-; The water pump of 1973, assembled in eleven steps, and inspected in a twelfth: there all that the work consists of is looked at
-; once more, behind everything that could disturb it.
+; The water pump of 1973, assembled in eleven stages. A twelfth stage inspects the whole assembly, as late as it can.
 ;
 ; The comments in capitals, and the instructions beside them, stand in the listing of 1973; water_pump_1973.al does each thing
 ; once. This one is careful: what can be tried again is tried again before the operator is called, and each stage ends with
@@ -167,7 +166,7 @@ DEFINE DRIVER MOST
         RESTORE DRV             ;where it was the last time, if it was taken before
         CENTER  .5
         SKIPN   2
-        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
+        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK, OR A JOINT READS WRONG"
         TRAVEL  0 MOST
         SKIPN   8
         WAIT    "THE SCREWDRIVER IS NOT WHERE IT SHOULD BE: ITS RACK HAS MOVED, OR A JOINT READS WRONG"
@@ -178,7 +177,7 @@ DEFINE DRIVER MOST
         RESTORE DRX
         CENTER  .5
         SKIPN   2
-        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
+        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK, OR A JOINT READS WRONG"
         TRAVEL  0 MOST
         SKIPN   8
         WAIT    "THE SCREWDRIVER IS NOT WHERE IT SHOULD BE: ITS RACK HAS MOVED, OR A JOINT READS WRONG"
@@ -189,7 +188,7 @@ DEFINE DRIVER MOST
         RESTORE DRV
         CLOSE   .9 1.1
         SKIPN   2
-        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
+        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 2
         LOAD    15
 
@@ -254,7 +253,7 @@ LG:     SKIPN   6               ;all places tried
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
-        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
+        WAIT    "THE GASKET MEETS NOTHING: IT LIES REVERSED, OR IS LOST"
         TRAVEL  1.2 2.2         ;a gasket that stands on the pins stops high
         SKIPE   8
         JUMP    ON
@@ -303,7 +302,7 @@ LF:     SKIPN   6
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
-        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
+        WAIT    "THE GASKET MEETS NOTHING: IT LIES REVERSED, OR IS LOST"
         TRAVEL  1.2 2.2
         SKIPN   8
         AOJ     LF
@@ -439,10 +438,18 @@ DEFINE PRESS SPOT UNEVEN
 DEFINE FLATNESS
         ASSIGN  TRIES 2
         OPEN    0
-LEAN:   MOVE    TABLE
+LEAN:   MOVE    TABLEL
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
-        SAVE    TABLE           ;how high the arm finds the table
+        SAVE    TABLEL          ;how high the arm finds the table on one side of the base
+        CHANGE  [0 0 1] 3       ;over the base
+        MOVE    TABLE
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .1
+        SAVE    TABLE
+        HEIGHT  TABLEL -.027 .027 ;as high on the other side, or does something lie there, and under the base?
+        SKIPN   9
+        JUMP    UNEVEN
         PRESS   FACE1 UNEVEN
         SAVE    FACE1
         PRESS   FACE4 UNEVEN
@@ -460,7 +467,7 @@ LEAN:   MOVE    TABLE
         JUMP    EVEN
 UNEVEN: CHANGE  [0 0 1] 1
         SOJG    TRIES LEAN      ;a touch scatters: all once more
-        WAIT    "THE BASE DOES NOT LIE FLAT: SOMETHING LIES UNDER IT, OR A JOINT READS WRONG"
+        WAIT    "THE BASE DOES NOT LIE FLAT: SOMETHING LIES UNDER IT OR BESIDE IT, OR A JOINT READS WRONG"
 EVEN:   CHANGE  [0 0 1] 1
 
 ; Does a head stand as high over the face as the parts are thick? Felt twice, if it does not.
@@ -504,8 +511,18 @@ DEFINE STANDS END
         MOVE    END
         RESTORE C1 LEVEL
         RESTORE C2 LEVEL
-        STOP    [0 0 -30]
-        CHANGE  [0 0 -1] .6 .2
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .1
+
+; A pin in its holder: its end is 3.51 in over the table, unless it stands on something.
+DEFINE PLUGGED END NR
+        STANDS  END
+        SKIPN   23
+        JUMP    OUT
+        HEIGHT  TABLE 3.41 3.61
+        SKIPN   9
+OUT:    WAIT    "PIN {NR} DOES NOT STAND IN ITS HOLDER, OR A JOINT READS WRONG"
+        CHANGE  [0 0 1] 1
 
 ; The rotor one way by an open fork, which pushes and does not pinch. The fork is centred first, and then stands free while
 ; the guard takes its zero: one that leaned on the crank would feel the rotor twice.
@@ -551,20 +568,17 @@ DEFINE HEADS
         TIGHTEN H2 Y1 2
         RACK
 
-; What was used, in its place.
+; Screwdriver and pins in their places.
 DEFINE TOOLS
         STANDS  DEND
         SKIPN   23
-        WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK"
+        JUMP    FALLEN
+        HEIGHT  TABLE 7.96 8.24
+        SKIPN   9
+FALLEN: WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 1
-        STANDS  P1END
-        SKIPN   23
-        WAIT    "PIN 1 DOES NOT STAND IN ITS HOLDER"
-        CHANGE  [0 0 1] 1
-        STANDS  P2END
-        SKIPN   23
-        WAIT    "PIN 2 DOES NOT STAND IN ITS HOLDER"
-        CHANGE  [0 0 1] 1
+        PLUGGED P1END 1
+        PLUGGED P2END 2
 
 ; What lies over the face of the base at each screw: gasket, flange and head, .511 in under six screws. As late as can be: no picture
 ; tells whether a screw is loose.
@@ -670,10 +684,12 @@ FELT:   OPEN    1.85
         JUMP    HELD
 MISSED: OPEN    1.775
         SOJG    TRIES AFRESH
-        WAIT    "THE BASE IS NOT WHERE IT WAS SEEN: IT OR THE CAMERA HAS MOVED, OR A JOINT READS WRONG"
+GONE:   WAIT    "THE BASE IS NOT WHERE IT WAS SEEN: IT OR THE CAMERA HAS MOVED, OR A JOINT READS WRONG"
 AFRESH: PARK                    ;look again: it may have been moved
         LOOK    CLOSE_UP
         SPECIFIC BASE CLOSE_UP
+        SKIPN   31
+        JUMP    GONE
         JUMP    GRASP
 HELD:   LOAD    84.6
 
@@ -846,8 +862,11 @@ LAYING: LAY
         JUMP    FLAT
         HEIGHT  BARE .08 1      ;higher: it is caught on something; lower: there is none to take up
         SKIPE   9
-        SOJG    TRIES AGAIN
-        WAIT    "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
+        JUMP    THICK
+        WAIT    "NO GASKET LIES ON THE BASE, OR ONE TOO THIN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+        JUMP    FLAT
+THICK:  SOJG    TRIES AGAIN
+        WAIT    "THE GASKET LIES TOO HIGH: THERE ARE TWO, OR IT IS TOO THICK, OR SOMETHING LIES UNDER IT"
         JUMP    FLAT
 AGAIN:  CHANGE  [0 0 1] 1
         LIFT
@@ -870,7 +889,7 @@ LOOKS:  LOOK    AFTER HOLD
 ANEW:   FEEL    FACE            ;both pictures again, the arm elsewhere: its shadow may have lain on the pump
         HEIGHT  BARE .04 1
         SKIPN   9
-        WAIT    "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
+        WAIT    "NO GASKET LIES ON THE BASE, OR ONE TOO THIN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 1
         LIFT
         MOVE    ASIDE
@@ -894,7 +913,7 @@ RIGHT:  OPEN    3.4             ;for the top: .6 in beside its hub on each side
         CHANGE  [0 0 1] .1
         CLOSE   1.5
         SKIPN   2
-        WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
+        WAIT    "NO TOP UNDER THE FINGERS: IT LIES REVERSED, OR IS LOST"
         OPEN    3.4
         BESTRIDE
         CENTER  2
@@ -919,7 +938,7 @@ TOPPING: COVER
         SKIPN   52
         JUMP    ASKEW
         SKIPN   23
-        WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
+        WAIT    "NO TOP UNDER THE FINGERS: IT LIES REVERSED, OR IS LOST"
         HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
         SKIPE   9
         JUMP    COVERED
@@ -969,13 +988,14 @@ TOPPED: OPEN    2.2             ;for the screwdriver
 MOVED:  SOJG    TRIES ALL       ;by the inspection itself? All of it once more
         WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT"
 ALL:    BLOCKS                  ;home, before it is felt
-        ROTATION
         HEADS
-        TOOLS
         BLOCKS                  ;the driver has drawn it off a little
+        ROTATION                ;driven again, the screws may have made the rotor bind
         PARK
         LOOK    WHOLE           ;what is lost from here on, the last picture shows
         LAYERS
+        TOOLS                   ;no camera sees them
+        BLOCKS                  ;home, if it was moved before the picture: then the next one differs
         PARK
         LOOK    DONE HOLD
         MATCH   PUMP WHOLE DONE ;does it still stand as it was felt?

@@ -144,7 +144,7 @@ LG:     MOVE    GON
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
-        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
+        WAIT    "THE GASKET MEETS NOTHING: IT LIES REVERSED, OR IS LOST"
         TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
         SKIPN   8
         AOJ     LG
@@ -186,7 +186,7 @@ LT:     MOVE    TOPON
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
         SKIPN   23
-        WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
+        WAIT    "NO TOP UNDER THE FINGERS: IT LIES REVERSED, OR IS LOST"
         HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
         CHANGE  [0 0 1] 2       ;above the pins, before the hand opens
 

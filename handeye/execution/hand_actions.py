@@ -110,12 +110,15 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
             return Fault(number=outcome.error, cause=outcome.cause)
     driven = _driven(start, drive.state.gap)
     drive.hold(1)
+    lead = grasp.lag(SWITCH_FORCE, drive.state.grip)
     if not centring.error:
-        drive.state.gap = drive.sensed.gap - grasp.lag(SWITCH_FORCE, drive.state.grip)
+        drive.state.gap = drive.sensed.gap - lead
     drive.hold(grasp.settle // 2 - 1)
     for _ in range(0 if centring.error or "touch" in run.without else grasp.settle // 4):
         if all(_touch(run)):  # a jerk of the arm may open one for a period
             break
+        # Pressed, a leaning object has stood up, and the fingers must follow it to press as hard as before.
+        drive.state.gap = min(drive.state.gap, drive.sensed.gap - lead)
         drive.hold(1)
     run.state.travel = abs(float((X_WT[:3, 3] - begun) @ line))
     still = _still(run, start, driven)

@@ -95,7 +95,7 @@ def _base() -> Iterator[PartFault]:
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
     yield _fault(
-        "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre()),
+        "base.reversed", "The base is reversed.", lambda spec, _: _reverse(spec, "base", _plate_centre()),
         ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,)),
     )  # fmt: skip
 
@@ -103,12 +103,13 @@ def _base() -> Iterator[PartFault]:
 def _gasket() -> Iterator[PartFault]:
     part, middle = "gasket", (web_centre(), 0.0)
     thin = dimensions()("gasket.thickness")
-    wrong = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.THICKNESS,))
+    high = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.TOO_HIGH,))
+    wrong = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.TOO_LOW, detect.TOO_HIGH))
     yield _fault(
         "gasket.missing", "No gasket lies on its stand.", partial(_missing, part),
         ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.GASKET_OFF,), stages=(detect.PUT_ON_GASKET,)),
     )  # fmt: skip
-    yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), wrong)
+    yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), high)
     yield _fault(
         "gasket.thick", "The gasket has this thickness; .06 in is right.",
         lambda spec, thick: _thicken(spec, thick / thin), wrong,
@@ -128,13 +129,13 @@ def _gasket() -> Iterator[PartFault]:
         ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,),
             # Down beside the pins, it leaves bare where the hand feels how thick it is.
-            calls=(detect.GASKET_OFF, detect.ON_PINS, detect.THICKNESS),
+            calls=(detect.GASKET_OFF, detect.ON_PINS, detect.TOO_LOW),
             harmless="Fingers that close on the gasket turn it straight.",
         ),
         Size(unit="deg", usual=12.0, limits=(-90.0, 90.0)),
     )  # fmt: skip
     yield _fault(
-        "gasket.reversed", "The gasket lies end for end.", lambda spec, _: _reverse(spec, part, middle),
+        "gasket.reversed", "The gasket is reversed.", lambda spec, _: _reverse(spec, part, middle),
         ExpectedDetection(calls=(detect.GASKET_LOST,)),
     )  # fmt: skip
 
@@ -161,7 +162,7 @@ def _top() -> Iterator[PartFault]:
         Size(unit="mm", usual=6.0, limits=(0.1, 15.0)),
     )  # fmt: skip
     yield _fault(
-        "top.reversed", "The top lies end for end.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
+        "top.reversed", "The top is reversed.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
         ExpectedDetection(calls=(detect.TOP_LOST,)),
     )  # fmt: skip
 

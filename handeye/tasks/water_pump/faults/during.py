@@ -137,7 +137,7 @@ def _base() -> Iterator[MishapFault]:
 def _losses() -> Iterator[MishapFault]:
     gasket = ExpectedDetection(
         errors=(NOTHING_HELD, WRONG_HEIGHT),
-        calls=(detect.GASKET_LOST, detect.THICKNESS, detect.NOT_LIFTED),
+        calls=(detect.GASKET_LOST, detect.TOO_LOW, detect.NOT_LIFTED),
         stages=(detect.PUT_ON_GASKET,),
     )
     top = ExpectedDetection(

@@ -175,7 +175,7 @@ def _taken() -> Iterator[MishapFault]:
     for part, expected, stage in (
         (
             "gasket",
-            ExpectedDetection(errors=(GASKET_WRONG, WRONG_HEIGHT), calls=(detect.NOT_ON, detect.THICKNESS)),
+            ExpectedDetection(errors=(GASKET_WRONG, WRONG_HEIGHT), calls=(detect.NOT_ON, detect.TOO_LOW)),
             6,
         ),
         ("top", ExpectedDetection(calls=(detect.driven_loose_screw(1), detect.loose_screw(1))), 8),
