@@ -993,9 +993,9 @@ ALL:    BLOCKS                  ;home, before it is felt
         ROTATION                ;driven again, the screws may have made the rotor bind
         PARK
         LOOK    WHOLE           ;what is lost from here on, the last picture shows
+        BLOCKS                  ;home, if it was moved before the picture: then the next one differs
         LAYERS
         TOOLS                   ;no camera sees them
-        BLOCKS                  ;home, if it was moved before the picture: then the next one differs
         PARK
         LOOK    DONE HOLD
         MATCH   PUMP WHOLE DONE ;does it still stand as it was felt?
