@@ -245,7 +245,7 @@ def test_the_outline_of_the_pump_is_its_stages() -> None:
     plan = json.loads((PLANS / "water_pump.plan.json").read_text(encoding="utf-8"))
     assert [stage.name for stage in stages] == plan["program"]["stages"]
     assert [part.name for part in stages[1].parts if part.kind == "label"] == [
-        "GRASP", "LA", "LB", "WALL", "ACROSS", "FELT", "MISSED", "AFRESH", "HELD",
+        "GRASP", "LA", "LB", "WALL", "ACROSS", "FELT", "MISSED", "GONE", "AFRESH", "HELD",
     ]  # fmt: skip
     assert (found[0].name, [part.name for part in found[0].parts]) == ("FETCH", ["M", "OVER", "RIM", "DS"])
 
