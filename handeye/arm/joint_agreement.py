@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.converters import position_step, rate_step
+from handeye.arm.dynamics import Dynamics
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 from handeye.core.record import Record
@@ -33,6 +34,10 @@ explains. Chosen.
 """
 
 
+SINGULAR: Final = 0.05
+"""Directions in which the joints move the hand by less than this fraction of the largest movement do not show a blow.
+Chosen.
+"""
 REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
 tachometer reads zero.
@@ -178,17 +183,34 @@ def _unsteady(change: Array, step: Array) -> Array:
     return np.maximum(np.abs(change) - 2 * step, 0.0)
 
 
-def jumped(arm: ArmModel, by_pot: Array, before: Array, after: Array) -> Disagreement | None:
+def jumped(
+    arm: ArmModel, by_pot: Array, before: Array, after: Array, blow: Array | float = 0.0
+) -> Disagreement | None:
     """Find the joint whose potentiometer disagrees with its rates before and after a servo period. Returns None if
     all agree.
 
-    A reading that jumps is detected at once, whatever the arm does. All arrays have shape (n,).
+    A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on
+    the hand may have caused within the period, see `blown`. All arrays have shape (n,).
     """
     period = arm.servo.period
     gone = (before + after) / 2 * period
-    struck = STRUCK * np.abs(after - before) / 2 * period
+    struck = STRUCK * (np.abs(after - before) + blow) / 2 * period
     excess = np.abs(by_pot - gone) / (JUMP_STEPS * position_step(arm) + struck)
     joint = int(excess.argmax())
     if excess[joint] <= 1:
         return None
     return Disagreement(joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(gone[joint]))
+
+
+def blown(here: Dynamics, impulse: Array) -> Array:
+    """Return the largest change of rate, shape (n,), that a blow on the hand may have caused in each joint, even if
+    the joint was stopped again within the same servo period.
+
+    `impulse`, shape (n,), N m s and N s, is the part of the change of momentum that the drives, the weight and the
+    friction of the arm do not explain. It gives the impulse and the angular impulse on the hand. Their directions
+    may have changed within the period, so each may have acted on each joint in the worst direction.
+    """
+    wrench = np.linalg.lstsq(here.J.T, impulse, rcond=SINGULAR)[0]
+    force, moment = np.linalg.norm(wrench[:3]), np.linalg.norm(wrench[3:])
+    lever, turn = np.linalg.norm(here.J[:3], axis=0), np.linalg.norm(here.J[3:], axis=0)
+    return np.asarray(np.linalg.inv(here.M).diagonal() * (lever * force + turn * moment))

@@ -15,7 +15,7 @@ from handeye.arm.arithmetic import ArmArithmetic, Formulas
 from handeye.arm.computed_torque import felt_wrench, torque
 from handeye.arm.converters import followed
 from handeye.arm.dynamics import Dynamics
-from handeye.arm.joint_agreement import jumped
+from handeye.arm.joint_agreement import Disagreement, blown, jumped
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
 from handeye.core.pose import Array, Pose
@@ -196,7 +196,7 @@ class Servo:
         sensed = self.sensed
         moved = (before.qd + sensed.qd) / 2 * self.period
         if periods == 1 and self.state.jump is None:
-            self.state.jump = jumped(self.arm, sensed.q - before.q, before.qd, sensed.qd)
+            self.state.jump = self._jumped(tau, before, sensed)
         self.state.here = followed(self.arm, self.state.here, moved, sensed.q)
         self.state.cut = sensed.braked and tau is not None
         if self.state.tool:
@@ -227,6 +227,20 @@ class Servo:
         if halted:
             raise Halted
         return sensed
+
+    def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
+        """Find a potentiometer that jumped in a servo period with torques `tau`, or under the brakes if `tau` is
+        None. A blow on the hand, which the other joints show, is no jump.
+        """
+        moved = after.q - before.q
+        found = jumped(self.arm, moved, before.qd, after.qd)
+        if found is None or tau is None:
+            return found
+        here = self.chain.at_rest(self.state.here)
+        driven = (tau - here.bias - here.J[2] * self.state.load) * self.period
+        rest, rub = here.M @ (after.qd - before.qd) - driven, self.state.friction * self.period
+        blow = blown(here, rest - rest.clip(-rub, rub))
+        return jumped(self.arm, moved, before.qd, after.qd, blow)
 
     def _put_out(self, tau: Array | None) -> None:
         """Command all devices of the cell for the next servo period."""

@@ -5,11 +5,13 @@ from math import radians
 import numpy as np
 
 from handeye.arm.converters import position_step
-from handeye.arm.joint_agreement import Disagreement, JointAgreement, jumped, scattered
+from handeye.arm.dynamics import at_rest
+from handeye.arm.joint_agreement import Disagreement, JointAgreement, blown, jumped, scattered
 from handeye.arm.robots.stanford import STANFORD
 
 ROLL = 5
 REST = np.zeros(len(STANFORD.joints))
+HELD = np.array([-0.3535, 1.9529, 0.7444, 0.0014, 1.1887, -0.3535])  # the hand points down, over the table
 
 
 def told(angles: list[float], rates: list[float]) -> Disagreement | None:
@@ -81,5 +83,22 @@ def test_a_joint_that_is_struck_once_while_the_arm_holds_still_does_not_scatter(
     assert scattered(STANFORD, rates) is None
     rates[:, ROLL] = np.resize((0.02, -0.02), 8)
     said = scattered(STANFORD, rates)
+    assert said is not None
+    assert said.joint == ROLL
+
+
+def test_a_blow_that_the_other_joints_show_may_have_moved_a_joint_that_reads_the_same_rate() -> None:
+    """A base that breaks loose under the fingers: the hand roll moves by 6 converter steps, and stops again."""
+    here, step = at_rest(STANFORD, HELD), np.zeros(len(REST))
+    before = np.array([0.0015, 0.0205, 0.0, -0.0146, -0.0264, -0.041])
+    after = np.array([0.0, 0.0103, 0.019, 0.0967, 0.0645, -0.0439])
+    step[ROLL] = 0.0087
+    torque = np.array([0.3, -23.87, -21.17, 0.06, 0.3, 0.13])
+    friction = np.array([1.0, 1.26, 4.4, 0.235, 0.16, 0.084])
+    rest = here.M @ (after - before) - (torque - here.bias) / 60
+    blow = blown(here, rest - rest.clip(-friction / 60, friction / 60))
+    assert jumped(STANFORD, step, before, after) is not None
+    assert jumped(STANFORD, step, before, after, blow) is None
+    said = jumped(STANFORD, radians(3.0) / 0.0087 * step, before, after, blow)
     assert said is not None
     assert said.joint == ROLL
