@@ -269,7 +269,7 @@ class ServoLoop(Servo):
         """
         if (yield from self._taring()):
             scatter = yield from self._resting()
-            if scatter is not None:
+            if scatter is not None and self.state.jump is None:  # a jump is reported by the motion
                 return self._scatters(scatter)
         return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
