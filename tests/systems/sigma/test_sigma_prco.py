@@ -23,13 +23,14 @@ from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.sigma.gantries.witness import HEARD
 from handeye.systems.sigma.gantries.world import GantryWorld
-from handeye.systems.sigma.prco.drawing import BASE, LENGTH, MOST, NEST, PIN_DEPTH, PLATE, drawn
+from handeye.systems.sigma.prco.drawing import BASE, MOST, NEST, PIN_DEPTH, PLATE, drawn
 from handeye.systems.sigma.prco.driver import DriverState, HandDriver
 from handeye.systems.sigma.prco.task import PRCO
 from handeye.systems.sigma.prco.witness import PumpWitness
 from handeye.systems.sigma.protocol import NUMBERS
 from handeye.systems.sigma.run.jobs import job_plan, job_setup
 from handeye.systems.sigma.run.plan import decode, encode
+from handeye.tasks.stanford_cell.screws import LENGTH
 
 Command = Callable[..., tuple[int, str, str]]
 WORLD: Final = WorldSpec(seed=11)

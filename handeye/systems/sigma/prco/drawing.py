@@ -3,23 +3,16 @@ in the coordinates of arm 1 with z up from the board.
 """
 
 from math import pi
-from typing import Final, NamedTuple
+from typing import Final
 
 from handeye.cell.threads import THREAD_FRICTION
 from handeye.core.errors import BadArgument
 from handeye.core.record import Record
 from handeye.systems.sigma.gantries.world import FIXTURES, GantryWorld
+from handeye.tasks.stanford_cell.screws import Place
 
 MOST: Final = 6  # screws
 PINS: Final = 2
-
-
-class Place(NamedTuple):
-    """A place on the board, or on a part."""
-
-    x: float
-    y: float
-
 
 # The base stands in a nest, and the plate lies on a stand.
 NEST: Final = Place(300, 200)
@@ -44,36 +37,18 @@ SCREW_HOLES: Final = (
 PIN_BORE: Final = 4.1  # radius, in the base
 PIN_DEPTH: Final = 16.0
 PLATE_PIN_BORE: Final = 4.15
-TAP: Final = 2.55  # radius: minor diameter of 1/4-20 and a little, as in the pump
-TAP_DEPTH: Final = 21.0
-SCREW_BORE: Final = 3.772  # radius: a loose clearance hole of a 1/4 in screw, as in the pump
-CHAMFER: Final = 1.0
-LAND: Final = 9.5  # radius of the metal around a hole that fasteners can touch
 
 # A pin stands in its holder, and a screw hangs by its head in the dispenser.
 HOLDER: Final = Place(100, 80)
 HOLDER_PITCH: Final = 40.0
 HOLDER_HEIGHT: Final = 20.0
 HOLDER_BORE: Final = 4.3
-PIN_RADIUS: Final = 4.0
-PIN_LENGTH: Final = 38.0
-PIN_POINT: Final = 2.2  # radius of the lower end
-PIN_TAPER: Final = 4.0  # length of the taper
 DISPENSER: Final = Place(510, 100)
 DISPENSER_PITCH: Final = 20.0
 DISPENSER_HEIGHT: Final = 30.0
-DISPENSER_BORE: Final = 3.4
-SHANK: Final = 3.05  # radius: 1/4-20
-POINT: Final = 2.2  # radius of the point
-POINT_LENGTH: Final = 3.0
-LENGTH: Final = 19.05  # under the head
-PITCH: Final = 1.27  # twenty threads an inch
-HEAD: Final = 5.5  # radius
-HEAD_HEIGHT: Final = 6.0
 
 # The screwdriver of arm 2
 BIT: Final = 5.0  # of its face over the tips of the fingers: a screw on it cuts the light beam
-RING: Final = 1.5  # by which the ring reaches below the face
 
 _HOLE: Final = 0.03  # by which a hole is off its place in x and in y, at most
 _FRICTION: Final = (0.87, 1.13)  # of a thread, over its nominal friction

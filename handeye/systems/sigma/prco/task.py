@@ -16,11 +16,12 @@ from handeye.judge.measured import tilt
 from handeye.systems.sigma.gantries.job import JobTask
 from handeye.systems.sigma.gantries.machine import Gantries, scene
 from handeye.systems.sigma.gantries.witness import HEARD
-from handeye.systems.sigma.prco.drawing import BASE, LENGTH, MOST, PIN_DEPTH, PINS, PLATE, Pump, drawn
+from handeye.systems.sigma.prco.drawing import BASE, MOST, PIN_DEPTH, PINS, PLATE, Pump, drawn
 from handeye.systems.sigma.prco.driver import HandDriver
 from handeye.systems.sigma.prco.scene import add_pump
 from handeye.systems.sigma.prco.witness import PumpWitness, WatchedPump
 from handeye.tasks.interface import Words
+from handeye.tasks.stanford_cell.screws import LENGTH
 
 if TYPE_CHECKING:
     import mujoco
