@@ -4,7 +4,7 @@ The repeatability of a slide is an error of its potentiometer. It is drawn again
 with the goal, but the slide stops elsewhere.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import cos, sin
 from typing import Final
@@ -31,6 +31,7 @@ AXES: Final = tuple(replace(axis, force=_FORCES.get(axis.name)) for axis in axes
 WAND: Final = Channel(name="wand")
 STRAINS: Final = tuple(Channel(name=f"{side}_strain", unit="N", width=3) for side in ("left", "right"))
 RANGE: Final = Channel(name="range", unit="m")
+TORQUE: Final = Channel(name="torque", unit="N m")
 INSIDE: Final = tuple(Channel(name=f"inside_{side}") for side in ("left", "right"))
 SIGNALS: Final = 0.0001  # m at the tip of the wand
 PROBE: Final = 0.03  # m, length of the wand
@@ -38,7 +39,10 @@ RANGED: Final = 0.5  # m that the range finder reaches
 _PINGS: Final = 5  # cycles from one sound of the range finder to the next
 STRAINED: Final = 1500 * GRAM_FORCE  # N, the most that a gauge shows
 RESOLVED: Final = 5 * GRAM_FORCE  # N, a step of its converter
-_STIFF: Final = np.array([100_000.0, 10_000.0, 10_000.0] * 2)  # N/m of the fingers along x, y and z
+FINGER_STIFFNESS: Final = 10_000.0  # N/m along y and z
+_STIFF: Final = np.array(
+    [100_000.0, FINGER_STIFFNESS, FINGER_STIFFNESS] * 2
+)  # N/m of the fingers along x, y and z
 _PRESSED: Final = 0.2  # N that close a switch inside a finger
 _SLIDES: Final = slice(1, 4)
 _SLIDE_NAMES: Final = tuple(spec.name for spec in AXES[_SLIDES])
@@ -65,7 +69,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     name = "arm"
     kind = ArmState
     specs = AXES
-    channels = (WAND, *STRAINS, RANGE, *INSIDE, *(Channel(name=name) for name in INTERLOCKS))
+    channels = (WAND, *STRAINS, RANGE, TORQUE, *INSIDE, *(Channel(name=name) for name in INTERLOCKS))
     period = CYCLE
 
     def __init__(self, bench: Bench, world: ArmWorld) -> None:
@@ -87,6 +91,8 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._rays = _cone(world.value(drawn.CONE))
         self._range, self._signalled = RANGED, tuple[str, ...]()
         self._last: AxesReading | None = None
+        self.torque: Callable[[int], float] = lambda _: 0.0
+        """Function from the number of a cycle to the torque of the power tool, as its current shows it (N m)."""
         self._servos = BenchAxes(bench, AXES, period=CYCLE, name="servos", bent=self._bent)
         self._servos.power(on=False)
         self._goal = self._servos.read().q[_SLIDES]
@@ -149,6 +155,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         felt["inside_left"], felt["inside_right"] = float(left), float(right)
         felt["wand"] = float(PROBE * float(np.linalg.norm(data.qpos[self._wand])) > self._signals)
         felt["range"] = self._range
+        felt["torque"] = self.torque(cycle)
         return felt
 
     def _ranged(self) -> float:
@@ -188,7 +195,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         )
         return ServoPeriod(sensed=sensed, effort=data.actuator_force[: len(AXES) - 2].copy())
 
-    traced: Sequence[Channel] = (WAND, *STRAINS, RANGE)
+    traced: Sequence[Channel] = (WAND, *STRAINS, RANGE, TORQUE)
     joints: Mapping[str, str] = {spec.name: spec.kind for spec in AXES[:-2]}
 
     # -- state -----------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from handeye.systems.ml.machine.spec import (
     LINEAR,
     RANGE_COUNT,
     ROTARY,
+    TORQUE_COUNT,
     AnalogInput,
     ArmSpec,
     MotorSpec,
@@ -37,9 +38,10 @@ _MOTORS: Final = (
 
 STRAINS: Final = tuple(f"{finger}_strain_{part}" for finger in ("left", "right") for part in "xyz")
 INTERLOCKS: Final = ("panic", "door", "table_1", "table_2", "program_check", "machine_check", "power")
-TOOLS: Final = ("screwdriver", "vacuum", "feeder")
+TOOLS: Final = ("screwdriver", "vacuum", "feeder", "reverse")
 _STRAIN_POINT: Final = 17
 _RANGE_POINT: Final = 23
+_TORQUE_POINT: Final = 24
 
 RIGHT: Final = ArmSpec(
     side="right",
@@ -47,6 +49,7 @@ RIGHT: Final = ArmSpec(
     analog={
         **{_STRAIN_POINT + n: AnalogInput(channel=name, count=GRAM_FORCE) for n, name in enumerate(STRAINS)},
         _RANGE_POINT: AnalogInput(channel="range", count=RANGE_COUNT),
+        _TORQUE_POINT: AnalogInput(channel="torque", count=TORQUE_COUNT),
     },
     digital={1: ("wand",), 2: ("inside_left", "inside_right")},
     interlocks=INTERLOCKS,

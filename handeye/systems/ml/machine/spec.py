@@ -12,6 +12,7 @@ LINEAR: Final = 0.001 * INCH  # m, the unit of slides
 ROTARY: Final = 0.01 * DEGREE  # rad, the unit of rotations
 GRAM_FORCE: Final = 9.80665e-3  # N
 RANGE_COUNT: Final = 1e-4  # m
+TORQUE_COUNT: Final = 0.001  # N m, a count of the torque of a power tool
 CYCLE: Final = 0.01  # s
 CYCLES_PER_SECOND: Final = 100
 HUNDREDTHS: Final = 100
