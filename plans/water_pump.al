@@ -191,6 +191,12 @@ DEFINE DRIVER MOST
         WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 2
         LOAD    15
+        TOOL    190             ;how fast does it start, and turn? Here nothing resists
+        TORQUE  42
+        CHANGE  [0 0 1] .2
+        SKIPE   24
+        WAIT    "THE BIT OF THE SCREWDRIVER DOES NOT TURN FREELY"
+        TOOL    0
 
 ; The screwdriver back into its rack.
 DEFINE RACK

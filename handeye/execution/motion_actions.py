@@ -1,6 +1,7 @@
 """Actions that move the arm."""
 
 import math
+from statistics import median
 from typing import Final
 
 import numpy as np
@@ -16,7 +17,7 @@ from handeye.core.record import Vector3
 from handeye.execution.compliance import Course
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.servo_loop import Outcome
-from handeye.execution.state import Fault, vector
+from handeye.execution.state import DriveState, Fault, vector
 from handeye.planning.motions import (
     Unreachable,
     change_samples,
@@ -34,7 +35,9 @@ from handeye.program.diagnosis.causes import (
     HeightOutside,
     HeightUnknown,
     JointBehind,
+    MotorFast,
     MotorSlow,
+    ScrewHard,
     TravelOutside,
 )
 from handeye.program.events import Adjusted, GuardFaint, GuardTripped, Restored
@@ -44,11 +47,14 @@ from handeye.program.operation import Operation
 from handeye.touch.guards import monitor
 from handeye.touch.senses import (
     CURRENT_NOISE,
+    DRIVEN,
+    FAST_PERIODS,
     HELD_FAST,
     PLATEAU,
     STALLED_TORQUE,
     STARTING_PERIODS,
     STARTING_TORQUE,
+    WIND_UP,
 )
 
 PLAN_TOLERANCE: Final = 1e-4  # a goal or start within this (m, rad) of its planned value is run as planned
@@ -121,7 +127,7 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
         outcome = run.drive.comply(_course(run, operation), guard)
     run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
     run.drive.state.in_air = False
-    failed = _finish(run, outcome, guards)
+    failed = _finish(run, outcome, guards) or _turned_hard(run, guards)
     stood = distance - run.state.travel > run.arm.servo.short
     if failed is not None and failed.number == errors.NO_TORQUE and stood:
         return _held_fast(run, guards) or failed
@@ -204,7 +210,7 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
     return Fault(number=unmet(guards), cause=GuardsUnmet(guards=kinds))
 
 
-def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow | None:
+def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow | MotorFast | None:
     """Compare the current of the screwdriver's motor with the known torques of starting and of the clutch.
 
     If the motor starts against a resistance, it takes more torque than usual. It never takes less, and never more
@@ -215,14 +221,38 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
         return CurrentUnlike(torque=round(drive.current, 6), known=STALLED_TORQUE)
     if len(drive.starting) < STARTING_PERIODS:
         return None
-    first, mean = drive.starting[0], sum(drive.starting) / STARTING_PERIODS
+    first, mean = drive.starting[0], sum(drive.starting[:STARTING_PERIODS]) / STARTING_PERIODS
     if mean >= least:
-        return None
+        return _fast(drive)
     if drive.current < 2 * CURRENT_NOISE:
         return CurrentSilent(torque=round(drive.current, 6))
     if first >= least:
         return MotorSlow(share=round(mean / STARTING_TORQUE, 3))
     return CurrentUnlike(torque=round(mean, 6), known=STARTING_TORQUE)
+
+
+def _fast(drive: DriveState) -> MotorFast | None:
+    """Return the cause if a motor that runs free now took too long to start, and so turns too fast."""
+    late, free = drive.starting[STARTING_PERIODS:], drive.lately[FAST_PERIODS:]
+    if len(late) < FAST_PERIODS - STARTING_PERIODS or not free or median(free) > 2 * CURRENT_NOISE:
+        return None
+    late_starts = min(late) >= STARTING_TORQUE - 2.5 * CURRENT_NOISE
+    return MotorFast(times=FAST_PERIODS / STARTING_PERIODS) if late_starts else None
+
+
+def _turned_hard(run: ExecutionContext, guards: Guards) -> Fault | None:
+    """Return the error if a screw that was driven to its torque took too much torque on the way. It then spends on
+    its thread what should clamp the parts.
+    """
+    asked = [each.torque for each in guards if isinstance(each, Torque)]
+    running = run.drive.state.lately[: -round(WIND_UP / run.drive.period)]
+    if not asked or not running or run.state.travel < DRIVEN or not run.drive.state.tool:
+        return None
+    shown, limit = median(running), HELD_FAST * min(asked)
+    if shown <= limit:
+        return None
+    cause = ScrewHard(torque=round(shown, 6), limit=round(limit, 6))
+    return Fault(number=errors.CURRENT_WRONG, cause=cause)
 
 
 def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:

@@ -25,7 +25,7 @@ from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
 from handeye.program.diagnosis.causes import GapJumped
 from handeye.touch.guards import ActiveGuard, Reading
-from handeye.touch.senses import PLATEAU, STARTING_PERIODS, kept_apart, leapt
+from handeye.touch.senses import FAST_PERIODS, PLATEAU, kept_apart, leapt
 
 
 class ServoPeriod(Record, frozen=True, kw_only=True):
@@ -201,7 +201,7 @@ class Servo:
         self.state.cut = sensed.braked and tau is not None
         if self.state.tool:
             self.state.current = max(self.state.current, abs(sensed.tool_torque))
-            if len(self.state.starting) < STARTING_PERIODS:
+            if len(self.state.starting) < FAST_PERIODS:
                 self.state.starting = [*self.state.starting, abs(sensed.tool_torque)]
             self.state.lately = [*self.state.lately, abs(sensed.tool_torque)][-round(PLATEAU / self.period) :]
         reach = self.arm.hand.gap_speed * periods * self.period

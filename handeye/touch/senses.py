@@ -45,6 +45,12 @@ STALLED_TORQUE: Final = 0.37  # N m, at most: that of the clutch, and of the spi
 STARTING_PERIODS: Final = (
     4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
 )
+FAST_PERIODS: Final = 6
+"""Servo periods after which a motor that runs free has certainly started: at 1.4 times its speed it has not."""
+WIND_UP: Final = 0.2
+"""Time (s) for which the torque rises, at most, when the head of a screw meets the top. Measured: .1. Chosen."""
+DRIVEN: Final = 0.2 * INCH
+"""Advance (m) of a screw that shows its running torque: four turns."""
 PLATEAU: Final = 1.0
 """Time (s) for which a torque must last to show that the motor is held fast: three turns at driving speed. Chosen.
 """

@@ -328,6 +328,10 @@ STARTS = [0.05] * 4 + [0.0] * 20
             "the sensor shows 104.8 oz-in, but the motor takes 52.4 oz-in: 2.0 times",
         ),
         ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "the motor turns too slowly"),
+        (
+            [0.05] * 6 + [0.0] * 999,
+            "had not started after 1.5 times its usual time: the motor turns too fast",
+        ),
     ],
 )
 def test_a_current_that_is_not_that_of_a_known_torque_is_told(torques: list[float], told: str) -> None:
@@ -363,6 +367,22 @@ def test_a_current_that_ends_below_the_torque_stop_is_told_of_a_motor_that_is_he
     assert run.go().errors == [error]
     if error == errors.CURRENT_WRONG:
         assert "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in" in run.told
+
+
+@pytest.mark.parametrize(("running", "told"), [(5.0, ""), (20.0, "its thread is hard to turn")])
+def test_a_screw_that_takes_its_torque_long_before_its_head_is_down_is_told(
+    running: float, told: str
+) -> None:
+    run = fake_run("MOVE T\nTOOL 190\nTORQUE 42\nFORCE [0 0 -22]\nCHANGE [0 0 -1] .5")
+    driver, arm, begun = run.cell.screwdriver, run.cell.arm, list[float]()
+
+    def torque() -> float:
+        begun.append(arm.tcp[2])
+        return (running if begun[0] - arm.tcp[2] < 0.3 * INCH else 45.0) * OUNCE_INCH if driver.speed else 0.0
+
+    driver.torque = torque  # type: ignore[method-assign]
+    assert run.go().errors == ([errors.CURRENT_WRONG] if told else [])
+    assert not told or told in run.told
 
 
 # -- the camera -----------------------------------------------------------------------------------------

@@ -78,12 +78,12 @@ WORDS: list[tuple[c.Cause, str]] = [
     (
         c.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
         "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still, allowed: 0.6 "
-        "degrees/s; or its drive shakes it",
+        "degrees/s; or its drive, or something outside, shakes the arm",
     ),
     (
         c.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
         "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still, allowed: 0.25 in/s; or "
-        "its drive shakes it",
+        "its drive, or something outside, shakes the arm",
     ),
     (
         c.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
@@ -112,6 +112,15 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
         "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in while the motor is stalled: the current "
         "sensor reads no higher, or the motor is weak",
+    ),
+    (
+        c.MotorFast(times=1.5),
+        "the motor had not started after 1.5 times its usual time: the motor turns too fast",
+    ),
+    (
+        c.ScrewHard(torque=38 * OUNCE_INCH, limit=12.6 * OUNCE_INCH),
+        "the sensor shows 38.0 oz-in while the screw advances, allowed: 12.6 oz-in: its thread is hard to turn, or "
+        "the current sensor fails",
     ),
     (
         c.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),

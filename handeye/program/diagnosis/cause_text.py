@@ -62,7 +62,8 @@ def cause_sentence(cause: Cause) -> str:
             return f"at most one finger touches; the gap is {_inches(cause.gap)}"
         case (
             c.SwitchesClosed() | c.SwitchesOpen() | c.SwitchesCrossed() | c.SwitchesHard() | c.GapAstray()
-            | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.ForceInAir()
+            | c.GapStill() | c.GapJumped() | c.GapUnlike() | c.CurrentUnlike() | c.MotorSlow() | c.MotorFast()
+            | c.ScrewHard() | c.ForceInAir()
             | c.DrivesUnlike() | c.CurrentShort()
             | c.JointSensesApart() | c.RateScatters() | c.JointAlone() | c.CurrentSilent() | c.PictureRepeated()
             | c.PictureBlank() | c.PictureNoisy()
@@ -238,6 +239,14 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return (
                 f"the motor had started after {cause.share:.1f} of the usual time: the motor turns too slowly"
             )
+        case c.MotorFast():
+            return f"the motor had not started after {cause.times:.1f} times its usual time: the motor turns too fast"
+        case c.ScrewHard():
+            shown, most = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
+            return (
+                f"the sensor shows {shown:.1f} oz-in while the screw advances, allowed: {most:.1f} oz-in: its thread "
+                "is hard to turn, or the current sensor fails"
+            )
         case c.GapAstray():
             return f"the gap reads {_inches(cause.gap)}; the fingers were driven to {_inches(cause.goal)}"
         case c.GapStill():
@@ -255,7 +264,7 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             scatter, limit = (_rate(cause.joint, rate) for rate in (cause.scatter, cause.limit))
             return (
                 f"the tachometer reading of the {cause.joint.name} scatters by {scatter} while the arm holds still, "
-                f"allowed: {limit}; or its drive shakes it"
+                f"allowed: {limit}; or its drive, or something outside, shakes the arm"
             )
         case c.JointAlone():
             return _alone(cause)

@@ -282,6 +282,19 @@ class MotorSlow(CauseRecord, frozen=True, kw_only=True):
     share: float
 
 
+class MotorFast(CauseRecord, frozen=True, kw_only=True):
+    """The motor ran free, and had not started after this multiple of its usual time."""
+
+    times: float
+
+
+class ScrewHard(CauseRecord, frozen=True, kw_only=True):
+    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw takes at most `limit`."""
+
+    torque: float
+    limit: float
+
+
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
     """The screwdriver ran, but the current of its motor showed at most this torque (N m)."""
 
@@ -447,8 +460,8 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
 SenseCause = (
     SwitchesClosed | SwitchesOpen | SwitchesCrossed | SwitchesHard | GapAstray | GapStill | GapJumped | GapUnlike
-    | CurrentUnlike | CurrentShort | MotorSlow | DrivesUnlike | ForceInAir | JointSensesApart | RateScatters
-    | JointAlone | CurrentSilent | PictureRepeated | PictureBlank | PictureNoisy
+    | CurrentUnlike | CurrentShort | MotorSlow | MotorFast | ScrewHard | DrivesUnlike | ForceInAir
+    | JointSensesApart | RateScatters | JointAlone | CurrentSilent | PictureRepeated | PictureBlank | PictureNoisy
 )  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong
