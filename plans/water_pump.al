@@ -992,7 +992,7 @@ TOPPED: OPEN    2.2             ;for the screwdriver
         ASSIGN  TRIES 2
         JUMP    ALL
 MOVED:  SOJG    TRIES ALL       ;by the inspection itself? All of it once more
-        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT"
+        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT, OR THE CAMERA OR THE LIGHT HAS CHANGED"
 ALL:    BLOCKS                  ;home, before it is felt
         HEADS
         BLOCKS                  ;the driver has drawn it off a little

@@ -242,9 +242,9 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.MotorFast():
             return f"the motor had not started after {cause.times:.1f} times its usual time: the motor turns too fast"
         case c.ScrewHard():
-            shown, most = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
+            takes, allowed = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
             return (
-                f"the sensor shows {shown:.1f} oz-in while the screw advances, allowed: {most:.1f} oz-in: its thread "
+                f"the sensor shows {takes:.1f} oz-in while the screw advances, allowed: {allowed:.1f} oz-in: its thread "
                 "is hard to turn, or the current sensor fails"
             )
         case c.GapAstray():

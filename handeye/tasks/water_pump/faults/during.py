@@ -7,6 +7,7 @@ the base.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import cache, partial
 from typing import Final
 
@@ -14,7 +15,14 @@ import numpy as np
 
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import finite
-from handeye.core.errors import FORCE_WRONG, NOTHING_HELD, SEARCH_EXHAUSTED, SERVO_LAG, WRONG_HEIGHT
+from handeye.core.errors import (
+    FORCE_WRONG,
+    GAP_WRONG,
+    NOTHING_HELD,
+    SEARCH_EXHAUSTED,
+    SERVO_LAG,
+    WRONG_HEIGHT,
+)
 from handeye.core.faults import ExpectedDetection, Fault, Size
 from handeye.core.record import Record
 from handeye.core.units import INCH
@@ -102,7 +110,7 @@ def mishap_faults() -> tuple[MishapFault, ...]:
 
 def _light_and_pushes() -> Iterator[MishapFault]:
     meaning = "The lamp of the cell goes out; only the light of the room remains."
-    yield declared("light.off", meaning, always(Mishap(_put_out)), detect.POOR_LIGHT, stage=6)
+    yield declared("light.off", meaning, always(Mishap(_put_out)), detect.LATE_LIGHT, stage=6)
     size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
@@ -140,14 +148,16 @@ def _losses() -> Iterator[MishapFault]:
         calls=(detect.GASKET_LOST, detect.TOO_LOW, detect.NOT_LIFTED),
         stages=(detect.PUT_ON_GASKET,),
     )
+    # A pin that leaves the fingers at once makes the gap jump.
+    pin = replace(detect.NO_PIN, errors=(NOTHING_HELD, GAP_WRONG))
     top = ExpectedDetection(
         errors=(NOTHING_HELD,),
         calls=(detect.TOP_LOST, "THE TOP MEETS NOTHING: IT IS LOST"),
         stages=(detect.PUT_ON_TOP,),
     )
     for name, part, told, expected in (
-        ("pin.1", "pin0", "aligning pin 1", detect.NO_PIN),
-        ("pin.2", "pin1", "aligning pin 2", detect.NO_PIN),
+        ("pin.1", "pin0", "aligning pin 1", pin),
+        ("pin.2", "pin1", "aligning pin 2", pin),
         ("gasket", "gasket", "the gasket", gasket),
         ("top", "top", "the top", top),
     ):

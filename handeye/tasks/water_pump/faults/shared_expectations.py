@@ -57,6 +57,9 @@ NOT_IN_HOLDER: Final = (
 )
 NO_BASE: Final = "NO BASE STANDS UNDER PIN {number}"
 PUMP_ASTRAY: Final = "THE PUMP IS NOT WHERE IT WAS PUT: {how}"
+PUMP_CHANGED: Final = (
+    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT, OR THE CAMERA OR THE LIGHT HAS CHANGED"
+)
 OR_PUMP: Final = "{what}, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
 """Calls of the operator for a part of the pump that the hand does not feel where it was before. The part, the
 pump, or a joint of the arm is wrong.
@@ -88,6 +91,9 @@ POOR_LIGHT: Final = ExpectedDetection(
     errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG, GASKET_WRONG),
     calls=(UNSEEN, NOT_ON),
     harmless="The camera adjusts itself to the light.",
+)
+LATE_LIGHT: Final = ExpectedDetection(
+    errors=(PICTURE_WRONG, GASKET_WRONG), calls=(NOT_ON, PUMP_CHANGED), harmless=POOR_LIGHT.harmless
 )
 
 
