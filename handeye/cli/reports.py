@@ -95,14 +95,14 @@ def page_of(run: Path) -> bytes:
     from handeye.report.page.document import account_page, report_page
     from handeye.report.photographs import album
     from handeye.report.recorded import check_scene
-    from handeye.runs.systems import system_of_files
+    from handeye.runs.systems import system_named, system_of_files
 
     own = system_of_files(run)
     if own is not None and (page := own.page(run)) is not None:
         return page
     recorded = read_recorded(run)
     if "plans" not in entry_named(recorded.trace.head.system).can:
-        return account_page(recorded)
+        return account_page(recorded, system_named(recorded.trace.head.system).parts(run))
     check_scene(recorded)
     return report_page(recorded, album(recorded), animation(recorded))
 

@@ -4,7 +4,7 @@ import re
 from base64 import b64encode
 from collections.abc import Iterable
 from html import escape
-from typing import Final
+from typing import Final, NamedTuple
 
 from handeye.core.plain_text import printable
 
@@ -18,6 +18,14 @@ class Markup(str):
     """Markup that is already escaped; a plain `str` is text that still needs escaping."""
 
     __slots__ = ()
+
+
+class PagePart(NamedTuple):
+    """A part of a page, with its own style and script."""
+
+    markup: Markup
+    style: str = ""
+    script: str = ""
 
 
 def text(content: Content) -> Markup:
@@ -40,6 +48,11 @@ def element(name: str, /, *children: Content, **attributes: str | float | bool |
 
 def joined(pieces: Iterable[str], between: str = "") -> Markup:
     return Markup(text(between).join(text(piece) for piece in pieces))
+
+
+def lines(rows: Iterable[str]) -> Markup:
+    """Build a text whose lines stay as they are."""
+    return element("pre", joined(rows, Markup("\n")))
 
 
 def section(name: str, heading: str, *children: Content) -> Markup:

@@ -17,6 +17,7 @@ import numpy as np
 
 from handeye.core.entries import Entry, entry_named, refusal
 from handeye.core.errors import BadFile, Refused
+from handeye.core.markup import PagePart
 from handeye.core.record import Record
 from handeye.execution.context import ExecutionContext, Stopwatch
 from handeye.execution.servo import ServoPeriod
@@ -419,3 +420,7 @@ class System(ABC):
         general report is used.
         """
         return None
+
+    def parts(self, folder: Path) -> Sequence[PagePart]:
+        """Return what the report of the run in a folder shows besides the facts of all systems."""
+        return ()

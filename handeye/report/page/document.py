@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.files import Kind
-from handeye.core.markup import Markup, contents, element, section
+from handeye.core.markup import Markup, PagePart, contents, element, lines, section
 from handeye.core.plain_text import printable
 from handeye.report import player
 from handeye.report.animation import Animation
@@ -109,19 +109,25 @@ def resource(name: str) -> str:
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
-def account_page(run: RecordedRun) -> bytes:
-    """Return the report of a run of any system. Equal traces and results give equal pages."""
+def account_page(run: RecordedRun, parts: Sequence[PagePart] = ()) -> bytes:
+    """Return the report of a run of any system, with what the system adds. Equal traces and results give equal
+    pages.
+    """
     came = outcome(run)
     said = title(run, came)
     top = element("header", element("h1", said), class_="failed" if came.failed else None)
-    body = element("body", top, element("main", *_account_sections(run)))
+    scripts = [part.script for part in parts if part.script]
+    running = (element("script", Markup(script)) for script in scripts)
+    body = element("body", top, element("main", *_account_sections(run, parts)), *running)
     name = printable(f"{run.trace.head.program}: {said}")
-    page = element("html", head(name, resource("page.css"), []), body, lang="en")
+    style = resource("page.css") + "".join(part.style for part in parts)
+    page = element("html", head(name, style, scripts), body, lang="en")
     return f"{MARK}{page}\n".encode()
 
 
-def _account_sections(run: RecordedRun) -> Iterator[Markup]:
-    yield section("account", "What happened", element("pre", "\n".join(account(run.trace.events))))
+def _account_sections(run: RecordedRun, parts: Sequence[PagePart]) -> Iterator[Markup]:
+    yield section("account", "What happened", lines(account(run.trace.events)))
+    yield from (part.markup for part in parts)
     yield timing_section(run)
     yield channels_section(run.trace)
     if run.result is not None and run.result.checks:

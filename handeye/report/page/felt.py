@@ -129,9 +129,18 @@ def channels_section(trace: Trace) -> Markup:
     """Return the section on machine channels. It is empty if no machine has channels."""
     if not trace.channels:
         return Markup("")
-    figures = map(_channel_figure, trace.channels)
-    about = note("Sensor values of the machines during the run, except the positions of their axes.")
-    return section("channels", "Channels of the machines", about, element("div", *figures, class_="figures"))
+    moving = [channel for channel in trace.channels if np.ptp(channel.values)]
+    still = len(trace.channels) - len(moving)
+    left_out = (
+        f" {counted(still, 'channel')} that did not change {'is' if still == 1 else 'are'} left out."
+        if still
+        else ""
+    )
+    about = note(
+        f"Sensor values of the machines during the run, except the positions of their axes.{left_out}"
+    )
+    figures = element("div", *map(_channel_figure, moving), class_="figures")
+    return section("channels", "Channels of the machines", about, figures)
 
 
 def _channel_figure(channel: ChannelCurve) -> Markup:

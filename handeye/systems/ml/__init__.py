@@ -36,5 +36,5 @@ trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by t
         "train": "handeye.systems.ml.run.job_trials:TRAIN_TRIALS",
     },
     events="handeye.systems.ml.happenings:EVENTS",
-    files=("follow.json",),
+    files=("tables.gz", "follow.json"),
 )

@@ -20,16 +20,18 @@ from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.ml.dashboard.kept import TABLES
 from handeye.systems.ml.follow.circuit import IDLE, LONGEST, ROUND, Felt, followed
 from handeye.systems.ml.follow.happenings import CircuitClosed
 from handeye.systems.ml.follow.outlines import OUTLINES
-from handeye.systems.ml.follow.page import FOLLOWED, kept_page
+from handeye.systems.ml.follow.page import FOLLOWED
 from handeye.systems.ml.follow.referee import FELT, RADIUS, distance, judge, turning_number
 from handeye.systems.ml.follow.task import FOLLOW, outline_of
 from handeye.systems.ml.happenings import Traced
 from handeye.systems.ml.ml_api import Ml
 from handeye.systems.ml.realtime.happenings import Froze
 from handeye.systems.ml.run.jobs import job_plan, job_setup
+from handeye.systems.ml.run.system import ML
 
 Command = Callable[..., tuple[int, str, str]]
 SEED: Final = 3
@@ -253,8 +255,9 @@ def test_a_plate_that_is_pushed_away_is_a_silent_failure() -> None:
 def test_the_page_shows_the_outline_and_is_made_again_from_the_folder(tmp_path: Path) -> None:
     runner, result = square()
     files = runner.kind.files(runner, None, result)  # type: ignore[arg-type]
-    (tmp_path / FOLLOWED).write_bytes(files[FOLLOWED])
-    page = kept_page(tmp_path)
+    for name in (FOLLOWED, TABLES):
+        (tmp_path / name).write_bytes(files[name])
+    page = ML.page(tmp_path)
     assert page == files["report.html"]
     assert page is not None
     assert page.count(b'class="moved"') == 28
@@ -263,7 +266,7 @@ def test_the_page_shows_the_outline_and_is_made_again_from_the_folder(tmp_path: 
     data["true"][0][0] = 1e9
     (tmp_path / FOLLOWED).write_text(json.dumps(data))
     with pytest.raises(BadFile, match="too far away"):
-        kept_page(tmp_path)
+        ML.page(tmp_path)
 
 
 def test_a_plate_lies_where_its_world_lays_it() -> None:

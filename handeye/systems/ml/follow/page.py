@@ -1,6 +1,6 @@
 """Builds the report page of a follower: the outline that was felt, drawn over the true one, and the findings."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from math import hypot
 from pathlib import Path
 from typing import Final
@@ -10,7 +10,7 @@ import numpy as np
 
 from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
-from handeye.core.markup import Markup, element, note, section
+from handeye.core.markup import Markup, PagePart, element, note, section
 from handeye.core.plain_text import counted, printable
 from handeye.core.pose import Array
 from handeye.core.record import Record
@@ -48,8 +48,8 @@ class FollowReport(Record, frozen=True, kw_only=True):
     checks: Mapping[str, Check] = {}
 
 
-def follow_page(done: FollowReport) -> bytes:
-    """Return the page of a report."""
+def follow_page(done: FollowReport, parts: Sequence[PagePart] = ()) -> bytes:
+    """Return the page of a report, which ends with some parts."""
     title = f"Follow, {done.outline}: {_VERDICTS.get(done.exit_code, 'stopped')}"
     felt = done.felt
     facts = (
@@ -65,9 +65,12 @@ def follow_page(done: FollowReport) -> bytes:
             note(facts),
             element("p", f"{printable(done.end[:1].upper() + done.end[1:])}."),
             *_sections(done),
+            *(part.markup for part in parts),
         ),
+        *(element("script", Markup(part.script)) for part in parts),
     )
-    page = element("html", head(title, resource("page.css"), []), body, lang="en")
+    style = resource("page.css") + "".join(part.style for part in parts)
+    page = element("html", head(title, style, [part.script for part in parts]), body, lang="en")
     return f"{MARK}{page}\n".encode()
 
 
@@ -143,16 +146,19 @@ def _points(xs: Scale, ys: Scale, points: Array) -> str:
     return " ".join(f"{xs(x):.1f},{ys(y):.1f}" for x, y in points.tolist())
 
 
-def follow_files(done: FollowReport, report: str) -> dict[str, bytes]:
+def follow_files(done: FollowReport, report: str, parts: Sequence[PagePart]) -> dict[str, bytes]:
     """Return the files of a finished run; `report` is the name of the page."""
     written = msgspec.json.format(msgspec.json.encode(done), indent=1) + b"\n"
-    return {FOLLOWED: written, report: follow_page(_read(written, FOLLOWED))}  # as `kept_page` makes it
+    return {
+        FOLLOWED: written,
+        report: follow_page(_read(written, FOLLOWED), parts),
+    }  # as `kept_page` makes it
 
 
-def kept_page(folder: Path) -> bytes | None:
+def kept_page(folder: Path, parts: Sequence[PagePart]) -> bytes | None:
     """Build the page of the run in a folder again; None if the folder has no finished follower."""
     path = folder / FOLLOWED
-    return follow_page(_read(read_whole(path, _LARGEST), str(path))) if path.is_file() else None
+    return follow_page(_read(read_whole(path, _LARGEST), str(path)), parts) if path.is_file() else None
 
 
 def _read(data: bytes, name: str) -> FollowReport:

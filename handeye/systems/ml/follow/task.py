@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -11,6 +11,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.core.diagnostics import quoted
 from handeye.core.distributions import Noise, Range
 from handeye.core.errors import BadFile, NoSuchName
+from handeye.core.markup import PagePart
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.variation import Variation, WorldSpec
@@ -141,7 +142,7 @@ class Follower(StationHardware):
             "squares_without_touch": felt.idle,
         }
 
-    def files(self, world: WorldSpec, result: Result) -> Mapping[str, bytes]:
+    def files(self, world: WorldSpec, result: Result, parts: Sequence[PagePart]) -> Mapping[str, bytes]:
         felt, laid = self._tracker.felt, self._plate.laid
         done = FollowReport(
             outline=laid.outline,
@@ -152,7 +153,7 @@ class Follower(StationHardware):
             true=tuple(map(tuple, outline_now(self.station.bench.data, laid.outline).tolist())),
             checks=result.referee,
         )
-        return follow_files(done, REPORT)
+        return follow_files(done, REPORT, parts)
 
 
 class Follow(ArmTask):

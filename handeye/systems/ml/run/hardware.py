@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from handeye.core.errors import BadFile
+from handeye.core.markup import PagePart
 from handeye.core.variation import WorldSpec
 from handeye.execution.servo import ServoPeriod
 from handeye.ports.axes import Channel
@@ -73,8 +74,10 @@ class Hardware(ABC):
         """Further figures of the job."""
         return {}
 
-    def files(self, world: WorldSpec, result: Result) -> Mapping[str, bytes]:
-        """Return the files that the job adds to the folder of a finished run."""
+    def files(self, world: WorldSpec, result: Result, parts: Sequence[PagePart]) -> Mapping[str, bytes]:
+        """Return the files that the job adds to the folder of a finished run. If the job makes a report of its own, the
+        report ends with some parts.
+        """
         return {}
 
 

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from handeye.core.entries import refusal
 from handeye.core.errors import BadFile, InvalidInput, Refused
+from handeye.core.mutable_records import put_back
 from handeye.core.plain_text import printable
 from handeye.core.versions import versions
 from handeye.execution.servo import Halted, ServoPeriod
@@ -39,6 +40,8 @@ from handeye.systems.ml.arithmetic import HIGHEST, LOWEST
 from handeye.systems.ml.background.host import Host
 from handeye.systems.ml.background.interpreter import Interpreter
 from handeye.systems.ml.background.program import StoredProgram
+from handeye.systems.ml.dashboard.history import History
+from handeye.systems.ml.dashboard.tape import TapeRecorder
 from handeye.systems.ml.errors import MlError
 from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.level import Side
@@ -47,7 +50,7 @@ from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 from handeye.systems.ml.run.channels import level_channels, level_values
 from handeye.systems.ml.run.hardware import Hardware, PerfectHardware, StationTask
 from handeye.systems.ml.run.plan import MlPlan, encode, listing
-from handeye.systems.ml.run.state import MlState
+from handeye.systems.ml.run.state import MlState, tables_of
 from handeye.systems.ml.tables.layout import SHAPES
 from handeye.tasks import any_task
 
@@ -75,12 +78,14 @@ class RunningMl(RunningSystem):
             side: Interpreter(side, self.machine.levels, self.program, self._tell, self._host)
             for side in self.machine.levels
         }
+        self.recorder = TapeRecorder(self.machine, self.interpreters, self.program)
         self._state = MlState(
             program=self.program.memory,
             background={side: each.memory for side, each in self.interpreters.items()},
             machine=self.machine.memory,
             perfect=self._hardware.memory,
             texts=self._host.texts,
+            tape=self.recorder.tape,
         )
 
     def _open(self) -> Hardware:
@@ -137,6 +142,7 @@ class RunningMl(RunningSystem):
         if plan.left is not None:
             self.interpreters["left"].run(plan.left)
         self._stand()
+        self.recorder.statement()
         early, self._held = self._held or [], None
         return [started, *early]
 
@@ -165,6 +171,7 @@ class RunningMl(RunningSystem):
             self._call()
         else:
             self._stop(ending.text, turn.memory.executing)
+        self.recorder.statement()
 
     def _poll(self) -> None:
         if self._around.halt():
@@ -184,6 +191,7 @@ class RunningMl(RunningSystem):
     def _cycle(self) -> None:
         self._poll()
         self.machine.cycle()
+        self.recorder.cycle()
         if self.machine.now % self._hardware.watched == 0:
             self._watch()
 
@@ -266,6 +274,7 @@ class RunningMl(RunningSystem):
         if choice == "skip":
             self._close("skipped")
         self._call()
+        self.recorder.statement()
 
     def _release(self) -> None:
         """Tell the events that were held back."""
@@ -292,6 +301,7 @@ class RunningMl(RunningSystem):
         self._pass()
         self._stand()
         self._call()
+        self.recorder.statement()
 
     def finish(self) -> bool:
         completed = self._next is None and self._stopped is None and self._state.stopped is None
@@ -320,6 +330,8 @@ class RunningMl(RunningSystem):
         mine = self._state
         mine.at, mine.stage, mine.stopped, mine.onward = state.at, state.stage, state.stopped, state.onward
         mine.statements, mine.standing = state.statements, list(state.standing)
+        put_back(mine.tape, state.tape)
+        self.recorder.restart()
         self._held = None
 
     @property
@@ -332,6 +344,11 @@ class RunningMl(RunningSystem):
             "force_events": cycles.forces,
             **self._hardware.figures,
         }
+
+    @property
+    def tables(self) -> History:
+        """All tables at all cycles up to the present."""
+        return tables_of(self._plan, self._state)
 
     # -- display --------------------------------------------------------------------------------------
 
@@ -386,3 +403,4 @@ class RunningMl(RunningSystem):
             raise Refused(f"{number:g} is not an integer of 16 bits")
         else:
             self.machine.levels["right"].write("VR", int(name), 1, int(number))
+        self.recorder.statement()

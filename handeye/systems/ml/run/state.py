@@ -1,13 +1,20 @@
 """Defines the state of an ML run between two statements."""
 
+from typing import Final
+
 from msgspec import field
 
 from handeye.program.system_state import SystemState, TaskPlace
 from handeye.systems.ml.background.memory import BackgroundMemory
 from handeye.systems.ml.background.program import ProgramMemory
+from handeye.systems.ml.dashboard.history import Head, History, history
+from handeye.systems.ml.dashboard.tape import Tape, changes_of
 from handeye.systems.ml.level import Side
 from handeye.systems.ml.machine.perfect import PerfectMemory
 from handeye.systems.ml.realtime.machine import MachineMemory
+from handeye.systems.ml.run.plan import MlPlan
+
+SIDES: Final[tuple[Side, ...]] = ("right", "left")
 
 
 class MlState(SystemState, kw_only=True):
@@ -21,9 +28,22 @@ class MlState(SystemState, kw_only=True):
     perfect: dict[Side, PerfectMemory] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)  # programs that the host keeps
     statements: int = 0  # executed
+    tape: Tape = field(default_factory=Tape)  # the tables by cycle
     standing: list[TaskPlace] = field(default_factory=list)
     """The place of each arm's program that has not ended; the one whose turn it is comes first."""
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
         return tuple(self.standing)
+
+
+def tables_of(plan: MlPlan, state: MlState) -> History:
+    """Return all tables at all cycles up to a state of a run. Raises BadFile if their record cannot be read."""
+    arms = state.machine.arms
+    head = Head(
+        program=plan.name,
+        sides=tuple(side for side in SIDES if side in arms),
+        cycles=max((arm.now for arm in arms.values()), default=0),
+        statements={number: str(line.statement) for number, line in plan.lines.items()},
+    )
+    return history(head, changes_of(state.tape))

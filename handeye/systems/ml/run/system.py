@@ -1,9 +1,10 @@
 """Defines MOS and ML as a system. It builds runs, and provides the words for them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
+from handeye.core.markup import PagePart
 from handeye.core.resources import plans
 from handeye.core.source import read_source
 from handeye.program.events import Choice
@@ -13,6 +14,9 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, RunCallbacks, StepperWords, System
 from handeye.systems.ml import ENTRY
+from handeye.systems.ml.dashboard.history import packed
+from handeye.systems.ml.dashboard.kept import TABLES, kept_history
+from handeye.systems.ml.dashboard.page import tables_part
 from handeye.systems.ml.follow.page import kept_page
 from handeye.systems.ml.machine.spec import GRAM_FORCE, RANGE_COUNT
 from handeye.systems.ml.machine.surroundings import Stimulus
@@ -79,10 +83,16 @@ class MlSystem(System):
 
     def files(self, runner: Runner, pause: Pause, result: Result) -> Mapping[str, bytes]:
         assert isinstance(runner.system, RunningMl)
-        return runner.system.hardware.files(runner.setup.world, result)
+        done = runner.system.tables
+        own = runner.system.hardware.files(runner.setup.world, result, (tables_part(done),))
+        return {TABLES: packed(done), **own}
 
     def page(self, folder: Path) -> bytes | None:
-        return kept_page(folder)
+        return kept_page(folder, self.parts(folder))
+
+    def parts(self, folder: Path) -> Sequence[PagePart]:
+        done = kept_history(folder)
+        return () if done is None else (tables_part(done),)
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
         return {

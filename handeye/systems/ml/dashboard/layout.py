@@ -1,0 +1,95 @@
+"""Numbers all words of all tables of a machine, so that a record can name a word by one integer."""
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+from handeye.systems.ml.level import Shape, Side
+from handeye.systems.ml.machine.rectilinear import LEFT, RIGHT
+from handeye.systems.ml.machine.spec import ArmSpec
+from handeye.systems.ml.tables.layout import SHAPES
+from handeye.systems.ml.tables.records import ANALOG
+from handeye.systems.ml.tables.store import ArmMemory
+
+PROGRAM: Final = "TK"
+_OF_EACH_ARM: Final = {*ArmMemory.__struct_fields__, "TR", "LG", "HL"}
+_SPECS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
+
+
+class Segment(NamedTuple):
+    """A table of an arm, or one that both arms share."""
+
+    side: str  # empty: it is shared
+    table: str
+    base: int  # number of its first word
+    shape: Shape
+
+    @property
+    def size(self) -> int:
+        """Number of its words."""
+        return self.shape.lines * self.shape.words
+
+    def number(self, line: int, word: int) -> int:
+        """Return the number of a word. Lines and words count from 1."""
+        return self.base + (line - 1) * self.shape.words + word - 1
+
+    def line_word(self, number: int) -> tuple[int, int]:
+        """Return the line and the word with a number, counted from 1."""
+        line, word = divmod(number - self.base, self.shape.words)
+        return line + 1, word + 1
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the words of a line; empty if they have none."""
+        names = self.shape.names
+        return [name.replace("_", " ") for name in names] if len(names) == self.shape.words else []
+
+    def name(self, word: int) -> str:
+        """Return the name of a word of a line; empty if it has none."""
+        return self.names[word - 1] if self.names else ""
+
+
+def segments(sides: Sequence[Side]) -> list[Segment]:
+    """Return all tables of a machine with these arms, in the order of the numbers of their words."""
+    found: list[Segment] = []
+    base = 0
+    for side in sides:
+        for table, shape in SHAPES.items():
+            own = table in _OF_EACH_ARM
+            if own or side == sides[0]:
+                found.append(Segment(side if own else "", table, base, shape))
+                base += found[-1].size
+    return found
+
+
+def line_labels(side: str, table: str) -> dict[int, str]:
+    """Return what is behind the lines of a table: axes, channels, interlocks."""
+    spec = _SPECS["left" if side == "left" else "right"]
+    axes = {motor.number: motor.axis for motor in spec.motors}
+    analog = {point: source.channel for point, source in spec.analog.items()}
+    match table:
+        case "MT" | "WS":
+            labels = axes
+        case "AI":
+            labels = axes | analog
+        case "AO":
+            labels = {motor.output: motor.axis for motor in spec.motors if motor.output > 0}
+        case "DI":
+            labels = {word: ", ".join(names) for word, names in spec.digital.items()}
+        case "DO":
+            labels = {1: ", ".join(spec.tools)} if spec.tools else {}
+        case "SF":
+            labels = dict(enumerate(spec.interlocks, 1))
+        case "ST":
+            labels = {
+                number: analog.get(line.input, "")
+                if line.kind == ANALOG
+                else _masked(spec, line.input, line.mask)
+                for number, line in spec.sensors.items()
+            }
+        case _:
+            labels = {}
+    return {line: label.replace("_", " ") for line, label in labels.items()}
+
+
+def _masked(spec: ArmSpec, word: int, mask: int) -> str:
+    return ", ".join(name for bit, name in enumerate(spec.digital[word]) if mask >> bit & 1)
