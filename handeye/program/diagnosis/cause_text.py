@@ -244,8 +244,8 @@ def doubt_sentence(cause: c.SenseCause) -> str:
         case c.ScrewHard():
             takes, allowed = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
             return (
-                f"the sensor shows {takes:.1f} oz-in while the screw advances, allowed: {allowed:.1f} oz-in: its thread "
-                "is hard to turn, or the current sensor fails"
+                f"the sensor shows {takes:.1f} oz-in while the screw advances, allowed: {allowed:.1f} oz-in: its "
+                "thread is hard to turn, or the current sensor fails"
             )
         case c.GapAstray():
             return f"the gap reads {_inches(cause.gap)}; the fingers were driven to {_inches(cause.goal)}"
