@@ -144,7 +144,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         help="change a value that the program remembers"
     ),
     Command(
-        usage="type TASK TEXT", group=_TRYING, act=acts.type_line,
+        usage="type TASK TEXT", group=_TRYING, act=acts.type_line, meanwhile=True,
         help="type a line at the console of a task",
     ),
     Command(
@@ -166,7 +166,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         "command"),
 )  # fmt: skip
 
-MEANWHILE: Final = " and ".join(f"`{command.name}`" for command in COMMANDS if command.meanwhile)
+MEANWHILE: Final = " and ".join(f"`{command.name}`" for command in COMMANDS if command.meanwhile and command.name not in _ASKING)
 _SHORT: Final = {
     "?": "help",
     "exit": "quit",

@@ -7,6 +7,7 @@ byte for byte, as a run that is not interrupted.
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final
@@ -57,6 +58,12 @@ def reach(first: int) -> str:
     )
 
 
+def _typed_within_step(events: Sequence[AnyEvent]) -> list[LineTyped]:
+    """Return the lines that were typed in the middle of the step with which some events begin."""
+    within = itertools.takewhile(lambda event: not isinstance(event, StepFinished), events)
+    return [event for event in within if isinstance(event, LineTyped)]
+
+
 class Runner:
     """A run of a plan in a world, from its beginning or from a checkpoint."""
 
@@ -105,6 +112,7 @@ class Runner:
         self.first = 0  # steps done by then
         self.observers: list[Observer] = []
         self._broken: str | None = None
+        self._within_step = False
         begun = () if start.snapshot is not None else self.system.begin()
         if begun and begun[0].time:
             raise BadArgument(
@@ -235,6 +243,7 @@ class Runner:
         the incomplete step.
         """
         assert not self.ended
+        self._within_step = True
         try:
             self.system.step()
         except Halted:
@@ -243,6 +252,8 @@ class Runner:
         except (PhysicsFailed, Deadlock) as error:
             self._broken = str(error)
             return
+        finally:
+            self._within_step = False
         self.position += 1
         self._settle()
 
@@ -280,6 +291,7 @@ class Runner:
                 self.finish()
                 return
             else:
+                self.system.foresee(_typed_within_step(events[len(self.events) :]))
                 self.step()
 
     # -- going back -----------------------------------------------------------------------------------
@@ -341,8 +353,13 @@ class Runner:
         self._settle()
 
     def type_line(self, text: str, task: str = "") -> None:
-        """Type a line at the system's console, for one of the system's tasks."""
+        """Type a line at the system's console, for one of the system's tasks. While a step is being executed, the line
+        is executed in its middle, if the system can do that.
+        """
         self.require("console")
+        if self._within_step:
+            self.system.interject(text, task)
+            return
         self.system.type_line(text, task)
         self._settle()
 

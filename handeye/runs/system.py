@@ -25,7 +25,7 @@ from handeye.execution.state import ReversalOrder, Shot
 from handeye.judge.finding import Findings
 from handeye.planfile.store import written_digest
 from handeye.ports.axes import Channel
-from handeye.program.events import AnyEvent, Choice
+from handeye.program.events import AnyEvent, Choice, LineTyped
 from handeye.program.operation import Device
 from handeye.program.system_state import SystemState
 from handeye.runs.parts import OWN, Parts
@@ -280,6 +280,20 @@ class RunningSystem(Protocol):
         """
         raise Refused("this system has no console to type at")
 
+    def interject(self, text: str, task: str) -> None:
+        """Execute a typed line in the middle of a step, and emit `LineTyped` before it takes effect. Raises InvalidInput,
+        and changes nothing, if that is impossible.
+        """
+        raise Refused("a line can be typed only while the run is paused; `pause` pauses it")
+
+    def foresee(self, typed: Sequence[LineTyped]) -> None:
+        """Execute these lines again in the middle of the next step, each at its time."""
+
+    @property
+    def live(self) -> LiveNews | None:
+        """What a page of the live run shows besides the facts of all systems, or None."""
+        return None
+
     def settables(self) -> Mapping[str, Settable]:
         """Return the values that a person can set, by kind; none by default."""
         return {}
@@ -315,6 +329,21 @@ class StepperWords:
     units: str = "those of the system"
     commands: Mapping[str, str] = field(default_factory=dict)  # help by usage
     without: tuple[str, ...] = ("picture",)  # names of commands that do nothing
+
+
+class LiveNews(ABC):
+    """What a system shows in the page of a live run besides the facts of all systems. The server's thread asks it for
+    news while the run goes on.
+    """
+
+    part: PagePart
+    channels: Collection[str] = ()  # names of channels that the part shows
+
+    @abstractmethod
+    def since(self, seen: object) -> tuple[object, str] | None:
+        """Return a mark of the present moment, and a message with everything that is new since the mark `seen`; the
+        first mark is None. Returns None if nothing is new.
+        """
 
 
 Topics = Mapping[str, tuple[str, Callable[["Runner"], Any]]]  # by topic: field of the answer, view

@@ -15,6 +15,7 @@ const live = (() => {
   }
 
   async function draw() {
+    if (!byId("view")) return;
     try {
       const drawn = await createPlayer(byId("view"), await unpacked("scene"), await unpacked("tracks"), {});
       drawn.pose = (body) => poses.get(body) ?? null;
@@ -42,7 +43,7 @@ const live = (() => {
   function moment(buffer) {
     const numbers = new Float32Array(buffer), [time, gap, ...force] = numbers.subarray(0, facts.figures);
     let at = facts.figures + facts.joints;
-    const sensed = facts.channels.map(([name, unit]) => [name, numbers[at++], unit]);
+    const sensed = facts.channels.map(([name, unit, listed]) => [name, numbers[at++], unit, listed]);
     for (const body of facts.bodies) {
       const pose = Array.from(numbers.subarray(at, at += 7));
       if (pose[2] >= facts.lowest) poses.set(body, pose); else poses.delete(body);
@@ -52,7 +53,7 @@ const live = (() => {
   }
 
   function shown(sensed) {
-    const told = sensed.filter(([, value]) => !Number.isNaN(value));
+    const told = sensed.filter(([, value, , listed]) => listed && !Number.isNaN(value));
     return told.map(([name, value, unit]) => `${name} ${value.toPrecision(3)} ${unit}`.trim());
   }
 
@@ -114,9 +115,12 @@ const live = (() => {
 
   // -- beginning --------------------------------------------------------------------------------------
 
+  /** Hear of further messages, by the names of their fields. */
+  const hear = (more) => Object.assign(heard, more);
+
   /** Begin, with handlers for messages, by the names of their fields. */
   function begin(more) {
-    Object.assign(heard, more);
+    hear(more);
     for (const button of document.querySelectorAll(".say")) button.addEventListener("click", () => say(button.value));
     byId("panic").addEventListener("click", () => send({ do: "panic" }));
     byId("drive").addEventListener("click", () => send({ do: "drive" }));
@@ -129,5 +133,5 @@ const live = (() => {
     listen();
   }
 
-  return { byId, facts, say, tell, fill, begin, driving: () => drives };
+  return { byId, facts, say, tell, fill, begin, hear, driving: () => drives };
 })();

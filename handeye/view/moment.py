@@ -130,6 +130,7 @@ class Newest(Observer):
         self._channels: Array = np.full(len(self.parts), np.nan)
         self.moment = self._now(None)
         self.television = television(runner)
+        self.live = runner.system.live  # what the system shows besides
 
     def event(self, event: AnyEvent) -> None:
         if isinstance(event, NEWS):

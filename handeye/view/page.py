@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from handeye.core.markup import Markup, element, region
+from handeye.core.markup import Markup, PagePart, element, region
 from handeye.report import player
 from handeye.report.page.document import head, packed, resource
 from handeye.report.page.moments import json_markup
@@ -37,20 +37,24 @@ class Face:
 
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
-    """Return the page of a live cell, as one file that loads no other files. Raises InvalidInput if the task
-    has no scene."""
-    model = runner.task.shown(runner.setup.world, written(runner.setup))
-    names = newest.frames.names
+    """Return the page of a live cell, as one file that loads no other files. Without a cell, it shows no view."""
+    model = None if runner.system.cell is None else runner.task.shown(runner.setup.world, written(runner.setup))
+    names, live = newest.frames.names, newest.live
+    part, shown = (PagePart(Markup("")), ()) if live is None else (live.part, live.channels)
     facts = {
         "bodies": names,
         "figures": FIGURES,
         "joints": len(newest.frames.joints),
-        "channels": newest.parts,
-        "lowest": scene.lowest(model),
+        "channels": [(name, unit, name not in shown) for name, unit in newest.parts],
+        "lowest": 0.0 if model is None else scene.lowest(model),
         **face.facts,
     }
-    scripts = [player.script(), _own("live.js"), _own(face.script)]
-    style = resource("page.css") + _own("live.css")
+    scripts = [*([] if model is None else [player.script()]), _own("live.js"), _own(face.script), *filter(None, [part.script])]
+    style = resource("page.css") + _own("live.css") + part.style
+    view = []
+    if model is not None:
+        first = _first_tracks(names, newest.moment.poses)
+        view = [packed("scene", scene.scene_bytes(model)), packed("tracks", first)]
     television = element("section", id="television", aria_label="television", hidden=True)
     aside = element("div", television, face.aside, class_="aside")
     state = element("p", "connecting", id="state", role="status")
@@ -60,10 +64,9 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     body = element(
         "body",
         header,
-        element("main", element("div", _viewer(face), aside, class_="beside")),
+        element("main", element("div", _viewer(face, seen=model is not None), aside, class_="beside"), part.markup),
         element("script", json_markup(facts), id="facts", type="application/json"),
-        packed("scene", scene.scene_bytes(model)),
-        packed("tracks", _first_tracks(names, newest.moment.poses)),
+        *view,
         *(element("script", Markup(script)) for script in scripts),
         class_="live",
     )
@@ -81,17 +84,17 @@ def source_region(label: str, *content: Markup, id: str | None = None) -> Markup
     return region(*content, label=label, id=id, class_="source")
 
 
-def _viewer(face: Face) -> Markup:
+def _viewer(face: Face, *, seen: bool) -> Markup:
     canvas = element(
         "canvas", id="view", tabindex="0", role="img",
         aria_label="the live cell; arrow keys turn the view, plus and minus zoom",
     )  # fmt: skip
     figures = element("p", id="figures", class_="caption")
     views = element("div", id="views", role="group", aria_label="view", class_="views")
+    view = [element("div", canvas, class_="screen"), element("p", id="instead", hidden=True)] if seen else []
     return element(
-        "div", element("div", canvas, class_="screen"), element("p", id="instead", hidden=True), figures, views,
-        *face.controls, _talk(face.listener), class_="viewer",
-    )  # fmt: skip
+        "div", *view, figures, *([views] if seen else []), *face.controls, _talk(face.listener), class_="viewer"
+    )
 
 
 def _talk(listener: str) -> Markup:

@@ -162,7 +162,7 @@ class Server:
     async def _feed(self, viewer: Viewer, newest: Newest) -> None:
         """Send a viewer messages, the newest state and the newest picture, as fast as the viewer can receive
         them."""
-        shown, pictured = None, None
+        shown, pictured, heard = None, None, None
         try:
             while True:
                 while viewer.waiting:
@@ -175,6 +175,10 @@ class Server:
                 if television is not pictured:
                     await viewer.connection.send(television.message)
                     pictured = television
+                news = None if newest.live is None else newest.live.since(heard)
+                if news is not None:
+                    heard, message = news
+                    await viewer.connection.send(message)
                 await asyncio.sleep(1 / MOMENTS_PER_S)
         except ConnectionClosed:
             pass

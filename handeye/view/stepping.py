@@ -13,7 +13,7 @@ from handeye.debugger.formatting import MAX_STEPS_SHOWN, as_json, as_text
 from handeye.debugger.live import LineInput, LiveJson
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper
-from handeye.report.page.source import listing
+from handeye.report.page.source import listing, numbered_listing
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.view.link import Link
@@ -27,12 +27,16 @@ _PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as possible")
 
 
 def stepping_page(runner: Runner, newest: Newest) -> bytes:
-    """Return the page for stepping a run in a cell. Raises InvalidInput if the task has no scene."""
+    """Return the page for stepping a run."""
     program: Any = runner.listing
     face = Face(
         title=program.name,
         controls=[_controls()],
-        aside=source_region("script", listing(program), id="script"),
+        aside=source_region(
+            "script",
+            numbered_listing(program.numbered) if program.numbered else listing(program),
+            id="script",
+        ),
         listener="stepper",
         script="stepping.js",
         facts={"files": ["", *program.required]},

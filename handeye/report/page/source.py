@@ -1,5 +1,6 @@
 """Shows the script as HTML, line by line, with syntax colours."""
 
+from collections.abc import Mapping
 from typing import Final
 
 from pygments import lex
@@ -39,6 +40,12 @@ def listing(program: Program) -> Markup:
         )
         for file, content in zip(files, texts, strict=True)
     )
+
+
+def numbered_listing(lines: Mapping[int, str]) -> Markup:
+    """Return lines that have numbers of their own."""
+    items = (element("li", element("code", line), id=line_id(number), value=number) for number, line in lines.items())
+    return element("div", element("ol", *items))
 
 
 def excerpt(program: Program, step: StepStarted) -> Markup:

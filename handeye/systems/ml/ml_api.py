@@ -2,16 +2,21 @@
 Python."""
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from handeye.core.errors import BadArgument
 from handeye.program.events import SystemEvent
 from handeye.systems.ml.background.host import Host, Procedure
 from handeye.systems.ml.background.interpreter import Interpreter
 from handeye.systems.ml.background.program import StoredProgram
+from handeye.systems.ml.cli.senses import sensed
 from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.language.syntax import Point
 from handeye.systems.ml.machine.perfect import perfect_machine
 from handeye.systems.ml.machine.surroundings import Stimulus
+
+if TYPE_CHECKING:  # programs run on perfect motors without a simulator
+    from handeye.systems.ml.bench.touch import Touch
 
 
 class Ml:
@@ -29,6 +34,7 @@ class Ml:
         *,
         outline: Sequence[tuple[int, int]] = (),
         stimuli: Sequence[Stimulus] = (),
+        senses: Sequence[str] = (),
         procedures: Mapping[str, Procedure] | None = None,
     ) -> None:
         """Switch MOS and the pump on.
@@ -37,11 +43,14 @@ class Ml:
             text: a program to be stored.
             outline: corners of an object that the wand can touch, each as (y, x) in .001 inch.
             stimuli: values of sensors at certain times or places.
+            senses: the same, in the form of `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads 500 while
+                motor 3 is at 2750 or farther from 0.
             procedures: functions for UPROCA to UPROCD. Each gets this terminal's interpreter and the values of the
                 statement.
         """
         self.events: list[SystemEvent] = []
-        self._machine, _ = perfect_machine(self.events.append, stimuli=stimuli, outline=outline)
+        sensing = (*stimuli, *map(sensed, senses))
+        self._machine, _ = perfect_machine(self.events.append, stimuli=sensing, outline=outline)
         self._program = StoredProgram()
         self._mos = Interpreter(
             "right", self._machine.levels, self._program, self.events.append, Host(procedures)
@@ -123,6 +132,35 @@ class Ml:
     def position(self, motor: int) -> int:
         """Return the position of a motor. Raises MlError if it is not installed."""
         return self._mos.level.position(motor)
+
+    @staticmethod
+    def touch(
+        period: int = 10, bandwidth: float = 50.0, speed: float = 25.0, limit: int = 300, phase: float = 0.0
+    ) -> "Touch":
+        """Let the hand of the rectilinear arm descend on a block in physics, guarded by a strain gauge in a finger.
+
+        >>> touch = handeye.Ml.touch(speed=50)
+        >>> touch.noticed, touch.way, touch.force
+        (10.0, 0.692, 13.71)
+
+        Args:
+            period: ms from one reading of the sensors to the next.
+            bandwidth: of the servo of the slide, Hz.
+            speed: of the slide, mm/s.
+            limit: of the gauge, grams.
+            phase: of the contact in the period: 0 just after a reading, nearly 1 just before one.
+
+        Returns:
+            When the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the
+            greatest force of both fingers (`force`, N), the force on a finger at the start of the motion (`jolt`, N),
+            and the courses of places, goals and forces over `times` (ms).
+
+        Raises:
+            BadArgument: a value is out of range.
+        """
+        from handeye.systems.ml.bench.touch import touch
+
+        return touch(period, bandwidth, speed, limit, phase)
 
     def point(self, number: int) -> Point:
         """Return the positions of a POINT. Raises MlError if it is not filled."""

@@ -8,14 +8,19 @@ from pathlib import Path
 
 import pytest
 from msgspec.structs import replace
-from run_bench import FELT, HELD, NEAR, begin, program, ran
+from run_bench import FELT, HELD, NEAR, begin, lines, program, ran
 
-from handeye.core.errors import BadFile
+from handeye.core.errors import BadFile, InvalidInput
+from handeye.execution.servo import ServoPeriod
+from handeye.program.events import LineTyped
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
+from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.systems.ml.dashboard.history import History, packed, unpacked
 from handeye.systems.ml.run.running import RunningMl
+from handeye.view.moment import Newest
+from handeye.view.stepping import stepping_page
 
 Command = Callable[..., tuple[int, str, str]]
 EXAMPLE = program("guarded_move")
@@ -167,5 +172,110 @@ def test_bad_input_is_refused_in_a_sentence(command: Command, words: tuple[str, 
     Path("example.ml").write_text("10 DELAY 1", encoding="utf-8")
     Path("empty").mkdir()
     code, out, err = command("ml", "tables", *words)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"handeye: {sentence}"), err
+
+
+# -- a running machine --------------------------------------------------------------------------------
+
+
+class Typist(Observer):
+    """Types lines while the arm moves."""
+
+    def __init__(self, at: float, *texts: str) -> None:
+        self.at, self.texts = at, [*texts]
+        self.refused: list[str] = []
+        self.runner: Runner | None = None
+
+    def tick(self, period: ServoPeriod) -> None:
+        assert self.runner is not None
+        if self.texts and period.sensed.time >= self.at:
+            try:
+                self.runner.type_line(self.texts.pop(0), "right")
+            except InvalidInput as error:
+                self.refused.append(str(error))
+
+
+def typed(typist: Typist, text: str) -> Runner:
+    def watching(runner: Runner) -> list[Typist]:
+        typist.runner = runner
+        return [typist]
+
+    runner = Runner(begin(text), observers=watching)
+    advance(runner)
+    return runner
+
+
+SLOWER = "FILE MT 3 8 20"
+THERE_AND_BACK = "10 MOTOR 3 2000\n20 MOTOR 3 0"
+
+
+def test_a_word_written_while_the_arm_moves_takes_effect_in_the_next_cycle_and_is_repeated() -> None:
+    runner = typed(Typist(0.05, SLOWER), THERE_AND_BACK)
+    done = tables(runner)
+    assert [word(done, "MT", 3, 5, cycle) for cycle in range(3, 7)] == [315, 394, 414, 434]
+    again = Runner(begin(THERE_AND_BACK))
+    again.repeat(runner.events)
+    assert lines(again) == lines(runner)
+    assert packed(tables(again)) == packed(done)
+    runner.back_to(1)
+    assert sum(isinstance(event, LineTyped) for event in runner.events) == 1
+    assert runner.time == pytest.approx(0.87)  # and not .27, as without the written word
+
+
+def test_while_the_arm_moves_other_lines_and_wrong_words_are_refused_and_change_nothing() -> None:
+    typist = Typist(0.05, "MOTOR 3 0", "FILE MT 3 8 70000", "FILE SF 1 1 0", "FILE MT 3", "10 STOP")
+    runner = typed(typist, THERE_AND_BACK)
+    assert [each[:26] for each in typist.refused] == [
+        "while a statement is being", "M04: `70000` does not fit ", "M11: word 1 of SF cannot b", "M03: FILE takes 4 to 15 pa",
+        "while a statement is being",
+    ]  # fmt: skip
+    assert lines(runner) == lines(ran(THERE_AND_BACK))
+
+
+def test_a_live_page_gets_all_changes_then_the_new_ones_and_after_going_back_all_again() -> None:
+    runner = Runner(begin(EXAMPLE, HELD, NEAR, FELT))
+    live = runner.system.live
+    assert live is not None
+    mark: object = None
+    seen: dict[int, list[tuple[int, int]]] = {}
+    for steps in (3, 5, 20):
+        advance(runner, steps=steps)
+        news = live.since(mark)
+        assert news is not None
+        mark, message = news[0], json.loads(news[1])
+        assert message["anew"] is (steps == 3)
+        for cycle, number, value in zip(*(message["tables"][n::3] for n in range(3)), strict=True):
+            seen.setdefault(number, []).append((cycle, value))
+    done = tables(runner)
+    assert {number: values[-1][1] for number, values in seen.items()} == {
+        number: course.values[-1] for number, course in done.courses.items()
+    }
+    assert live.since(mark) is None
+    runner.back_to(2)
+    news = live.since(mark)
+    assert news is not None
+    assert json.loads(news[1])["anew"] is True
+
+
+def test_the_page_of_a_program_on_perfect_motors_has_its_statements_and_its_tables() -> None:
+    runner = Runner(begin(EXAMPLE, HELD, NEAR, FELT))
+    page = stepping_page(runner, Newest(runner)).decode()
+    assert '<li id="line-0-288" value="288"><code>MOTOR 3 4000</code></li>' in page
+    assert 'id="tables-facts"' in page
+    assert 'id="view"' not in page
+    facts = json.loads(page.split('id="facts" type="application/json">')[1].split("</script>")[0])
+    assert {name: listed for name, _, listed in facts["channels"]}["position_3"] is False
+
+
+@pytest.mark.parametrize(("words", "sentence"), [
+    (("nothing",), "nothing: there is no such file, and no job of that name; jobs are follow"),
+    (("follow", "--sense", "5=1"), "the job follow has an arm and sensors of its own"),
+    (("example.ml", "--variant", "L"), "--variant applies only to a job"),
+    (("example.ml", "--seed", "3"), "--seed applies only to `--arm rectilinear`"),
+])  # fmt: skip
+def test_a_page_that_cannot_be_shown_is_refused(command: Command, words: tuple[str, ...], sentence: str) -> None:
+    Path("example.ml").write_text("10 DELAY 1", encoding="utf-8")
+    code, out, err = command("ml", "view", *words)
     assert (code, out) == (2, "")
     assert err.startswith(f"handeye: {sentence}"), err

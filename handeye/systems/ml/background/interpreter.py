@@ -155,6 +155,16 @@ class Interpreter:
             self.memory.executing = executing
             raise
 
+    def file(self, text: str) -> None:
+        """Execute a typed FILE while another statement is being executed. Raises MlError or BadArgument, and then
+        nothing has changed.
+        """
+        line = statement_of(text)
+        if line is None or line.number is not None or line.statement.code != "FILE":
+            raise BadArgument("while a statement is being executed, only FILE is executed at once")
+        BEHAVIOUR["FILE"](self, *map(self._value, line.statement.parameters))
+        self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
+
     def again(self, *, onward: bool) -> None:
         """After a stop, enable the arm and continue: with the next statement, or with the one that was stopped.
         Raises MlError (M14) while the cause of an emergency persists.

@@ -18,7 +18,9 @@ from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
 from handeye.systems.ml.cli.follow import follow
 from handeye.systems.ml.cli.tables import tables
+from handeye.systems.ml.cli.touch import touch
 from handeye.systems.ml.cli.toys import blocks, train
+from handeye.systems.ml.cli.view import view
 from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.language.check import checked
 from handeye.systems.ml.run.plan import ArmName
@@ -86,7 +88,7 @@ def run(
     from handeye.systems.ml.run.plan import MlPlan, sound
 
     check_kept(no_keep, out)
-    _check_machine(arm, seed=seed, left=left, sense=sense)
+    check_machine(arm, seed=seed, left=left, sense=sense)
     stimuli = tuple(sensed(each) for each in sense or ())
     source = read_source(file)
     if not reported(source, first=first, left=left):
@@ -104,7 +106,7 @@ def run(
     )  # fmt: skip
 
 
-def _check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str] | None) -> None:
+def check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str] | None) -> None:
     """Raise BadArgument if an option of a run does not apply to its machine."""
     if arm == "none":
         if seed:
@@ -264,7 +266,7 @@ def _session(file: Path | None, *typed: str, left: bool = False) -> int:
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, assemble, words, tables, follow, blocks, train)
+_COMMANDS: Final = (run, check, assemble, words, tables, view, touch, follow, blocks, train)
 ml.default(console)
 for _command in _COMMANDS:
     ml.command(_command)

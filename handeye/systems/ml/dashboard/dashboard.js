@@ -5,7 +5,7 @@ const tables = (() => {
   const facts = JSON.parse(byId("tables-facts").textContent);
   const SVG = "http://www.w3.org/2000/svg", HIGH = 150, EDGE = 46, ACROSS = 16;
   let courses = new Map(); // by number of the word: cycles from which on it has the values beside
-  let last = facts.last, cycle = 0, follows = true, picked = null, write = null;
+  let last = facts.last, cycle = 0, follows = true, picked = null, write = null, drawing = null;
   const open = new Set(facts.open), panels = new Map();
 
   // -- words ------------------------------------------------------------------------------------------
@@ -378,6 +378,7 @@ const tables = (() => {
     begin();
     range();
     arrange();
+    chosen(picked);
   }
 
   /** Hear of changes: triples of a cycle, the number of a word, and its value. With `anew`, they are all that there are. */
@@ -385,9 +386,13 @@ const tables = (() => {
     if (anew) { courses = new Map(); panels.clear(); }
     for (let n = 0; n < changes.length; n += 3) set(changes[n], changes[n + 1], changes[n + 2]);
     last = passed;
-    range();
     if (follows || anew) cycle = last + 1;
-    arrange();
+    drawing ??= requestAnimationFrame(() => {
+      drawing = null;
+      range();
+      if (facts.segments.some((segment) => open.has(keyOf(segment)) && panels.get(keyOf(segment))?.lines !== used(segment).length)) arrange();
+      else show();
+    });
   }
 
   return { shown, live, feed, place: (number) => {

@@ -35,7 +35,7 @@ def tables_part(done: History) -> PagePart:
         facts(done.head, picked=_moving(done)),
         embedded("tables-record", packed(done)),
     )
-    return PagePart(content, style=_own("dashboard.css"), script=_own("dashboard.js") + _SHOWN)
+    return PagePart(content, style=own_file("dashboard.css"), script=own_file("dashboard.js") + _SHOWN)
 
 
 def dashboard(*more: Markup) -> Markup:
@@ -119,5 +119,6 @@ def _moving(done: History) -> int:
     )
 
 
-def _own(name: str) -> str:
+def own_file(name: str) -> str:
+    """Return the content of a file of this folder, which is copied into pages unchanged."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")

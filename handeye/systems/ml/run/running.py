@@ -41,6 +41,7 @@ from handeye.systems.ml.background.host import Host
 from handeye.systems.ml.background.interpreter import Interpreter
 from handeye.systems.ml.background.program import StoredProgram
 from handeye.systems.ml.dashboard.history import History
+from handeye.systems.ml.dashboard.live import LiveTables
 from handeye.systems.ml.dashboard.tape import TapeRecorder
 from handeye.systems.ml.errors import MlError
 from handeye.systems.ml.happenings import Printed
@@ -68,6 +69,7 @@ class RunningMl(RunningSystem):
         self._setup, self._around, self._plan = setup, around, setup.plan
         self._listing = listing(setup.plan)
         self._held: list[SystemEvent] | None = []  # events that are emitted later; None: at once
+        self._foreseen: list[LineTyped] = []  # lines that were typed in the middle of the present step
         self._hardware = self._open()
         self.machine = self._hardware.machine
         self.program = StoredProgram()
@@ -194,6 +196,9 @@ class RunningMl(RunningSystem):
         self.recorder.cycle()
         if self.machine.now % self._hardware.watched == 0:
             self._watch()
+        while self._foreseen and round(self._foreseen[0].time * CYCLES_PER_SECOND) <= self.machine.now:
+            typed = self._foreseen.pop(0)
+            self.interject(typed.text, typed.task)
 
     def _watch(self) -> None:
         """Report the present state of the machine and of the tables."""
@@ -303,6 +308,28 @@ class RunningMl(RunningSystem):
         self._call()
         self.recorder.statement()
 
+    def interject(self, text: str, task: str) -> None:
+        """Execute a FILE in the middle of a statement. The real-time level uses the word in its next cycle."""
+        side = task or "right"
+        if side not in self.interpreters:
+            raise Refused(f"there is no {side} arm")
+        told, self._held = self._held, []
+        try:
+            self.interpreters[side].file(text)
+        except InvalidInput:
+            self._held = told
+            raise
+        self._around.emit(LineTyped(time=self.time, text=text, task=task))
+        self._release()
+        self.recorder.statement()
+
+    def foresee(self, typed: Sequence[LineTyped]) -> None:
+        self._foreseen = [*typed]
+
+    @cached_property
+    def live(self) -> LiveTables:
+        return LiveTables(self.tables.head, self.machine, self.recorder)
+
     def finish(self) -> bool:
         completed = self._next is None and self._stopped is None and self._state.stopped is None
         if not completed and self._state.stage is not None:  # which stays: results name it
@@ -332,6 +359,9 @@ class RunningMl(RunningSystem):
         mine.statements, mine.standing = state.statements, list(state.standing)
         put_back(mine.tape, state.tape)
         self.recorder.restart()
+        if "live" in self.__dict__:
+            self.live.restart()
+        self._foreseen = []
         self._held = None
 
     @property

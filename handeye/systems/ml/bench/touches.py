@@ -1,0 +1,125 @@
+"""Touches for many periods, bandwidths and speeds, and a page on which they can be chosen."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from handeye.core.files import Kind
+from handeye.core.markup import Markup, element, note
+from handeye.report.page.document import head, resource
+from handeye.report.page.moments import json_markup
+from handeye.systems.ml.bench.touch import LIMIT, Touch, worst
+
+PERIODS: Final = (2, 5, 10, 20, 50)  # ms
+BANDWIDTHS: Final = (10.0, 20.0, 50.0, 100.0)  # Hz
+SPEEDS: Final = (5.0, 10.0, 25.0, 50.0, 100.0, 200.0)  # mm/s
+SPEED: Final = 50.0  # shown at first
+FORCE: Final = 20.0  # N that the fastest admissible touch may reach
+MARK: Final = "<!doctype html>\n<!-- handeye touches -->\n"
+PAGE: Final = Kind("page of touches", MARK.encode(), ending=".html")
+_CAPTIONS: Final = {
+    "place": "How far the slide is below the place of contact, mm (thin: its set-point). Red: the readings of the "
+    "sensors; the long one is the first beyond the limit.",
+    "force": "The force of both fingers on the block, N.",
+    "ways": "How far the slide goes on, mm, by its speed, mm/s; a curve for each period.",
+    "forces": "The greatest force, N, by the speed, mm/s. Hollow: the start of the motion trips the guard in the air.",
+}
+_EXACT: Final = 0.5  # mm/s
+
+
+def swept(limit: int = LIMIT) -> list[Touch]:
+    """Return the worst touch for each period, bandwidth and speed."""
+    return [worst(p, f, v, limit) for p in PERIODS for f in BANDWIDTHS for v in SPEEDS]
+
+
+def fastest(period: int, bandwidth: float, force: float = FORCE, limit: int = LIMIT) -> float:
+    """Return the greatest speed (mm/s, to half a millimetre a second) at which a guarded touch does not exceed a force
+    (N), and its start does not trip the guard; 0 if there is none.
+    """
+
+    def right(speed: float) -> bool:
+        found = worst(period, bandwidth, speed, limit)
+        return found.force <= force and not found.trips
+
+    low, high = 0.0, SPEEDS[-1]
+    if right(high):
+        return high
+    while high - low > _EXACT:
+        middle = (low + high) / 2
+        low, high = (middle, high) if middle >= 1 and right(middle) else (low, middle)
+    return low
+
+
+def touches_page(touches: Sequence[Touch]) -> bytes:
+    """Return a page on which the period, the bandwidth and the speed of a touch can be chosen."""
+    script, style = _own("touches.js"), resource("page.css") + _own("touches.css")
+    title = "What ten milliseconds are"
+    body = element(
+        "body",
+        element("header", element("h1", title)),
+        element(
+            "main",
+            note(
+                "The hand of the rectilinear arm descends on a block, guarded by a limit of "
+                f"{touches[0].limit} g on a strain gauge in a finger. The sensors are read once in a period. When a "
+                "reading is beyond the limit, the goal of the slide becomes its present place. Each choice shows the "
+                "touch with the greatest force among contacts at four phases of the period."
+            ),
+            _controls(),
+            element("p", id="said", role="status"),
+            element(
+                "div",
+                *(_figure(name, caption) for name, caption in _CAPTIONS.items()),
+                class_="charts",
+            ),
+        ),
+        element("script", json_markup(_data(touches)), id="touches", type="application/json"),
+        element("script", Markup(script)),
+    )
+    return f"{MARK}{element('html', head(title, style, [script]), body, lang='en')}\n".encode()
+
+
+def _controls() -> Markup:
+    choices: list[tuple[str, str, Sequence[float], float, str]] = [
+        ("period", "period", PERIODS, 10, "ms"),
+        ("bandwidth", "bandwidth of the servo", BANDWIDTHS, 50.0, "Hz"),
+        ("speed", "speed", SPEEDS, SPEED, "mm/s"),
+    ]
+    return element(
+        "div",
+        *(
+            element(
+                "label",
+                element("span", f"{label}: ", element("output", id=f"{name}-shown"), f" {unit}"),
+                element(
+                    "input", id=name, type="range", min="0", max=str(len(values) - 1), step="1",
+                    value=str([*values].index(usual)),
+                ),
+            )
+            for name, label, values, usual, unit in choices
+        ),
+        class_="choices",
+    )  # fmt: skip
+
+
+def _figure(name: str, caption: str) -> Markup:
+    drawing = element("svg", id=name, role="img", aria_label=caption, viewBox="0 0 560 240")
+    return element("figure", drawing, element("figcaption", caption))
+
+
+def _data(touches: Sequence[Touch]) -> dict[str, Any]:
+    return {
+        "period": PERIODS, "bandwidth": BANDWIDTHS, "speed": SPEEDS, "limit": touches[0].limit,
+        "touches": [
+            {
+                "jolt": each.jolt, "trips": each.trips, "noticed": each.noticed, "way": each.way, "force": each.force,
+                "begin": each.times[0], "places": each.places, "goals": each.goals, "forces": each.forces,
+                "reading": each.readings[0],
+            }
+            for each in touches
+        ],
+    }  # fmt: skip
+
+
+def _own(name: str) -> str:
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")

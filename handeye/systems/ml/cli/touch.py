@@ -1,0 +1,79 @@
+"""The command that touches a block in physics, with a chosen period, bandwidth and speed."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Json, Overwrite, WholeNumber, note, put_json, say
+from handeye.core.errors import BadArgument
+
+
+def touch(
+    *,
+    period: Annotated[
+        WholeNumber | None,
+        Parameter(help="Time from one reading of the sensors to the next, 1 to 100 ms. Default: 10, the paper's."),
+    ] = None,
+    bandwidth: Annotated[
+        float | None, Parameter(help="Bandwidth of the servo, 5 to 120 Hz. Default: 50, the paper's.")
+    ] = None,
+    speed: Annotated[float | None, Parameter(help="Speed of the slide, 1 to 200 mm/s. Default: 25.")] = None,
+    limit: Annotated[
+        WholeNumber, Parameter(help="Limit of the strain gauge in the right finger, 10 to 1500 g.")
+    ] = 300,
+    phase: Annotated[
+        float,
+        Parameter(
+            help="Phase of the contact in the period: 0 is just after a reading of the sensors, .99 just before one."
+        ),
+    ] = 0.0,
+    page: Annotated[
+        Path | None,
+        Parameter(
+            help="Write a page (.html) with sliders for periods of 2 to 50 ms, servos of 10 to 100 Hz and speeds of 5 "
+            "to 200 mm/s. It takes about 10 s."
+        ),
+    ] = None,
+    overwrite: Overwrite = False,
+    json: Json = False,
+) -> int:
+    """Let the hand descend on a block until a strain gauge feels a limit: how far does the slide go on, with what force?
+
+    This is what the ten milliseconds of MOS mean: the slide goes on until the next reading of the sensors, and then for
+    as long as its servo lags behind. `docs/ten_milliseconds.md` has the figures.
+
+    Exit code 0: simulated; 2: bad input.
+    """
+    from handeye.systems.ml.bench.touch import BANDWIDTH, PERIOD, SPEED, lines
+    from handeye.systems.ml.bench.touch import touch as touched
+
+    if page is not None:
+        if json or any(each is not None for each in (period, bandwidth, speed)):
+            raise BadArgument("--page shows all periods, bandwidths and speeds; it takes only --limit and --overwrite")
+        return _page(page, limit, overwrite=overwrite)
+    found = touched(
+        PERIOD if period is None else period,
+        BANDWIDTH if bandwidth is None else bandwidth,
+        SPEED if speed is None else speed,
+        limit,
+        phase,
+    )
+    if json:
+        put_json(found)
+    else:
+        for line in lines(found):
+            say(line, whole=True)
+    return 0
+
+
+def _page(place: Path, limit: int, *, overwrite: bool) -> int:
+    """Write the page of touches. Returns the exit code; raises InvalidInput if it cannot be written."""
+    from handeye.core.files import check_place, write_over
+    from handeye.systems.ml.bench.touches import PAGE, swept, touches_page
+
+    check_place(place, PAGE, overwrite=overwrite)
+    note("simulating 480 touches")
+    write_over(place, touches_page(swept(limit)), PAGE)
+    say(f"{place}")
+    return 0

@@ -1,0 +1,70 @@
+"""The command that steps a run in the browser, beside the tables of its machine."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Out, Overwrite, WholeNumber
+from handeye.core.errors import BadArgument, NoSuchName
+from handeye.core.source import read_source
+from handeye.systems.ml.run.plan import ArmName
+
+
+def view(
+    program: Annotated[str, Parameter(help="A program in ML, `.ml`, or the name of a job, such as `follow`.")],
+    /,
+    *,
+    arm: Annotated[ArmName | None, Parameter(help="The machine of a program, as for `handeye ml run`.")] = None,
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the world of the simulated arm.")] = 0,
+    variant: Annotated[str, Parameter(help="Variant of a job: for `follow` the outline.")] = "",
+    sense: Annotated[
+        list[str] | None, Parameter(help="A reading of a sensor or interlock, as for `handeye ml run`.")
+    ] = None,
+    port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0 for any free port.")] = 0,
+    out: Out = None,
+    overwrite: Overwrite = False,
+) -> int:
+    """Step a run in the browser, and see all tables of its machine while it goes on.
+
+    Words that changed in the cycle are lit. Any cycle that has passed can be looked at. A value that you write into a
+    word takes effect in the next cycle, also while the arm moves: `MT 3 4` sends motor 3 elsewhere, `MT 2 8` changes
+    its speed, and `ST 7 9` a limit. The written words are events of the run, so a recorded run is repeated with them.
+
+    Prints the address to open, which contains a secret and works on this computer only.
+
+    Exit code 0: the program has ended, or you left; 1: an error or an emergency has stopped it; 2: bad input.
+    """
+    from handeye.cli.job import Job, work
+    from handeye.core.variation import WorldSpec
+    from handeye.runs.setup import Setup
+    from handeye.runs.snapshot import Checkpoint
+    from handeye.systems.ml.cli.commands import check_machine, reported
+    from handeye.systems.ml.cli.senses import sensed
+    from handeye.systems.ml.run.jobs import PROGRAMS, job_plan, job_setup
+    from handeye.systems.ml.run.plan import MlPlan, sound
+    from handeye.view.link import Link
+    from handeye.view.server import Server
+
+    file = Path(program)
+    if program in PROGRAMS and not file.is_file():
+        if arm is not None or sense:
+            raise BadArgument(f"the job {program} has an arm and sensors of its own; leave out --arm and --sense")
+        setup = job_setup(job_plan(program, variant), WorldSpec(seed=seed))
+    else:
+        if variant:
+            raise BadArgument("--variant applies only to a job")
+        if not file.suffix and not file.exists():
+            raise NoSuchName(f"{program}: there is no such file, and no job of that name; jobs are {', '.join(PROGRAMS)}")
+        machine: ArmName = arm or "none"
+        check_machine(machine, seed=seed, left=None, sense=sense)
+        source = read_source(file)
+        if not reported(source, first=None, left=None):
+            return 2
+        stimuli = tuple(sensed(each) for each in sense or ())
+        plan = MlPlan(name=file.name, text=source.text, arm=machine, stimuli=stimuli)
+        sound(plan)
+        setup = Setup(system="ml", plan=plan, world=WorldSpec(seed=seed), camera="auto")
+    with Server(Link(), port) as server:
+        start = Checkpoint(setup=setup)
+        return work(Job(start=start, out=out, overwrite=overwrite, step=True, on_stop="ask", server=server))
