@@ -48,7 +48,11 @@ def figures() -> dict[str, str]:
         "forces": table(
             ["period", *(f"{v:g} mm/s" for v in SPEEDS), f"fastest for {FORCE:g} N"],
             (
-                [f"{p} ms", *(f"{by_period[p, v].force:.1f}" for v in SPEEDS), f"{fastest(p, BANDWIDTH):.0f} mm/s"]
+                [
+                    f"{p} ms",
+                    *(f"{by_period[p, v].force:.1f}" for v in SPEEDS),
+                    f"{fastest(p, BANDWIDTH):.0f} mm/s",
+                ]
                 for p in PERIODS
             ),
         ),
@@ -73,7 +77,8 @@ def written(text: str, found: dict[str, str]) -> str:
             text,
             flags=re.DOTALL,
         )
-        assert count == 1, name
+        if count != 1:
+            raise ValueError(f"the page has no place for {name}")
     return text
 
 

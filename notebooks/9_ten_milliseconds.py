@@ -39,8 +39,8 @@ ml.position(3)
 
 # %% [markdown]
 # The arm has stopped .006 inches too late, and it could have been more: at 20 cm/s it moves .079 inches (2 mm) in a
-# cycle, and the sensor is read only when the cycle is over. A program can let the motor move more slowly. Word 8 of its line in the table of the
-# motors is its speed, in thousandths of an inch a cycle:
+# cycle, and the sensor is read only when the cycle is over. A program can let the motor move more slowly. Word 8 of
+# its line in the table of the motors is its speed, in thousandths of an inch a cycle:
 
 # %%
 slow = handeye.Ml(senses=["5=500@3:2750"])
@@ -61,9 +61,9 @@ slow.position(3), slow.read("ST", 5, 11)
 # %% [markdown]
 # ## The same in physics
 #
-# Real motors are not perfect, and a real finger presses on what it touches. `Ml.touch` lets the hand of the simulated arm
-# descend on a block, until a gauge feels 300 grams. It returns how far the slide went on, and the greatest force of
-# both fingers.
+# Real motors are not perfect, and a real finger presses on what it touches. `Ml.touch` lets the hand of the simulated
+# arm descend on a block, until a gauge feels 300 grams. It returns how far the slide went on, and the greatest force
+# of both fingers.
 
 # %%
 found = handeye.Ml.touch(period=10, bandwidth=50, speed=50)
@@ -86,7 +86,7 @@ figure, (place, force) = plt.subplots(1, 2, figsize=(9, 3), dpi=80, layout="cons
 force.axhline(5.9, linestyle="--", color="grey")
 place.set(xlabel="time after the contact, ms", ylabel="place of the slide, mm", ylim=(-1.5, 3))
 place.legend(title="period")
-force.set(xlabel="time after the contact, ms", ylabel="force of both fingers, N");
+force.set(xlabel="time after the contact, ms", ylabel="force of both fingers, N")
 
 # %% [markdown]
 # ## A law
@@ -102,8 +102,8 @@ tried = [handeye.Ml.touch(period=10, bandwidth=50, speed=speed) for speed in (10
 # %% [markdown]
 # ## The start
 #
-# So a faster clock and a stiffer servo are better? A stiffer servo starts harder, too. The fingers have a mass, and when
-# the slide starts at once, the gauges feel it. If the guard is already set, it trips in the air. The list has the
+# So a faster clock and a stiffer servo are better? A stiffer servo starts harder, too. The fingers have a mass, and
+# when the slide starts at once, the gauges feel it. If the guard is already set, it trips in the air. The list has the
 # bandwidth in Hz, the force on a finger at the start in newtons, whether it trips the guard, and the way in mm.
 
 # %%

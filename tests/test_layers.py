@@ -41,7 +41,7 @@ SKILLS = {"arm", "vision", "touch", "al"}
 WORKING_PHASE = {"execution", "planning", *SKILLS}
 ARITHMETIC = {
     "abc", "collections", "contextlib", "cv2", "dataclasses", "enum", "fractions", "functools", "hashlib",
-    "itertools", "math", "msgspec", "numpy", "scipy", "types", "typing", "zlib",
+    "itertools", "math", "msgspec", "numpy", "scipy", "statistics", "types", "typing", "zlib",
 }  # fmt: skip
 MAKERS = {
     "__init__": {"importlib.import_module"},  # a name of the API when it is used

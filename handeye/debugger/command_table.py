@@ -166,7 +166,9 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         "command"),
 )  # fmt: skip
 
-MEANWHILE: Final = " and ".join(f"`{command.name}`" for command in COMMANDS if command.meanwhile and command.name not in _ASKING)
+MEANWHILE: Final = " and ".join(
+    f"`{command.name}`" for command in COMMANDS if command.meanwhile and command.name not in _ASKING
+)
 _SHORT: Final = {
     "?": "help",
     "exit": "quit",

@@ -281,13 +281,17 @@ class RunningSystem(Protocol):
         raise Refused("this system has no console to type at")
 
     def interject(self, text: str, task: str) -> None:
-        """Execute a typed line in the middle of a step, and emit `LineTyped` before it takes effect. Raises InvalidInput,
-        and changes nothing, if that is impossible.
+        """Execute a typed line in the middle of a step, and emit `LineTyped` before it takes effect. Raises
+        InvalidInput, and changes nothing, if that is impossible.
         """
         raise Refused("a line can be typed only while the run is paused; `pause` pauses it")
 
     def foresee(self, typed: Sequence[LineTyped]) -> None:
-        """Execute these lines again in the middle of the next step, each at its time."""
+        """Execute these lines again in the middle of the next step, each at its time. Raises Refused if that is
+        impossible.
+        """
+        if typed:
+            raise Refused("this system cannot execute a typed line in the middle of a step")
 
     @property
     def live(self) -> LiveNews | None:

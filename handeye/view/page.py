@@ -38,7 +38,9 @@ class Face:
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     """Return the page of a live cell, as one file that loads no other files. Without a cell, it shows no view."""
-    model = None if runner.system.cell is None else runner.task.shown(runner.setup.world, written(runner.setup))
+    model = (
+        None if runner.system.cell is None else runner.task.shown(runner.setup.world, written(runner.setup))
+    )
     names, live = newest.frames.names, newest.live
     part, shown = (PagePart(Markup("")), ()) if live is None else (live.part, live.channels)
     facts = {
@@ -49,7 +51,12 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
         "lowest": 0.0 if model is None else scene.lowest(model),
         **face.facts,
     }
-    scripts = [*([] if model is None else [player.script()]), _own("live.js"), _own(face.script), *filter(None, [part.script])]
+    scripts = [
+        *([] if model is None else [player.script()]),
+        _own("live.js"),
+        _own(face.script),
+        *filter(None, [part.script]),
+    ]
     style = resource("page.css") + _own("live.css") + part.style
     view = []
     if model is not None:
@@ -64,7 +71,9 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     body = element(
         "body",
         header,
-        element("main", element("div", _viewer(face, seen=model is not None), aside, class_="beside"), part.markup),
+        element(
+            "main", element("div", _viewer(face, seen=model is not None), aside, class_="beside"), part.markup
+        ),
         element("script", json_markup(facts), id="facts", type="application/json"),
         *view,
         *(element("script", Markup(script)) for script in scripts),
@@ -93,7 +102,13 @@ def _viewer(face: Face, *, seen: bool) -> Markup:
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     view = [element("div", canvas, class_="screen"), element("p", id="instead", hidden=True)] if seen else []
     return element(
-        "div", *view, figures, *([views] if seen else []), *face.controls, _talk(face.listener), class_="viewer"
+        "div",
+        *view,
+        figures,
+        *([views] if seen else []),
+        *face.controls,
+        _talk(face.listener),
+        class_="viewer",
     )
 
 

@@ -44,7 +44,10 @@ def listing(program: Program) -> Markup:
 
 def numbered_listing(lines: Mapping[int, str]) -> Markup:
     """Return lines that have numbers of their own."""
-    items = (element("li", element("code", line), id=line_id(number), value=number) for number, line in lines.items())
+    items = (
+        element("li", element("code", line), id=line_id(number), value=number)
+        for number, line in lines.items()
+    )
     return element("div", element("ol", *items))
 
 

@@ -227,8 +227,8 @@ def test_while_the_arm_moves_other_lines_and_wrong_words_are_refused_and_change_
     typist = Typist(0.05, "MOTOR 3 0", "FILE MT 3 8 70000", "FILE SF 1 1 0", "FILE MT 3", "10 STOP")
     runner = typed(typist, THERE_AND_BACK)
     assert [each[:26] for each in typist.refused] == [
-        "while a statement is being", "M04: `70000` does not fit ", "M11: word 1 of SF cannot b", "M03: FILE takes 4 to 15 pa",
-        "while a statement is being",
+        "while a statement is being", "M04: `70000` does not fit ", "M11: word 1 of SF cannot b",
+        "M03: FILE takes 4 to 15 pa", "while a statement is being",
     ]  # fmt: skip
     assert lines(runner) == lines(ran(THERE_AND_BACK))
 
@@ -274,7 +274,9 @@ def test_the_page_of_a_program_on_perfect_motors_has_its_statements_and_its_tabl
     (("example.ml", "--variant", "L"), "--variant applies only to a job"),
     (("example.ml", "--seed", "3"), "--seed applies only to `--arm rectilinear`"),
 ])  # fmt: skip
-def test_a_page_that_cannot_be_shown_is_refused(command: Command, words: tuple[str, ...], sentence: str) -> None:
+def test_a_page_that_cannot_be_shown_is_refused(
+    command: Command, words: tuple[str, ...], sentence: str
+) -> None:
     Path("example.ml").write_text("10 DELAY 1", encoding="utf-8")
     code, out, err = command("ml", "view", *words)
     assert (code, out) == (2, "")

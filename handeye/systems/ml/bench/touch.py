@@ -131,7 +131,9 @@ def touch(
             course.z.append(float(data.joint("z").qpos[0]))
             course.goal.append(float(data.ctrl[bench.model.actuator("z").id]))
             course.strain.append(-STIFFNESS * float(data.sensor("right_z").data[0]))
-            course.load.append(-STIFFNESS * float(data.sensor("right_z").data[0] + data.sensor("left_z").data[0]))
+            course.load.append(
+                -STIFFNESS * float(data.sensor("right_z").data[0] + data.sensor("left_z").data[0])
+            )
     surface, count = _REACH - _BLOCK, len(course.z)
     times = [round(ms + 1 - contact / _MS, 2) for ms in range(count)]
     kept = [n for n in range(count) if times[n] >= -_BEFORE]

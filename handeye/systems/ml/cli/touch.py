@@ -13,7 +13,9 @@ def touch(
     *,
     period: Annotated[
         WholeNumber | None,
-        Parameter(help="Time from one reading of the sensors to the next, 1 to 100 ms. Default: 10, the paper's."),
+        Parameter(
+            help="Time from one reading of the sensors to the next, 1 to 100 ms. Default: 10, the paper's."
+        ),
     ] = None,
     bandwidth: Annotated[
         float | None, Parameter(help="Bandwidth of the servo, 5 to 120 Hz. Default: 50, the paper's.")
@@ -38,7 +40,7 @@ def touch(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Let the hand descend on a block until a strain gauge feels a limit: how far does the slide go on, with what force?
+    """Let the hand descend on a block until a strain gauge feels a limit: how far does it go on, with what force?
 
     This is what the ten milliseconds of MOS mean: the slide goes on until the next reading of the sensors, and then for
     as long as its servo lags behind. `docs/ten_milliseconds.md` has the figures.
@@ -50,7 +52,9 @@ def touch(
 
     if page is not None:
         if json or any(each is not None for each in (period, bandwidth, speed)):
-            raise BadArgument("--page shows all periods, bandwidths and speeds; it takes only --limit and --overwrite")
+            raise BadArgument(
+                "--page shows all periods, bandwidths and speeds; it takes only --limit and --overwrite"
+            )
         return _page(page, limit, overwrite=overwrite)
     found = touched(
         PERIOD if period is None else period,

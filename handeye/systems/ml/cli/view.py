@@ -12,10 +12,14 @@ from handeye.systems.ml.run.plan import ArmName
 
 
 def view(
-    program: Annotated[str, Parameter(help="A program in ML, `.ml`, or the name of a job, such as `follow`.")],
+    program: Annotated[
+        str, Parameter(help="A program in ML, `.ml`, or the name of a job, such as `follow`.")
+    ],
     /,
     *,
-    arm: Annotated[ArmName | None, Parameter(help="The machine of a program, as for `handeye ml run`.")] = None,
+    arm: Annotated[
+        ArmName | None, Parameter(help="The machine of a program, as for `handeye ml run`.")
+    ] = None,
     seed: Annotated[WholeNumber, Parameter(help="Seed of the world of the simulated arm.")] = 0,
     variant: Annotated[str, Parameter(help="Variant of a job: for `follow` the outline.")] = "",
     sense: Annotated[
@@ -49,13 +53,17 @@ def view(
     file = Path(program)
     if program in PROGRAMS and not file.is_file():
         if arm is not None or sense:
-            raise BadArgument(f"the job {program} has an arm and sensors of its own; leave out --arm and --sense")
+            raise BadArgument(
+                f"the job {program} has an arm and sensors of its own; leave out --arm and --sense"
+            )
         setup = job_setup(job_plan(program, variant), WorldSpec(seed=seed))
     else:
         if variant:
             raise BadArgument("--variant applies only to a job")
         if not file.suffix and not file.exists():
-            raise NoSuchName(f"{program}: there is no such file, and no job of that name; jobs are {', '.join(PROGRAMS)}")
+            raise NoSuchName(
+                f"{program}: there is no such file, and no job of that name; jobs are {', '.join(PROGRAMS)}"
+            )
         machine: ArmName = arm or "none"
         check_machine(machine, seed=seed, left=None, sense=sense)
         source = read_source(file)

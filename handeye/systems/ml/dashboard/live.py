@@ -26,7 +26,9 @@ class LiveTables(LiveNews):
             "input", id="tables-word", type="number", min="-32768", max="32767", step="1", required=True,
             aria_label="new value of the word",
         )  # fmt: skip
-        form = element("form", value, element("button", "Write", type="submit"), id="tables-write", class_="controls")
+        form = element(
+            "form", value, element("button", "Write", type="submit"), id="tables-write", class_="controls"
+        )
         content = section(
             "tables",
             "The tables",
