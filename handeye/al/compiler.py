@@ -59,7 +59,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if not lowered.steps and not has_errors(found):
         nothing = "the program has no instructions"
         found.append(problem("empty-program", nothing, Span(start=0, end=0)))
-    if has_errors(found):  # what follows would tell a mistake twice, as what it leads to
+    if has_errors(found):  # later checks would report the consequences of the same mistakes again
         return None, arranged(found)
     positions = {**taught.positions, **dict(map(position, words.get("TRANS", ())))}
     whole = CompiledScript(

@@ -52,8 +52,8 @@ def begin(
             checkpoint, or the folder of a run to continue from its newest checkpoint.
         seed: seed from which the world is generated; 0 by default.
         at: the stage before which the run pauses: its name, a unique part of its name, or its number from 1.
-            Earlier stages are executed first. If `script` is the folder of a run, they start from the nearest
-            earlier checkpoint.
+            Earlier stages are executed first; if `script` is the folder of a run, from the nearest earlier
+            checkpoint on.
         world: a world, instead of a seed.
         camera: renderer of the TV camera: `gl` (OpenGL), `ray` (ray casting, the same on every computer) or `auto`;
             or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
@@ -61,10 +61,11 @@ def begin(
             a white surface in full light.
         search: a search pattern that replaces the square spiral of `SEARCH`: a function that takes the number of a
             place, from 0, and returns its x and y in table coordinates, in search steps. It is called once for each
-            number. A resumed run calls it again, and it must return the same values. The search ends with error 6
-            when the function returns None or raises StopIteration, or when it has tried the number of places that
-            the `SEARCH` allows, 49 by default. A search `ALONG` a line does not use the function. Each try is an
-            event `SearchAdvanced`, and `run.state.memory.place` is the number of the current place.
+            number. A resumed run calls the function again, and the function must then return the same values. The
+            search ends with error 6 when the function returns None or raises StopIteration, or when it has tried
+            the number of places that the `SEARCH` allows, 49 by default. A search `ALONG` a line does not use the
+            function. Each try is an event `SearchAdvanced`, and `run.state.memory.place` is the number of the
+            current place.
         referee: a function that takes the true state of the cell and returns findings by name; or limits for
             findings of the task's referee, such as `{"screws_clamp": 60}`, each in the unit of the finding. To
             judge a kept run again, use `handeye.begin(folder, referee=...).result`.
@@ -74,7 +75,7 @@ def begin(
         task: name of the task; by default the task of the given plan, program, run or world, else the water pump.
         out: folder for plan, events, trace, checkpoints, pictures and result; without it, nothing is written. To
             resume a run in the same folder, give the folder here as well as in `script`.
-        overwrite: replace a run that is already in that folder.
+        overwrite: replace a run that is already in the folder `out`.
 
     Limits are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved; checkpoints, trace
     and result hold only the name of the function or class. `handeye resume` and `handeye trace verify` refuse such
@@ -82,7 +83,7 @@ def begin(
 
     Raises:
         ScriptError: the script has errors.
-        InvalidInput: an argument cannot be used, or the run stopped before it reached the stage.
+        InvalidInput: an argument cannot be used, or the run stopped before it reached the stage `at`.
 
     >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", seed=3, camera="ray")
     >>> run
@@ -173,7 +174,7 @@ def _rule(on_stop: object) -> Operator:
     would have to ask a person.
     """
     operator = None
-    with suppress(InvalidInput):  # whose sentence speaks of the command line
+    with suppress(InvalidInput):  # the sentence of that error speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
         raise BadArgument(

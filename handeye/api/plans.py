@@ -70,7 +70,7 @@ def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDr
 
 
 DRAWN: Final = 30
-"""The flow of a plan with more steps is not shown in notebooks; use `flow(stage)` for a single stage."""
+"""Notebooks do not show the flow of a plan with more steps than this; use `flow(stage)` for a single stage."""
 FileName = str | os.PathLike[str]
 
 
@@ -219,7 +219,7 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
 
 
 def _for_task(made: Plan, task: str | None) -> Plan:
-    """Return the plan. Raises InvalidInput if the plan was made for another task than `task`."""
+    """Return the plan. Raises InvalidInput if the plan was made for a task other than `task`."""
     if task not in (None, made.record.task):
         raise BadArgument(f"the plan is for the task {quoted(made.record.task)}, not for {quoted(str(task))}")
     return made

@@ -55,7 +55,7 @@ class RunEnding:
     folder: RunFolder | None
     judged: bool
     referee: Referee | None
-    meter: Meter  # measures what the run costs this computer
+    meter: Meter  # measures the host time of the run
 
 
 class Run:
@@ -121,8 +121,8 @@ class Run:
                 beginning of that stage.
 
         Raises:
-            InvalidInput: the run has not done that many steps or not reached that stage, or the state of that time
-                is no longer kept.
+            InvalidInput: the run has not done that many steps or not reached that stage, or that earlier state is
+                no longer kept.
         """
         self._check_open()
         if isinstance(steps, str):

@@ -71,7 +71,7 @@ class Trace(recorded.Trace):
             overwrite: replace an existing video.
 
         Raises:
-            InvalidInput: for the reasons given at `frame`; also if the stage does not exist, if nothing was recorded
+            InvalidInput: for the same reasons as `frame`; also if the stage does not exist, if nothing was recorded
                 in the stage, if the length or speed is impossible, or if the video cannot be written.
         """
         from handeye.core.arguments import given_file

@@ -60,7 +60,7 @@ class World:
             scale: factors by which errors are multiplied, in addition to the level, by the names of quantities or
                 groups; `unsourced` stands for all quantities whose size has no source.
             faults: faults to inject, from the list that `handeye faults --list` prints: `NAME` or `NAME=VALUE`;
-                `@N` after it makes the fault begin at stage N of the program.
+                followed by `@N`, the fault begins at stage N of the program.
             task: name of the task.
 
         Raises:

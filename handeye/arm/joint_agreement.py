@@ -14,7 +14,7 @@ from handeye.core.record import Record
 MAX_TURN_GAP: Final = 0.0063
 MAX_SLIDE_GAP: Final = 0.0011
 """Difference between the two sensors of a joint (rad or m) that the waviness of a potentiometer can cause: twice
-its largest stated amplitude (.09 degrees, .011 in), with the errors of worlds of the high level, which are doubled.
+its largest stated amplitude (.09 degrees, .011 in), at the high level of errors, which doubles this amplitude.
 """
 READING_STEPS: Final = 1.5
 """Tolerance for two readings of one position, in converter steps: half a step for each, and their noise."""
@@ -157,9 +157,9 @@ class JointAgreement:
         """Compare the readings of the next servo period. Returns the joint whose sensors disagree most, or None if
         all agree.
 
-        While the rate changes evenly, the mean of two successive rates is the mean rate in between. While it does
-        not, for example when a casting breaks loose and strikes the joint, the motion in between is unknown. The
-        unknown parts of different periods are independent, so their squares are added.
+        While the rate changes evenly, the mean of two successive rates is the mean rate in between. While the rate
+        changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
+        unknown. The unknown parts of different periods are independent, so their squares are added.
         """
         period, step = self.arm.servo.period, rate_step(self.arm)
         gone, gain = (self.rate + qd) / 2 * period, qd - self.rate

@@ -35,7 +35,7 @@ app = App(
 )
 add_commands(app, COMMANDS, __package__)
 for entry in entries().values():
-    with suppress(KeyError, ValueError):  # another package's malformed table breaks no command
+    with suppress(KeyError, ValueError):  # a malformed table in another package must not break any command
         add_commands(app, entry.commands)
 completion.register(app)
 
@@ -47,7 +47,7 @@ def main() -> NoReturn:
         code = _carried_out()
         if not sys.stdout.closed:  # as the language server does when its client says goodbye
             sys.stdout.flush()  # here, where a full disk can still be reported
-    except BrokenPipeError:  # the reader of our output has gone, which is not our trouble
+    except BrokenPipeError:  # the program that read our output has ended, which is not an error of ours
         code = GONE
     except OSError as error:
         code = _complained(f"standard output: {error.strerror}")
@@ -69,16 +69,16 @@ def _carried_out() -> int:
     except KeyboardInterrupt:
         note("\nhandeye: interrupted")
         return INTERRUPTED
-    except UnicodeEncodeError as error:  # Python keeps byte 0xff of a name as U+DCFF, which nothing can write
+    except UnicodeEncodeError as error:  # Python reads byte 0xff of a file name as U+DCFF, which no encoding can write
         byte = ord(error.object[error.start]) & 0xFF
         return _complained(
             f"the name contains the byte {byte:#04x}, which is not UTF-8 text; choose another name"
         )
-    except OSError as error:  # a path that is too long, a folder that may not be looked into
+    except OSError as error:  # a path that is too long, or a folder that may not be read
         if error.filename is None:
             raise
         return _complained(f"{error.filename}: {error.strerror}")
-    except Exception as error:  # MuJoCo's is a ValueError
+    except Exception as error:  # MuJoCo raises a ValueError
         if not (isinstance(error, MemoryError) or _NO_MEMORY in str(error)):
             raise
         return _complained("out of memory; close other programs, or raise the limit (`ulimit -v`)")
@@ -97,15 +97,16 @@ STAND_INS: Final = {
     "—": "-", "─": "-", "│": "|", "┌": "+", "├": "+", "…": "...", "“": '"', "”": '"', "„": '"', "«": '"', "»": '"',
     "‘": "'", "’": "'",
 }  # fmt: skip
-"""Replacements for characters that an encoding lacks: of equal width, except the mark of a cut line."""
+"""Replacements for characters that an encoding lacks. Each has the width of the character it replaces, except the
+mark of a cut line.
+"""
 _PLAIN: Final = "handeye.plain"
 
 
 def prepare_streams() -> None:
-    """Make the standard streams accept every character: a character that the encoding lacks becomes a similar one,
-    or `?`.
-
-    A stream that was closed before the start becomes the null device.
+    """Make the standard streams accept every character. A character that the encoding lacks is replaced by a
+    similar character or by `?`. A stream that was already closed when Python started is replaced by the null
+    device.
     """
     codecs.register_error(_PLAIN, _stand_in)
     for name, mode, errors in (("stdin", "r", "replace"), ("stdout", "w", _PLAIN), ("stderr", "w", _PLAIN)):

@@ -87,8 +87,8 @@ def assembly_trials(
     counts as a failure. Trials that ended because this computer failed are repeated when the batch continues. With
     --out, the folder also receives figures.html, a page with the figures.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some world the program reported success but the referee
-    disagreed; 2: bad input; 130: interrupted.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
+        success but the referee disagreed; 2: bad input; 130: interrupted.
     """
     from handeye.trials.plans.trial import ASSEMBLY, Trial
     from handeye.trials.sweep import Case
@@ -174,9 +174,8 @@ def dismantling_trials(
 
     Trials that built nothing are listed but not counted.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some world the program reported all undone and the
-    referee disagreed;
-    2: bad input; 130: interrupted.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
+    everything undone but the referee disagreed; 2: bad input; 130: interrupted.
     """
     from handeye.debugger.breakpoints import stage_number
     from handeye.trials.plans.trial import DISMANTLING, DismantlingTrial
@@ -250,7 +249,7 @@ def _task_words(task: str, plan: Path | None) -> list[str]:
 
 
 def _again(trial: "Trial", command: list[str], options: list[str]) -> "Callable[[Row], str]":
-    """A function that gives the command to repeat the trial of a row."""
+    """Return a function that gives the command to repeat the trial of a row."""
     from msgspec.structs import replace
 
     from handeye.report.facts.again import sense_words, world_words

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 GRID_N: Final = 10
 PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the 1973 listing"}
-MOST_SD: Final = 5.0  # mm: beyond it most holes would be beyond the search
+MOST_SD: Final = 5.0  # mm; with a larger error, most holes would be outside the search
 
 
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
@@ -90,8 +90,8 @@ def insertion(
     Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
     program never sees it. Ctrl-C stops the command and prints the trials that have finished.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program reported success, and the pin
-    was not in its hole.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program reported
+        success but the pin was not in its hole.
     """
     from handeye.trials.folder import head_of
     from handeye.trials.insertion import INSERTION, InsertionWork, insertion_cases

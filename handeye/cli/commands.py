@@ -64,14 +64,14 @@ bench timing = benches:timing: Assemble once and print the times of the stages n
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 """  # noqa: E501 - a command a line
 """Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first
-sentence of the command's docstring; a group of commands has no function. Modules are those of this folder.
+sentence of the command's docstring; a group of commands has no function. The modules are in this folder.
 """
 
 
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
-        """Import the command. Its help is its docstring; the sentence in the table is for lists, which do not
-        import it.
+        """Import the command. Its help is its docstring; the sentence in the table is for lists of commands, which
+        do not import the command.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))
@@ -98,7 +98,9 @@ def restore_docstring(command: object) -> None:
 
 
 def add_commands(app: App, table: str, folder: str = "") -> None:
-    """Add the commands of a table; existing commands stay. Without `folder`, the names of modules are full names."""
+    """Add the commands of a table; existing commands stay. Without `folder`, the table gives the full names of
+    modules.
+    """
     for line in table.strip().splitlines():
         named, sentence = line.split(": ", 1)
         name, _, path = named.partition(" = ")

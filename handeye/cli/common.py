@@ -47,7 +47,7 @@ CameraKind = Literal["auto", "gl", "ray"]
 
 
 def camera_here(kind: CameraKind) -> Literal["gl", "ray"]:
-    """The renderer that `auto` means on this computer; a batch records which renderer its pictures were made with."""
+    """The renderer that `auto` means on this computer; a batch records which renderer made its pictures."""
     from handeye.cell.camera import renderer_here
 
     return kind if kind != "auto" else renderer_here(kind)
@@ -131,11 +131,11 @@ CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")
 class _Screen(Console):
     def __init__(self, *, stderr: bool = False) -> None:
         super().__init__(stderr=stderr, highlight=False, emoji=False, markup=False)
-        if not self.width:  # COLUMNS=0, from a shell that does not know
+        if not self.width:  # COLUMNS=0, from a shell that does not know the width
             self.width = _USUAL_WIDTH
 
     def on_broken_pipe(self) -> None:
-        """Raise the error, which the command line handles with an exit code."""
+        """Raise the error; the command line turns the error into an exit code."""
         raise BrokenPipeError
 
 
@@ -146,8 +146,8 @@ notes = _Screen(stderr=True)
 def say(text: str, to: Console = screen, *, style: str | None = None, whole: bool = False) -> None:
     """Print plain text, which may come from an untrusted file.
 
-    On a terminal, lines are wrapped between words. Lines of a `whole` text, which is meant to be copied, are left
-    to the terminal.
+    On a terminal, lines are wrapped between words. A `whole` text is meant to be copied, so its lines are not
+    wrapped here.
     """
     shown = visible(text)
     if to.is_terminal and not whole:
@@ -156,7 +156,9 @@ def say(text: str, to: Console = screen, *, style: str | None = None, whole: boo
 
 
 def put(answer: bytes) -> None:
-    """Write the answer for a program, or the content of a file: UTF-8, whatever the encoding of the terminal."""
+    """Write an answer for another program, or the content of a file, in UTF-8, whatever the encoding of the
+    terminal.
+    """
     sys.stdout.buffer.write(answer)
     sys.stdout.flush()
 
@@ -202,8 +204,7 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
 
 
 def show_unreadable(file: Path, error: InvalidInput) -> None:
-    """Print, as JSON in place of diagnostics, the reason why there are none: the script or the taught file cannot
-    be used.
+    """Print as JSON, in place of diagnostics, why the script or the taught file cannot be used.
     """
     place = {"file": str(file), "line": 1, "column": 1, "end": 1, "text": ""}
     said = {"code": "unreadable-file", "severity": "error", "message": str(error), "file": str(file)}

@@ -19,7 +19,7 @@ CONDITION: Final[dict[Shell, str]] = {"zsh": ", if its .zshrc calls compinit"}
 
 
 def register(app: App) -> None:
-    """Add the command to the command line whose words it completes."""
+    """Add the command to the command line that it completes."""
 
     def install_completion(
         shell: Annotated[

@@ -59,7 +59,7 @@ def demo(
 
 
 def opened(page: Path) -> bool:
-    """Open a page in a graphical browser; False if there is none. $BROWSER names another."""
+    """Open a page in a graphical browser; False if there is none. The variable BROWSER can name the browser."""
     import webbrowser
 
     named = os.environ.get("BROWSER")
@@ -68,7 +68,7 @@ def opened(page: Path) -> bool:
         return False
     try:
         found = webbrowser.get()
-        if type(found) is webbrowser.GenericBrowser and not named:  # one that takes over the terminal
+        if type(found) is webbrowser.GenericBrowser and not named:  # a text browser, which would take over the terminal
             return False
         return found.open(page.resolve().as_uri())
     except (webbrowser.Error, OSError):

@@ -30,13 +30,13 @@ def dismantle(
 ) -> int:
     """Have the arm undo the steps of a run: take the pump apart again.
 
-    The arm undoes every step, from the last to the first: it moves back along its own path, under guards, with what
-    the hand holds. If the hand meets more force than expected, or does not hold what it held at that step, the arm
-    brakes and the program calls the operator. The folder of the run does not change.
+    The arm undoes every step, from the last to the first, by moving back along its own path. If the hand meets more
+    force than expected, or does not hold the part that it held at that step, the arm brakes and the program calls
+    the operator. The folder of the run does not change.
 
-    Exit code 0: every part is back where it was before the run, or every step is undone as far as asked; 1: a guard
-    stopped the arm; 3: the program reported every step undone, but the referee disagrees; 2: bad input; 130:
-    interrupted.
+    Exit code 0: every part is back where it was before the run or, with --to, every step is undone back to that
+    stage; 1: the arm was stopped and the program called the operator; 3: the program reported every step undone,
+    but the referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.debugger.breakpoints import stage_number

@@ -75,7 +75,7 @@ def _told(written: "Export", *, json: bool) -> int:
 
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
-    """The state to export; flaws are printed as notes. Raises InvalidInput if there is no such run."""
+    """The state to export; what is left out is printed as notes. Raises InvalidInput if there is no such run."""
     from handeye.runs.exported_state import initial_state, kept_state
 
     wanted = made_known(world.task)
@@ -161,7 +161,7 @@ def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> in
 def _cut(recorded: "RecordedRun") -> int:
     """1 if the trace was cut short, with a note; 0 if it is complete."""
     name = recorded.trace.name
-    if recorded.whole or name.endswith(".part"):  # which is noted, too
+    if recorded.whole or name.endswith(".part"):  # a .part file has a note of its own
         return 0
     note(f"{name} was cut short; only the recorded part is written")
     return 1
@@ -176,7 +176,7 @@ def thin(
 ) -> int:
     """Shrink a trace to about a tenth of its size, for sharing: it keeps the motion that is needed to show the run.
 
-    Every command can read it except `verify`, which needs the whole trace.
+    Every command can read the thinned trace except `trace verify`, which needs the whole trace.
     """
     from handeye.core.files import check_place
     from handeye.trace.reading import TRACE, read_trace

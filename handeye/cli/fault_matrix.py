@@ -1,4 +1,4 @@
-"""The command that tries faults, one per run: the outcome of each, and whether the program notices it."""
+"""The command that tries faults, one per run, and reports each outcome and whether the program notices the fault."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -36,8 +36,8 @@ def faults(
     stage: Annotated[
         str | None,
         Parameter(
-            help="Stage at which a fault begins, if it can begin during the work. Default: the usual stage of "
-            "each fault."
+            help="Stage at which each fault begins; only for faults that can begin during the work. Default: "
+            "the usual stage of each fault."
         ),
     ] = None,
     n: Annotated[
@@ -51,9 +51,9 @@ def faults(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder for a run without faults in each world, created if missing. A fault that begins at a "
-            "later stage then starts from a checkpoint of that run. By default a whole run is made for each "
-            "fault. The outcomes are the same either way."
+            help="Folder for one run without faults in each world, created if missing. A run with a fault "
+            "that begins at a later stage then starts from a checkpoint of the run without faults. By "
+            "default, each fault is tried in a whole run. The outcomes are the same either way."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,
@@ -131,7 +131,7 @@ def faults(
 
 
 def _own_trials(task: str) -> str:
-    """The place of the trials of faults that the system of a task has of its own; empty if it has none."""
+    """The import path of the fault trials that the system of a task defines; empty if it defines none."""
     return next((entry.faults for entry in entries().values() if task in entry.tasks), "")
 
 

@@ -79,7 +79,7 @@ class Job:
     referee: bool = False
     listening: Sequence[Observer] = ()  # Observers that the system's own command adds
     then: Sequence[Then] = ()
-    """Actions after work that the referee accepts, in order."""
+    """What to do next each time the referee accepts the work, in order."""
     planning_cpu_s: float = 0.0
 
 
@@ -131,7 +131,7 @@ class _Work:
         policy = self.job.on_stop
         if policy is None:
             policy = "ask" if sys.stdin.isatty() and notes.is_terminal and not self.job.json else "abort"
-        # first: an unknown word must not cost a folder
+        # checked first, so that an unknown word creates no folder
         self.policy = parse_policy(policy, listing_of(self.job.start.setup).stages)
         self.folder = job.folder
         if self.folder is None and job.out is not None:
@@ -163,7 +163,9 @@ class _Work:
 
     @contextmanager
     def keeping(self) -> Iterator[Observer]:
-        """The observer that keeps the run. The folder of an unnamed run is given up if it can no longer be written."""
+        """The observer that keeps the run. If the folder of an unnamed run can no longer be written, the run
+        continues without it.
+        """
         try:
             yield Observer() if self.folder is None else self.folder
         except (InvalidInput, OSError) as fault:
@@ -251,7 +253,8 @@ class _Work:
     # -- carrying out ---------------------------------------------------------------------------------
 
     def _parts(self, runner: Runner) -> Pause:
-        """Assemble, then undo and assemble again as often as requested, as long as the referee accepts each."""
+        """Assemble, then undo and assemble again as often as requested, as long as the referee accepts each result.
+        """
         pause = runner.kind.carry_out(runner, lambda: self._attended(runner))
         for part in self.job.then:
             if pause.kind != "end" or not all_right(findings(runner, pause)):
@@ -322,15 +325,15 @@ class _Work:
         with self.panic.aside(), self.progress.aside():
             yield
         if sys.stdin.isatty():
-            self.panic()  # what was pressed while nothing moved must not stop what comes
+            self.panic()  # Ctrl-C that was pressed while nothing moved must not stop the next motion
 
     def _kept(self, position: int) -> Checkpoint | None:
-        """The newest state of this run on disk with at most that many steps done; None if there is none."""
+        """The newest state of this run on disk with at most `position` steps done; None if there is none."""
         if self.folder is not None:
             return self.folder.kept.at_or_before(position)
         if self.job.checkpoints is None:
             return None
-        begun = self.job.start.position  # what is there from later on may be of a run that went another way
+        begun = self.job.start.position  # a later state may belong to a run that continued differently
         return CheckpointStore(self.job.checkpoints).at_or_before(min(position, begun))
 
     def _keep(self, checkpoint: Checkpoint) -> Path | None:
@@ -389,7 +392,7 @@ class _Work:
         return result.exit_code
 
     def _tell_what_next(self) -> None:
-        """Name the commands that show more of a run that was kept."""
+        """Name the commands that show more of a saved run."""
         assert self.folder is not None
         named = () if self.unnamed is not None else (str(self.folder.path),)
         if not self.job.report and "plans" in entry_named(self.job.start.setup.system).can:

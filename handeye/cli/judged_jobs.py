@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobOptions:
-    """Options of a run of a job, except its world."""
+    """Options for running a job, except its world."""
 
     json: Json = False
     details: Details = False
     out: Out = None
-    video: Annotated[Path | None, Parameter(help="Video of the run, .webp, .webm or .mp4, 14 s long.")] = None
+    video: Annotated[Path | None, Parameter(help="File for a video of the run (14 s): .webp, .webm or .mp4.")] = None
     overwrite: Overwrite = False
     no_keep: NoKeep = False
     breaks: Break = None
@@ -81,9 +81,9 @@ def carry_out_job_trials(
     """Run a job in many worlds; returns the exit code.
 
     Args:
-        settings: those of all trials, recorded with each of them.
-        title: what the trials do, as their heading.
-        again: the words that repeat a trial besides its seed and the errors.
+        settings: settings of all trials, recorded with each trial.
+        title: heading that says what the trials do.
+        again: words of the command that repeats a trial, besides its seed and errors.
     """
     from handeye.trials.folder import head_of
     from handeye.trials.jobs import JobWork

@@ -56,7 +56,7 @@ class PanicButton:
     def _press(self, number: int, frame: FrameType | None) -> None:
         impatient = (
             self._pressed and number == signal.SIGINT
-        )  # systems repeat themselves, as when a terminal closes
+        )  # some systems send the signal twice, for example when a terminal closes
         self._pressed = True
         self._told |= number != signal.SIGINT
         if self._asking or impatient:

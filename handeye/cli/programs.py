@@ -66,7 +66,7 @@ def plan_at(given: Path, task_words: str | None = None) -> Plan:
 
 
 def plan_or_own(given: Path | None, task_words: str | None) -> Plan:
-    """The plan that `plan_at` finds; by default that of the task's own program."""
+    """The plan that `plan_at` finds; by default the plan of the task's own program."""
     if given is not None:
         return plan_at(given, task_words)
     work = task() if task_words is None else planned(named(task_words))
@@ -87,7 +87,7 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
     found = program_named(given.name)
     if found is None and not given.exists():
         if (other := known_any(given.name)) is not None:
-            planned(other)  # which says why no plan does it
+            planned(other)  # raises an error that says why no plan does it
         near = suggestion(given.name, program_names()) or "give a file"
         raise NoSuchName(f"{given}: there is no such file, and no program of that name; {near}")
     return found
@@ -109,7 +109,7 @@ def made_known(words: str | None) -> str | None:
 
 
 def check_task(wanted: str | None, found: str, of: Path) -> None:
-    """Raises BadArgument if `--task` names another task than that of a run."""
+    """Raises BadArgument if `--task` names a different task from that of a run."""
     if wanted not in (None, found):
         raise BadArgument(
             f"the run in {of} belongs to the task {quoted(found)}, not to {quoted(wanted)}; leave out --task"

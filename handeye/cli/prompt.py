@@ -12,7 +12,7 @@ from types import ModuleType
 from handeye.core.signals import ToldToEnd
 
 editing: ModuleType | None
-try:  # at once: the graphics driver of a cell may bring a library that looks like this one, and would be taken for it
+try:  # at once, before the graphics driver of a cell can load a similar library that Python would mistake for this
     import readline as editing
 except ImportError:  # not everywhere
     editing = None
@@ -25,7 +25,7 @@ def typed_lines(
     *,
     droppable: bool = True,
 ) -> Iterator[str]:
-    """The lines of standard input, without their ends; at a terminal, Ctrl-D ends them.
+    """The lines of standard input, without line endings; at a terminal, Ctrl-D ends the input.
 
     Args:
         aside: context that is entered while waiting for a line.
@@ -84,7 +84,7 @@ class PipedLines:
         except Empty:
             return None
         if line is None:
-            self._lines.put(None)  # the end stays the end
+            self._lines.put(None)  # after the end of the input there are no more lines
         return line
 
     def _read(self, file: int) -> None:

@@ -1,4 +1,4 @@
-"""Worlds of recorded runs for other plans, to see how another plan would have done in the same world."""
+"""Takes the world of a recorded run for another plan, to see how that plan would have done in the same world."""
 
 from pathlib import Path
 from typing import Final
@@ -44,7 +44,7 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
 
 
 def _events(path: Path) -> tuple[AnyEvent, ...]:
-    """The events of a run, from its event list if there is one, because that is shorter than the trace."""
+    """The events of a run, from its event list if there is one, because the list is shorter than the trace."""
     file = path / EVENTS if (path / EVENTS).is_file() else trace_file(path)
     if file.suffix == ".jsonl":
         return tuple(read_events(file, growing=True))

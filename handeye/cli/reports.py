@@ -203,7 +203,7 @@ def show(run: Run = None, /, *, json: Json = False) -> int:
 
 
 def _way_on(folder: Path, result: "Result") -> str:
-    """The command that continues a run; a run with Python code of its caller is continued from Python."""
+    """The command that resumes a run; a run that used Python code of its caller must be resumed from Python."""
     from handeye.runs.parts import deciding
     from handeye.tasks import known_any, option
 

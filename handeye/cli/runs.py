@@ -181,8 +181,8 @@ def run(
     the stages before it run first.
 
     Exit code 0: the program finished, or paused where asked; 1: it stopped and called the
-    operator; 3: the referee, if asked, disagrees; 2: bad input, or a --step command that was piped in
-    was refused; 130: interrupted.
+    operator; 3: the referee, if asked, disagrees; 2: bad input, or a piped --step command was refused; 130:
+    interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.recorded_worlds import in_world_of
@@ -332,8 +332,8 @@ def _check_live(live: bool, step: bool) -> None:
 
 
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
-    """The conditions at which a run ends; breakpoints are only parsed, so that a wrong one is refused before
-    anything moves.
+    """The conditions at which a run ends; breakpoints are only parsed, so that an invalid breakpoint is refused
+    before anything moves.
     """
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
     from handeye.runs.advance import AfterStage, BeforeStep
@@ -362,8 +362,8 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
-    """Print notes on breakpoints that a run cannot reach from its start; raises Refused if the place at which the
-    run is to end is one of them.
+    """Print notes on breakpoints that a run cannot reach from its start. Raises Refused if it cannot reach the
+    place where it is to end.
     """
     from handeye.debugger.breakpoints import breakpoint, is_ahead
     from handeye.runs.advance import BeforeStep
@@ -378,7 +378,9 @@ def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str])
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
-    """The folder in which checkpoints are searched: the given one, or the one inside the folder of a run."""
+    """The folder that is searched for checkpoints: the given folder, or the folder of checkpoints inside that of a
+    run.
+    """
     from handeye.runs.folder import CHECKPOINTS
 
     folder = checkpoints or out

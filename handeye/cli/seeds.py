@@ -52,7 +52,7 @@ def _range(text: str) -> range:
 
 
 def _seeds(first: int, last: int) -> range:
-    """The seeds of a range; raises BadArgument if it is empty or too long."""
+    """The seeds of a range; raises BadArgument if the range is empty or too long."""
     checked_seed(first)
     checked_seed(last)
     positive(last - first + 1, "trial")

@@ -47,7 +47,7 @@ class SweepOptions:
     ] = None
     tables: Annotated[
         Literal["csv", "parquet"] | None,
-        Parameter(help="With --out: also write the figures as tables, to its folder `tables`."),
+        Parameter(help="With --out: also write the figures as tables, into the subfolder `tables`."),
     ] = None
     overwrite: Annotated[
         bool, Parameter(help="Replace the file given by --out; if --out is a folder, discard its trials.")
@@ -234,8 +234,8 @@ class _Progress(Tally):
 
 
 def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
-    """Make a command that runs a sweep without options of its own, with `n` trials by default, for the entry of a
-    system.
+    """Make a command, for the entry of a system, that runs a sweep without options of its own; by default with `n`
+    trials.
     """
 
     def command(

@@ -13,7 +13,7 @@ from handeye.cli.common import notes, say
 
 T = TypeVar("T")
 
-LINES: Final = 20  # Lines told of all trials together where there is no terminal, and one of the first
+LINES: Final = 20  # Number of lines printed for all trials without a terminal; one more is printed for the first trial
 
 
 class Tally:

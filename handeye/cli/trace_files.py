@@ -23,7 +23,7 @@ RunOrEvents = Annotated[
 
 
 def run_or_newest(given: Path | None) -> Path:
-    """The named run, else the newest one, with a note; raises InvalidInput if there is none."""
+    """The given run or, with a printed note, the newest run; raises InvalidInput if there is none."""
     if given is not None:
         return given
     from handeye.runs.unnamed_runs import newest_runs
@@ -34,7 +34,9 @@ def run_or_newest(given: Path | None) -> Path:
 
 
 def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
-    """Two runs to compare: the named ones; the newest one if the second is not named; or the newest two."""
+    """Two runs to compare. If only one is given, the newest run is the second; if none is given, the newest two are
+    compared.
+    """
     from handeye.runs.unnamed_runs import newest_runs
 
     if a is not None and b is not None:
@@ -47,8 +49,8 @@ def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
 
 
 def trace_file(path: Path) -> Path:
-    """The trace in the folder of a run, or the run's event list; a file is returned itself. Raises InvalidInput if
-    the run has not begun.
+    """The trace in the folder of a run, or the run's event list; the path of a file is returned unchanged. Raises
+    InvalidInput if the run has not begun.
     """
     from handeye.runs.folder import EVENTS, TRACE, check_holds_run
     from handeye.trace.recorder import part
@@ -57,7 +59,7 @@ def trace_file(path: Path) -> Path:
         return path
     check_holds_run(path)
     growing = part(path / TRACE)
-    if growing.exists():  # newer than the whole one, which is of before the run was resumed
+    if growing.exists():  # newer than the complete trace, which was written before the run was resumed
         note(f"the run in {path} was interrupted; this is its trace so far")
         return growing
     if (path / TRACE).exists():

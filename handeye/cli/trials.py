@@ -41,7 +41,7 @@ class AttemptOptions:
 
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     worlds: Annotated[
-        WholeNumber | None, Parameter(help="Number of worlds, from --seed on. Default: --n.")
+        WholeNumber | None, Parameter(help="Number of worlds, from --seed on. Default: as many as trials (--n).")
     ] = None
     eye: Annotated[
         Known,
@@ -108,7 +108,8 @@ def gasket_vision_trials(
 ) -> int:
     """Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 
-    Two gaskets look like one and count as right here: in a run the hand finds them, by their height.
+    The camera cannot see a second gasket on top of the first, so two gaskets count as right here; in a run, the
+    hand detects two gaskets by their height.
 
     Exit code 0: no shifted or absent gasket was accepted; 3: one was.
     """
@@ -129,8 +130,8 @@ def disturbed_trials(
     """Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before it does
     damage?
 
-    The stop is in time if, until then, no part outside the hand has moved by more than 2 mm in a step and the hand
-    has felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
+    The stop is in time if, before the stop, no part outside the hand moved by more than 2 mm in a step and the hand
+    felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
 
     Exit code 0: every trial was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
     """
@@ -174,19 +175,19 @@ def chaos_trials(
     count: Annotated[WholeNumber, Parameter(name="--n", help="Number of schedules to draw.")] = 100,
     seed: FirstSeed = 0,
     worlds: Annotated[
-        WholeNumber, Parameter(help="Number of worlds; their levels alternate: nominal, low, high.")
+        WholeNumber, Parameter(help="Number of worlds; the level of their errors alternates: nominal, low, high.")
     ] = 3,
     schedule: Annotated[
         list[str] | None,
         Parameter(
-            help="Run this schedule, as it was printed, instead of drawing any. May be repeated.",
+            help="Run this schedule, written as this command prints it, instead of random schedules. May be repeated.",
             consume_multiple=False,
         ),
     ] = None,
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder for the fault-free runs that schedules start from: made if missing, and kept."
+            help="Folder for the fault-free runs that schedules start from; created if missing, and kept afterwards."
         ),
     ] = None,
     task: TaskWords = None,
@@ -195,10 +196,10 @@ def chaos_trials(
 ) -> int:
     """Chaos test: random faults, crashes, interruptions and operator answers; a failure is minimised to one command.
 
-    A schedule starts somewhere in a fault-free run and continues for a few steps, or to the end of the stage. It has
-    up to two faults, up to two interruptions (panic button, pause, going back, killed process), after each of which
-    the run resumes from disk, and an operator who retries, skips, proceeds and aborts. The same schedule then runs
-    again without its interruptions.
+    A schedule starts somewhere in a fault-free run and continues for a few steps, or to the end of the stage. It
+    has up to two faults, and up to two interruptions: panic button, pause, going back, killed process. After each
+    interruption, the run resumes from disk. A simulated operator retries, skips, proceeds and aborts. The same
+    schedule then runs again without its interruptions.
 
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read

@@ -60,8 +60,9 @@ def video(
 ) -> int:
     """Make a video of a recorded run, without simulating it again.
 
-    An animated WebP (for a README), a WebM or an MP4; browsers play all three. Long waits for the camera's mechanism
-    are cut. Short stages play slower, so that each can be seen; with --speed, all stages play at that speed.
+    The video is an animated WebP (for a README), a WebM or an MP4; browsers play all three. Long waits for the
+    camera's mechanism are cut. Short stages play slower, so that each can be seen; with --speed, all stages play at
+    that speed.
 
     ```
     handeye video pump

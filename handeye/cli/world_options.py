@@ -26,8 +26,8 @@ Faults = Annotated[
         name="--fault",
         group=WORLD,
         consume_multiple=False,
-        help="A fault: NAME or NAME=VALUE, with @STAGE after it to begin at that stage instead of at the start. "
-        "`handeye faults --list` lists them. May be repeated.",
+        help="A fault: NAME or NAME=VALUE, followed by @STAGE to begin the fault at that stage instead of at the "
+        "start. `handeye faults --list` lists the faults. May be repeated.",
     ),
 ]
 

@@ -62,8 +62,8 @@ class Stop(Record, frozen=True, kw_only=True):
     """How a guarded motion ended: the guard that tripped, and the value that it sensed."""
 
     place: Place
-    guard: GuardKind | None  # The guard that ended it; None: none did
-    value: float | None = None  # What the guard looked at then: N, N m, or finger switches as a mask
+    guard: GuardKind | None  # The guard that ended the motion; None: no guard
+    value: float | None = None  # The value that this guard sensed: N, N m, or finger switches as a mask
 
 
 class Stops(Record, frozen=True, kw_only=True):
@@ -95,9 +95,9 @@ def _stop(each: CarriedOut) -> Stop:
 class Search(Record, frozen=True, kw_only=True):
     """A search of a run."""
 
-    place: Place  # The step that set it up
+    place: Place  # The step that set up the search
     places: int = 1
-    last: tuple[float, float] = (0.0, 0.0)  # The last of them, x and y from the first, m
+    last: tuple[float, float] = (0.0, 0.0)  # The last place, x and y relative to the first place, m
     exhausted: bool = False
 
 
@@ -121,7 +121,7 @@ def searches(runs: TwoRuns) -> tuple[Searches, ...]:
 
 
 def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
-    """Return the searches of a run, each under the turn of the step that started it."""
+    """Return the searches of a run, by the execution of the step that started the search."""
     found: dict[Turn, Search] = {}
     turn: Turn | None = None
     for each in steps:

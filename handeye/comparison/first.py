@@ -90,7 +90,7 @@ def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[St
     yield stretch
 
 
-_CLOCKS: Final = 2000  # ns by which times since a step began may differ by rounding
+_CLOCKS: Final = 2000  # ns: rounding can cause this difference between times since a step began
 EVENT: Final = ("event",)  # The quantity that differs if the next events differ in kind
 
 

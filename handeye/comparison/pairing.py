@@ -141,7 +141,7 @@ def _turns(run: RecordedRun, numbers: Mapping[int, int]) -> Iterator[CarriedOut]
     before: Counter[int] = Counter()
     for done in done_steps(run.trace.events):
         if isinstance(done.started, UndoStarted):
-            continue  # the arm took a step back, and carried none out
+            continue  # the arm undid a step instead of executing one
         number = numbers[done.started.step]
         yield CarriedOut(run, (number, before[number]), done)
         before[number] += 1
@@ -165,8 +165,8 @@ class Leg:
 
     begin: float  # s of the course
     a: float
-    """Time of the first run at the beginning of the leg, s since the run began; it advances evenly to that of the
-    next leg.
+    """Time of the first run at the beginning of the leg, s since the run began; the time advances evenly to the
+    beginning of the next leg.
     """
     b: float
     places: tuple[Place | None, Place | None]

@@ -25,7 +25,7 @@ OWN: Final = (
     "handeye.systems.sigma:ENTRY",
     "handeye.systems.ml:ENTRY",
 )  # need no installed metadata
-PLANNED: Final = "program"  # the system that executes plans of motions, which is meant where none is named
+PLANNED: Final = "program"  # the system that executes plans of motions; the default
 
 Capability = Literal[
     "plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "console", "python"
@@ -42,7 +42,7 @@ VERBS: Final[Mapping[Capability, str]] = {
     "format": "format its scripts",
     "console": "accept typed lines",
     "python": "continue its runs from Python",
-}  # what a system may be asked for, as it stands behind `cannot`
+}  # capabilities of a system, as words after `cannot`
 
 
 class Entry(Record, frozen=True, kw_only=True):

@@ -16,7 +16,7 @@ import numpy as np
 from handeye.core.brief import Brief
 
 _PLAIN: Final = frozenset((bool, int, float, str, type(None)))
-"""Types of most values, which are shared without asking further."""
+"""Types of most values, which are shared without a further check."""
 _SHARED: Final = (bool, int, float, str, bytes, tuple, frozenset, type(None), np.generic)
 Kept = TypeVar("Kept", bound="MutableRecord")
 

@@ -92,8 +92,8 @@ def _choices(runner: Runner) -> list[str]:
     return [
         *(f"{word[0]:10} {does}" for word, does in runner.kind.choices(runner).items()),
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier stage",
-        "u [STAGE]  unwind: the arm undoes its work back to the beginning of this stage, and the program goes on "
-        "from there",
+        "u [STAGE]  unwind: the arm undoes its work back to the beginning of this stage, and the program "
+        "continues from there",
         "a          abort",
         "show       show the state of the run, or a topic of it",
     ]

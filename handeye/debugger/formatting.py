@@ -138,7 +138,7 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
 
 
 _NOTHING: Final = {
-    "force_oz": "there is no force estimate here, because the last step did not end on a guard"
+    "force_oz": "there is no force estimate here, because no guard ended the last step"
 }
 _JOINTS_PER_LINE: Final = 3
 _LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {

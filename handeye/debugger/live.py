@@ -19,7 +19,7 @@ from handeye.program.events import AnyEvent, StepStarted
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 
-FREE: Final = "free"  # as fast as it goes
+FREE: Final = "free"  # as fast as possible
 SLOWEST: Final = 0.25
 FASTEST: Final = 100.0
 _LATE_S: Final = (

@@ -62,7 +62,7 @@ class Servo:
     arm: ArmModel
     state: DriveState  # its state: set-points, load and felt wrench
     watch: Callable[[ServoPeriod], None] = lambda _: None  # called after every servo period
-    halt: Callable[[], bool] = lambda: False  # the panic button, asked at every servo period
+    halt: Callable[[], bool] = lambda: False  # the panic button, polled in every servo period
     track: Track = field(default_factory=Track)  # records commands and felt forces, for a later undo
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # what computes an arm at one posture
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
@@ -148,8 +148,9 @@ class Servo:
 
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
         `taring` is True, for the tare. `sense` is the direction in which each joint slides, from -1 to 1; friction
-        against it is compensated, so that it is not sensed as force. `dither` are torques in addition to those of
-        the servo. Returns the torque residual, shape (n,), beyond weight, inertia and load; it includes friction.
+        against this direction is compensated, so that friction is not sensed as force. `dither` are torques in
+        addition to those of the servo. Returns the torque residual, shape (n,), beyond weight, inertia and load; it
+        includes friction.
         """
         q_was, before = self.state.here, self.sensed
         load = here.J[2] * self.state.load

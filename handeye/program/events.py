@@ -42,11 +42,11 @@ class RunStarted(Event, frozen=True, kw_only=True):
     the actions of the operator.
     """
 
-    system: str = "program"  # the kind of system that carries it out
+    system: str = "program"  # name of the system that executes the run
     program: str
     steps: int
     plan: str  # digest that identifies the plan
-    content: str | UnsetType = UNSET  # digest of its bytes, which a change of any number in it changes
+    content: str | UnsetType = UNSET  # digest of the bytes of the plan, which changes if any number in the plan changes
     arm: str
     arm_digest: str
     world: WorldSpec
@@ -164,7 +164,7 @@ class ErrorRaised(Event, frozen=True, kw_only=True):
     """An action raised an error."""
 
     number: int
-    cause: Cause | None  # the cause this time; None: the error says all
+    cause: Cause | None  # the cause in this case; None if the error number is enough
 
 
 class ErrorTested(Event, frozen=True, kw_only=True):
@@ -235,7 +235,7 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
     part: str
     ok: bool
-    cause: InspectionCause | None  # why it is not as it should be; None: it is
+    cause: InspectionCause | None  # why the part is not in place; None if it is
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
@@ -321,7 +321,7 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
     """A reversal was ordered: the arm undoes executed steps until `left` steps remain."""
 
     left: int
-    halts: bool  # the run ends there; else the program can continue
+    halts: bool  # True if the run ends there; False if the program can continue
     asked_by: AskedBy = "person"
 
 

@@ -21,7 +21,7 @@ from handeye.trace.stages import Stage
 
 MOST: Final = 24
 _QUALITY: Final = 80
-_NEAR: Final = 0.62  # m from which the hand is looked at
+_NEAR: Final = 0.62  # m from the hand to the camera
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,8 +42,8 @@ class _PrintSize:
 
     width: int
     height: int
-    finer: int  # Points of the drawing for one of the photograph, along a side
-    shadow: int  # Points along a side of the map of shadows
+    finer: int  # Rendered pixels for each pixel of the photograph, along a side
+    shadow: int  # Pixels along a side of the shadow map
 
 
 LARGE: Final = _PrintSize(width=960, height=720, finer=2, shadow=4096)

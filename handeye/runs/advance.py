@@ -105,7 +105,7 @@ class AfterSteps(StopCondition, frozen=True, kw_only=True):
 
 
 class PauseRequest(StopCondition, frozen=True, kw_only=True, tag="Asked"):
-    """Pause because a person asked for it during the run."""
+    """Pause because a person asked for a pause during the run."""
 
 
 class ByHand(StopCondition, frozen=True, kw_only=True):
@@ -138,14 +138,14 @@ class Pause(Record, frozen=True, kw_only=True):
     """The reason why a run paused."""
 
     kind: Literal["end", "operator", "trouble", "break", "panic"]  # `trouble`: it cannot continue
-    done: int = 0  # steps done since the run went on
+    done: int = 0  # steps done since the run continued
     next: int | None = None  # the step to be done next; None if the run cannot continue alone
     met: AnyStop | None = None  # the stop condition, if one was met
-    error: int | None = None  # the error that the operator is called for
-    cause: Cause | None = None  # cause of that error, or of a call for none
-    message: str = ""  # the program's own words to the operator, or those of the cell that cannot continue
-    undone: bool = False  # it ended where the arm has undone what it was to undo
-    back: bool = False  # the panic button was hit on the way back in time
+    error: int | None = None  # number of the error for which the operator is called
+    cause: Cause | None = None  # cause of the error, or of a call without an error
+    message: str = ""  # message of the program to the operator, or of the cell that cannot continue
+    undone: bool = False  # the arm has undone all the steps that it was ordered to undo
+    back: bool = False  # the panic button was pressed while the run went back to an earlier state
 
 
 def advance(

@@ -39,7 +39,7 @@ class Head(Record, frozen=True, kw_only=True):
     """Summary of a checkpoint. It is shown to users, and used to find the right checkpoint without decoding
     states."""
 
-    system: str = "program"  # the kind of system that carries the run out
+    system: str = "program"  # name of the system that executes the run
     program: str
     plan: str  # digest of the plan
     arm: str
@@ -51,12 +51,12 @@ class Head(Record, frozen=True, kw_only=True):
     stage: str | None
     between_stages: bool  # the next step begins the stage
     time: float | None  # s on the cell's clock
-    touched: bool  # people had interfered with the run: it is not what the plan alone makes of it
+    touched: bool  # a person intervened, so the plan alone does not determine the state
     task: str
-    judged: bool = False  # the referee is to look at what came out
-    limits: dict[str, float] | UnsetType = UNSET  # of findings, in place of the referee's
-    replaced: dict[str, str] | UnsetType = UNSET  # replaced parts; others of these names must resume it
-    without: tuple[str, ...] | UnsetType = UNSET  # senses that the program does without
+    judged: bool = False  # the referee judges the result
+    limits: dict[str, float] | UnsetType = UNSET  # limits of findings, which replace the referee's own limits
+    replaced: dict[str, str] | UnsetType = UNSET  # replaced parts; a run resumes only with parts of these names
+    without: tuple[str, ...] | UnsetType = UNSET  # senses that are switched off for the program
 
 
 class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -91,7 +91,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         position=checkpoint.position,
         stage=checkpoint.stage,
         between_stages=checkpoint.between_stages,
-        time=None if time is None else round(time, 6),  # of the last event where there is no cell
+        time=None if time is None else round(time, 6),  # time of the last event if there is no cell
         touched=checkpoint.touched,
         task=setup.task,
         judged=setup.judged,
@@ -212,9 +212,8 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
         raise BadFile(f"{name} is not a checkpoint of handeye")
     if int(words[1]) != VERSION:
         raise BadFile(
-            f"{name} has checkpoint format version {words[1]}; this version of handeye reads version {VERSION}: "
-            f"start the run "
-            "again, or resume it where it was saved"
+            f"{name} has checkpoint format version {words[1]}; this version of handeye reads version "
+            f"{VERSION}: start the run again, or resume it with the version that saved it"
         )
     if words[2] != hashlib.sha256(rest).hexdigest():
         raise BadFile(f"{name} is damaged or cut short: its checksum is wrong")

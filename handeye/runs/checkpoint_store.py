@@ -35,7 +35,7 @@ class CheckpointStore:
         path = self.folder / file_name(checkpoint)
         write_checkpoint(path, checkpoint)
         for other in self.folder.glob(f"{checkpoint.position:04}-*{ENDING}"):
-            if other != path:  # as many steps done, but before the operator's answer
+            if other != path:  # an earlier state with as many steps done, before the operator's answer
                 other.unlink(missing_ok=True)
         return path
 
@@ -98,7 +98,7 @@ class CheckpointStore:
             try:
                 if found is None:
                     found = read_checkpoint(path)
-                else:  # what is not resumed from need not be taken apart
+                else:  # older checkpoints are not resumed, so they need not be decoded
                     read_head(path)
             except InvalidInput as fault:
                 faults.append(str(fault))

@@ -30,7 +30,7 @@ class ExportedState:
     truth: Truth
     program: str | None = None
     steps: int = 0  # steps done
-    stage: str | None = None  # the stage under way, or the one to come
+    stage: str | None = None  # the present or next stage
 
 
 def initial_state(world: WorldSpec, name: str = DEFAULT) -> ExportedState:

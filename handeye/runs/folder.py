@@ -72,12 +72,12 @@ class RunFolder(Observer):
         self.kept = CheckpointStore(path / CHECKPOINTS)
         self._made = made
         self._closed = False
-        self.lost = 0  # events of a resumed run that its trace had lost, with the motions between them
+        self.lost = 0  # number of events of a resumed run that its trace had lost, as well as the motions between them
         self._first: Path | None = None  # the checkpoint that the run begins with, once it is written
         self._runner: Runner | None = None
         self._journal: Journal | None = None
         self._recorder: Recorder | None = None
-        self.spent: HostSeconds | None = None  # of earlier sessions, if known
+        self.spent: HostSeconds | None = None  # host time of earlier sessions, if known
         self._meter = Meter()
 
     def watch(
@@ -85,14 +85,14 @@ class RunFolder(Observer):
     ) -> "RunFolder":
         """Observe a run that begins at `start` or, with `again`, resumes there. `meter` measures the run's host
         time."""
-        if (self.path / RESULT).is_dir():  # it would be found out when the run is over
+        if (self.path / RESULT).is_dir():  # found now, not only when the run ends
             raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")
         self._runner, self._meter = runner, meter or Meter(before=self.spent)
         self._journal = Journal(self.path / EVENTS, start.events, again=again)
         if not again:
             self.begin(start)
         self._recorder = self._recording(start.events)
-        if again:  # else what came before the first event was never in this folder
+        if again:  # for a new run, this folder never held any earlier event
             self.lost = self._recorder.lost
             self._journal.undone(len(start.events), runner.time, "resumed")
         return self
@@ -143,7 +143,7 @@ class RunFolder(Observer):
         assert self._journal is not None
         assert self._recorder is not None
         self.check_traced()
-        if not isinstance(event, RunFinished):  # which shows nothing new unless the run has continued
+        if not isinstance(event, RunFinished):  # `RunFinished` alone changes no outcome
             self._goes_on()
         self._journal.append(event)
         self._recorder.event(event)
@@ -160,7 +160,7 @@ class RunFolder(Observer):
         self.kept.drop_after(self._runner.position)
         try:
             self._recorder.cut(events)
-        finally:  # none of the three must continue as if nothing was undone
+        finally:  # events, trace and checkpoints must all drop what was undone
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
@@ -249,7 +249,7 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     """Open the folder of an interrupted run. Returns the folder, its newest valid checkpoint, and a sentence
     for each file that cannot be used.
 
-    Raises BadFile if there is no checkpoint, or if the checkpoint belongs to another plan than the one in the
+    Raises BadFile if there is no checkpoint, or if the checkpoint belongs to a different plan from the plan in the
     folder.
     """
     folder = RunFolder(path, [])
@@ -257,7 +257,7 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
         if any(CheckpointStore(path).heads()):
             raise BadFile(f"{path} is a folder of checkpoints, not of a run; name one of them")
         check_holds_run(path)
-        raise BadFile(f"the run in {path} cannot continue: it has no {CHECKPOINTS}")
+        raise BadFile(f"the run in {path} cannot continue: the folder has no {CHECKPOINTS}")
     checkpoint, faults = folder.kept.newest()
     if checkpoint is None:
         raise BadFile(faults[0] if faults else f"there is no checkpoint in {folder.kept.folder}")

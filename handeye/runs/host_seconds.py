@@ -20,15 +20,15 @@ _LARGEST = 10_000  # bytes of the file
 class HostSeconds(Record, frozen=True, kw_only=True):
     """Host time of a run, summed over its sessions. A session is one process that began or resumed the run."""
 
-    planning_cpu_s: float = 0.0  # 0: the plan was there already
-    vision_cpu_s: float = 0.0  # with what was undone later
+    planning_cpu_s: float = 0.0  # 0: the plan existed already
+    vision_cpu_s: float = 0.0  # including steps that were undone later
     run_cpu_s: float = 0.0
     run_wall_s: float = 0.0
     """From loading the command, or the call from Python, to the verdict, including the time spent waiting for the
     user.
     """
     from_step: int = 0  # steps done before the first session that is counted
-    from_clock_s: float = 0.0  # the clock at that moment: below 0 if it prepared the cell
+    from_clock_s: float = 0.0  # the clock at that moment: below 0 if the session prepared the cell
 
 
 @dataclass(slots=True, kw_only=True)

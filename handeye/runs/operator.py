@@ -96,7 +96,7 @@ class UnwindOnce:
     Like `Retry`, it counts earlier attempts from the events of the run.
     """
 
-    stage: int | None = None  # None: that which has failed
+    stage: int | None = None  # None: the stage that failed
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         back = runner.stage if self.stage is None else self.stage

@@ -15,7 +15,7 @@ from handeye.touch.spiral import SearchPattern
 if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
 
-NEEDED: Final = ("search", "camera")  # parts that decide a run; the referee decides nothing of it
+NEEDED: Final = ("search", "camera")  # parts that determine the course of a run; the referee does not
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.snapshot_cell import SnapshotCell
 
-RECENT: Final = 400  # steps whose states are kept in memory; of older ones those at the beginning of stages
+RECENT: Final = 400  # steps whose states are kept in memory; older states are kept only at the beginning of stages
 
 
 def reach(first: int) -> str:
@@ -92,7 +92,7 @@ class Runner:
         self.setup = start.setup
         self.listing = listing_of(start.setup)  # stages and steps of the program
         self.vision = Stopwatch(time.process_time)  # processor time of vision here, undone steps included
-        self.kind = system_of(start.setup)  # the system that carries it out, as a value
+        self.kind = system_of(start.setup)  # the system that executes the run, as a value
         self.system: RunningSystem = self.kind.build(
             start.setup,
             RunCallbacks(
@@ -108,8 +108,8 @@ class Runner:
         self.events: list[AnyEvent] = []  # not undone
         self.position = 0  # steps done
         self.history: list[Snapshot] = []  # states to go back to, the present one last
-        self.started = 0.0  # clock until which this object simulated nothing
-        self.first = 0  # steps done by then
+        self.started = 0.0  # reading of the clock when this object began to simulate
+        self.first = 0  # steps done before that
         self.observers: list[Observer] = []
         self._broken: str | None = None
         self._within_step = False
@@ -139,7 +139,7 @@ class Runner:
 
     @property
     def trouble(self) -> str | None:
-        """The reason why the run cannot continue, if the operator cannot help; None if there is none."""
+        """The reason why the run cannot continue even if the operator answers; None if it can."""
         return self._broken or self.system.trouble
 
     @property

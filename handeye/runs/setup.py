@@ -12,15 +12,15 @@ from handeye.planfile.plan import Plan
 class Setup(Record, frozen=True, kw_only=True):
     """Everything that determines the course of a run, if no person intervenes."""
 
-    system: str = PLANNED  # name of the system that carries it out
+    system: str = PLANNED  # name of the system that executes the run
     plan: Record  # the plan: a `Plan` if it is one of motions
     world: WorldSpec
     camera: str  # how to make pictures: `auto`, `gl` or `ray`
-    judged: bool = False  # the referee is to look at what came out. It decides nothing of the run.
+    judged: bool = False  # the referee judges the result; this does not change the course of the run
     limits: dict[str, float] = msgspec.field(default_factory=dict)
     """Limits that replace those of the task's referee, by finding, in the units of the findings."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)  # parts by the caller's code, by name
-    without: tuple[str, ...] = ()  # senses that the program does without, in the order of `SENSES`
+    without: tuple[str, ...] = ()  # senses that are switched off for the program, in the order of `SENSES`
 
     @property
     def task(self) -> str:

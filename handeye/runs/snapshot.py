@@ -17,7 +17,7 @@ class Snapshot(Record, frozen=True, kw_only=True):
     """The state of a run between two steps."""
 
     position: Annotated[int, msgspec.Meta(ge=0)]  # steps done
-    happened: Annotated[int, msgspec.Meta(ge=0)]  # events until then, undone ones not counted
+    happened: Annotated[int, msgspec.Meta(ge=0)]  # number of events so far, without undone events
     cell: CellState | None  # None: the system acts on no simulated cell
     state: SystemState
 

@@ -147,9 +147,9 @@ class Settable:
     noun: str
     usage: str  # form of the words after its kind: `NAME x y z`
     names: tuple[str, ...]
-    units: tuple[float, ...]  # SI units in one of the displayed units number in
-    fewest: int  # numbers that have to be given; the others stay as they are
-    present: Callable[[str], tuple[float, ...]]  # the values of a name as they are, SI
+    units: tuple[float, ...]  # size of the displayed unit of each number, in SI units
+    fewest: int  # how many numbers must be given; the other numbers do not change
+    present: Callable[[str], tuple[float, ...]]  # the present values of a name, SI
 
 
 class RunningSystem(Protocol):
@@ -158,7 +158,7 @@ class RunningSystem(Protocol):
     @property
     @abstractmethod
     def state(self) -> SystemState:
-        """The complete state of the system. The system works on this record itself."""
+        """The complete state of the system. The system changes this record in place."""
 
     @property
     def cell(self) -> SnapshotCell | None:
@@ -181,12 +181,12 @@ class RunningSystem(Protocol):
 
     @property
     def trouble(self) -> str | None:
-        """The reason why no step is possible, if the operator cannot help; None if there is none."""
+        """The reason why no step is possible even if the operator answers; None if a step is possible."""
 
     @property
     def switched_on(self) -> float:
-        """The reading of the clock (s) when this object began to simulate. It is negative by the duration of
-        the preparation, or 0 if the preparation was stored by an earlier run.
+        """The reading of the clock (s) when this object began to simulate. The reading is minus the duration of the
+        preparation, or 0 if an earlier run stored the preparation.
         """
         return 0.0
 
@@ -254,8 +254,7 @@ class RunningSystem(Protocol):
 
     @property
     def figures(self) -> Mapping[str, float]:
-        """Further figures that the result of the run shows besides those common to all systems; none by
-        default."""
+        """Figures that the result of the run shows in addition to the figures of every system; none by default."""
         return {}
 
     def remembered(self) -> Findings:
@@ -313,11 +312,11 @@ class RunCallbacks:
 
     emit: Callable[[AnyEvent], None]
     watch: Callable[[ServoPeriod], None]  # called for every servo period
-    halt: Callable[[], bool]  # the panic button, asked at every servo period
+    halt: Callable[[], bool]  # the panic button, polled in every servo period
     viewed: Callable[[int, int], None] = lambda *_: None  # calibration views: number, count
     vision: Stopwatch = field(default_factory=Stopwatch)  # processor time of vision
     parts: Parts = OWN
-    calibrate: bool = False  # calibrate again, whatever is kept
+    calibrate: bool = False  # calibrate again, even if a calibration is stored
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -329,10 +328,10 @@ class StepperWords:
     )  # lines on what a step is
     places: tuple[str, ...] = (
         "PLACE is a line, a label, the first word of a step, or a stage. WHAT is one of",
-    )  # lines on what can be said for PLACE and WHAT; the topics follow
+    )  # lines that say what PLACE and WHAT can be; the topics follow
     units: str = "those of the system"
     commands: Mapping[str, str] = field(default_factory=dict)  # help by usage
-    without: tuple[str, ...] = ("picture",)  # names of commands that do nothing
+    without: tuple[str, ...] = ("picture",)  # names of commands that have no effect in this system
 
 
 class LiveNews(ABC):

@@ -19,7 +19,7 @@ from handeye.core.errors import BadArgument, InvalidInput, NoSuchName, Refused
 from handeye.core.plain_text import counted
 from handeye.tasks.interface import AnyTask, Task
 
-DEFAULT: Final = "water_pump"  # the task that is meant where none is named
+DEFAULT: Final = "water_pump"  # the task used if none is named
 GROUP: Final = "handeye.tasks"  # entry points of this group name tasks of other packages
 ELSEWHERE: Final = "HANDEYE_TASKS"
 """Environment variable with further tasks as MODULE:NAME, separated by spaces. `--task` adds its task there, for
@@ -36,7 +36,7 @@ _HINT: Final = (
 Kind = Literal["ours", "registered", "others"]
 """The origin of a task: handeye, this process (`register` or `--task`), or entry points of other packages."""
 _REGISTERED: Final[dict[str, AnyTask]] = {}
-_WORDS: Final[dict[str, str]] = {}  # what `--task` said of those that it has made known, by their names
+_WORDS: Final[dict[str, str]] = {}  # the words of `--task`, by the names of the tasks that they registered
 
 
 def register(task: AnyTask) -> None:
@@ -145,7 +145,7 @@ def of_plans(kind: Kind) -> Iterator[Task]:
     for name in _NAMES[kind]():
         try:
             found = known(name)
-        except InvalidInput:  # told where it is asked for by its name
+        except InvalidInput:  # the error is reported when the task is requested by its name
             continue
         if found is not None:
             yield found

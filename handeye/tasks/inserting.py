@@ -15,9 +15,11 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
 
 CLEARANCE: Final = 0.114
-"""Difference between the diameters of hole and pin (mm): that of Factory's peg (docs/insertion.md)."""
+"""Difference between the diameters of hole and pin (mm): the value of the peg in the Factory benchmark
+(docs/insertion.md).
+"""
 CHAMFER: Final = 1.0  # width of the chamfer, mm, as at the holes of the pump's base
-SPREAD: Final = 1.0  # sigma of the error of the hole's place along each axis, mm: as in Factory
+SPREAD: Final = 1.0  # standard deviation of the hole's position error along each axis, mm: as in Factory
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

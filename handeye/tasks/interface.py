@@ -18,7 +18,7 @@ from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.units import INCHES, Measures
 
-if TYPE_CHECKING:  # a plan is made and checked without a simulator, and soon
+if TYPE_CHECKING:  # types only: plans are made and checked without a simulator
     import mujoco
 
     from handeye.cell.rendering import RendererMaker
@@ -46,7 +46,7 @@ class HistoricalTiming(Record, frozen=True, kw_only=True):
     """Durations of the same work in 1973 (s)."""
 
     year: int
-    program: str  # the program that these are the times of
+    program: str  # the program that was timed
     times: Mapping[str, float]  # by the names `planning`, `manipulation`, `lens` and `vision`
 
 

@@ -31,7 +31,7 @@ class Count:
 
     figures: Mapping[str, object]  # counts by their names, as JSON has them
     lines: tuple[str, ...]  # the same as lines of text
-    wrong: int  # attempts in which something wrong was taken for right
+    wrong: int  # attempts in which a wrong result was accepted
 
 
 class Trial(ABC, Generic[A]):

@@ -18,8 +18,8 @@ class Repetition:
     """The differences between two traces, in a sentence each. If both are None, the traces are identical, byte
     for byte."""
 
-    parts: str | None = None  # where they truly part
-    rounded: str | None = None  # where they first differ by last places of numbers alone
+    parts: str | None = None  # the first difference that is more than rounding
+    rounded: str | None = None  # the first difference that is only in the last digits of numbers
 
 
 def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> Repetition:

@@ -35,19 +35,19 @@ class GuardMessage(Record, frozen=True, kw_only=True):
 
     guard: Annotated[GuardKind, msgspec.Meta(extra_json_schema={"type": "string"})]
     limit: float  # N, N m, or finger switches as a mask
-    axis: Axes | UnsetType = UNSET  # unit vector that it looks along or about, if at force or moment
+    axis: Axes | UnsetType = UNSET  # unit vector along or about which it watches a force or moment
 
 
 class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Force, gap and guards of the hand at the end of a servo period."""
 
-    estimated: bool  # force and moment are estimated; else there are none here
+    estimated: bool  # True if force and moment are estimated; otherwise both are missing
     force: Axes | UnsetType = UNSET  # force of the hand on the world, N
     moment: Axes | UnsetType = UNSET  # moment of the hand on the world about its tool centre point, N m
     gap: float  # opening of the fingers, m
     finger_1: bool  # the switch in the finger on the +y side of the hand frame
     finger_2: bool  # the switch in the other
-    driver_torque: float  # torque of the screwdriver's motor by its current, N m
+    driver_torque: float  # torque of the screwdriver's motor, computed from its current, N m
     guards: tuple[GuardMessage, ...] = ()
 
 

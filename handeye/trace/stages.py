@@ -21,7 +21,7 @@ from handeye.program.events import (
     UndoStarted,
 )
 
-CLOCKS = 1e-4  # s by which the rounded clock of events may be off that of servo periods
+CLOCKS = 1e-4  # s by which the rounded clock of events may differ from the clock of servo periods
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 class _Walk:
     found: list[Stage] = field(default_factory=list)
     _done: list[str] = field(default_factory=list)  # begun and not undone, the present or last one at the end
-    _begun: float | None = None  # when the stage under way was begun or come back to; None: none is under way
+    _begun: float | None = None  # time at which the present stage began or was re-entered; None between stages
     _back: bool = False
 
     def go(self, event: AnyEvent) -> None:

@@ -250,11 +250,9 @@ class Trace:
 
     @cached_property
     def unseen(self) -> int:
-        """Number of events before the first message that is recorded between events.
-
-        A run resumed from a checkpoint has more such events than the start of the run and of its first stage,
-        because its earlier events are copied without the messages between them. 0 for a system that moves no
-        arm.
+        """Number of events that precede the first message recorded between events. Usually, these are the events
+        that start the run and its first stage. A run resumed from a checkpoint has more, because its earlier events
+        are copied without the messages between them. 0 for a system that moves no arm.
         """
         if not self.head.arm:
             return 0

@@ -18,7 +18,7 @@ class Difference(Record, frozen=True, kw_only=True):
     """The difference between two batches in a measured value, over the pairs of trials that both succeeded."""
 
     pairs: int
-    more: float  # Median of how much more it is in this batch than in the first
+    more: float  # Median of the value in this batch minus the value in the first
     p: float
     """Two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least so one-sided if
     neither batch is better.
@@ -34,10 +34,10 @@ class PairedBatch(Record, frozen=True, kw_only=True):
     first_right: int  # Right trials of the first batch among the same pairs
     only_first: int  # Pairs in which only the first was right
     only_this: int
-    p: float  # Two-sided, of McNemar's exact test: how likely so uneven a split is if neither is better
+    p: float  # Two-sided p-value of McNemar's exact test
     measures: dict[str, Difference]
     noticed: int  # Failures of this batch that were noticed: by an error, a call, a guard
-    silent: int  # Failures that were taken for a success
+    silent: int  # Failures that the program reported as a success
     failed: int  # Trials of this batch that did not finish
 
 

@@ -24,20 +24,20 @@ from handeye.tasks.interface import Disturbance
 from handeye.trials.assembly import brakes_hold
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
-MOVED: Final = 2.0  # mm by which no part may be moved that the hand does not hold
-FORCE: Final = 60.0  # N that the hand may not feel
+MOVED: Final = 2.0  # mm, greatest permitted movement of a part that the hand does not hold
+FORCE: Final = 60.0  # N, greatest permitted force on the hand
 
 
 class DisturbanceResult(Record, frozen=True, kw_only=True):
     """The result of one reversal after a disturbance."""
 
     name: str
-    built: bool  # There was something to disturb; without, nothing else of this counts
+    built: bool  # The pump was built as far as the disturbance needs; if not, the other fields mean nothing
     stopped: bool = False  # A guard stopped it, and the brakes are on
     at: str = ""  # The statement that was being undone
     line: str = ""
     message: str = ""  # The call of the operator, or the referee’s complaint
-    moved: float = 0.0  # How far the part moved that moved most in one step without being held, mm
+    moved: float = 0.0  # Greatest movement, in one step, of a part that was not held, mm
     part: str = ""
     felt: float = 0.0  # Greatest force that the hand felt, N
 

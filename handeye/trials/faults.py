@@ -34,7 +34,7 @@ Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "
 - misnamed: stopped, but by another error or in another stage
 - unnoticed: the pump is right, but the fault should have been noticed
 - unbraked: stopped, but the brakes were not on
-- silent: the pump is wrong, but the program took it for right
+- silent: the pump is wrong, but the program reported success
 """
 
 UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")

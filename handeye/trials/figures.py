@@ -46,8 +46,9 @@ def rate(successes: int, trials: int) -> Rate:
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
-    """Return the two-sided p-value of McNemar's exact test: the probability of at least so unequal a division
-    of the differing pairs, if neither batch is better."""
+    """Return the two-sided p-value of McNemar's exact test: the probability that the differing pairs divide at
+    least this unequally if neither batch is better.
+    """
     from scipy.stats import binomtest
 
     differ = only_first + only_second
@@ -55,8 +56,8 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Return the two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least so
-    one-sided, if neither batch is better.
+    """Return the two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least this
+    one-sided if neither batch is better.
     """
     from scipy.stats import wilcoxon
 
@@ -68,7 +69,7 @@ class Spread(Record, frozen=True, kw_only=True):
 
     n: int
     median: float
-    p95: float  # 95 % of them are not over it
+    p95: float  # 95 % of the values are at most this
     most: float
 
 
@@ -92,10 +93,10 @@ class Failure(Record, frozen=True, kw_only=True):
     condition: str
     verdict: str
     stage: str
-    cause: str  # In equal words for equal causes
+    cause: str  # Equal causes have equal words
     detail: str  # With figures
     line: str | None  # Line of the script where the program stopped
-    command: str  # Carries it out again
+    command: str  # Command that repeats the trial
 
 
 class Cause(Record, frozen=True, kw_only=True):
@@ -104,7 +105,7 @@ class Cause(Record, frozen=True, kw_only=True):
     stage: str
     cause: str
     count: int
-    command: str  # Carries the first of them out again
+    command: str  # Command that repeats the first of these trials
 
 
 class Figures(Record, frozen=True, kw_only=True):
@@ -113,7 +114,7 @@ class Figures(Record, frozen=True, kw_only=True):
     kind: str
     n: int  # Trials that count
     right: int
-    silent_failures: int  # Failures that were taken for a success
+    silent_failures: int  # Failures that the program reported as a success
     failed: int
     """Trials that did not finish: because of an exception, a limit, or a process that was killed twice."""
     uncounted: int
@@ -122,7 +123,7 @@ class Figures(Record, frozen=True, kw_only=True):
     p_s: float | None  # Lower bound of the same, 95 % one-sided, exact
     outcomes: dict[str, int]
     measures: dict[str, Spread]
-    conditions: tuple[ConditionFigures, ...]  # Where there are several
+    conditions: tuple[ConditionFigures, ...]  # If there are several conditions
     failures: tuple[Failure, ...]
     causes: tuple[Cause, ...]  # Causes of the failures, the most frequent first
     cpu_s: float  # CPU time of all trials
@@ -130,8 +131,9 @@ class Figures(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """Exit code of the command: 3 if a failure was taken for a success, 1 if no trial finished, and 0 in
-        all other cases."""
+        """Exit code of the command: 3 if the program reported a failure as a success, 1 if no trial finished, and 0
+        in all other cases.
+        """
         return 3 if self.silent_failures else int(0 < self.failed == self.n)
 
 

@@ -60,7 +60,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
     clearance: float = CLEARANCE  # Clearance of the hole in diameter, mm
     chamfer: float = CHAMFER  # mm
-    sd: float = SPREAD  # Sigma of the error of the hole's place along x and along y, mm
+    sd: float = SPREAD  # Standard deviation of the hole's position error along x and along y, mm
     search: Search = "gentle"
 
     @property
@@ -103,7 +103,7 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
 
     seed: int
     number: int  # Number of the trial in that world, from 0
-    error: tuple[float, float] = (0.0, 0.0)  # Where the hole was, x and y against the pin's end, mm
+    error: tuple[float, float] = (0.0, 0.0)  # Position of the hole, x and y relative to the pin's end, mm
     outcome: Literal["seated", "told", "silent"] = "told"
     """`seated`: the pin is in its hole, and the program says so; `told`: the program called the operator; `silent`:
     the program reported success wrongly.
@@ -115,7 +115,7 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     """Time on the cell's clock (s) from the first contact of pin and plate until the pin was seated; None:
     never.
     """
-    whole: float = 0.0  # Seconds of the cell's clock that all of it took
+    whole: float = 0.0  # Duration of the whole trial, s on the cell's clock
     told: str = ""
 
 
@@ -286,7 +286,7 @@ def _plan(search: Search, step: float) -> Plan:
     return made.plan
 
 
-GENTLE: Final = 20.0  # N that a peak is held against
+GENTLE: Final = 20.0  # N, the limit to which a peak is compared
 
 
 class Setting(Record, frozen=True, kw_only=True):

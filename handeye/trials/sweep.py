@@ -30,7 +30,7 @@ because its process was killed; at a limit of simulated time, of CPU time, or (i
 time; or because the work that the trial needs was not built.
 """
 Standing = Literal["right", "wrong", "silent", "uncounted"]
-"""The class of an outcome: success; failure; failure that was taken for a success; not counted."""
+"""The class of an outcome: success; failure; failure that the program reported as a success; not counted."""
 
 FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
@@ -189,7 +189,7 @@ class Sweep(Generic[R]):
     noun: str = "trial"
     sentence: Callable[[R], str] | None = None
     """The text printed as each trial ends, unless empty. None: failures are listed at the end."""
-    narrated: bool = False  # Each trial is noted on standard error with the rate so far
+    narrated: bool = False  # Each trial is reported on standard error, with the rate so far
     summary: Callable[[Sequence[R]], Sequence[str]] = field(default=lambda _: ())
     more: Callable[[Sequence[R]], Mapping[str, object]] = field(default=lambda _: {})
     """Further entries for the JSON."""

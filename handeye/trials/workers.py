@@ -22,8 +22,8 @@ T = TypeVar("T")
 
 _OVERDUE: Final = getattr(signal, "SIGPROF", 0)  # Ends a process that has had the processor for too long
 TRIES: Final = 2  # Times that a trial is begun whose process is killed
-LONGEST_LIMIT_S: Final = 1e8  # Longest limit that a system is asked to keep: three years
-SHORTEST_LIMIT_S: Final = 1e-6  # Shortest that it knows from none
+LONGEST_LIMIT_S: Final = 1e8  # Longest limit that a system is asked to enforce: three years
+SHORTEST_LIMIT_S: Final = 1e-6  # Shortest limit that a system distinguishes from no limit
 
 
 class WorkerLost(HandeyeError):

@@ -35,7 +35,7 @@ class Caption:
     clock: str
     stages: int  # in all
     begun: int  # begun so far
-    stopped: bool  # the last one was stopped
+    stopped: bool  # True if the last stage was stopped
 
 
 def captioned(frame: Photograph, caption: Caption, inset: Photograph | None) -> Photograph:

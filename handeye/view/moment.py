@@ -36,8 +36,9 @@ class Television:
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
-        """Time and name of the picture and what vision found in it, by which two pictures are compared. None
-        without a picture."""
+        """Time and name of the picture and what vision found in it, by which two pictures are compared. None if
+        there is no picture.
+        """
         return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
 
     @cached_property

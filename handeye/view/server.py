@@ -26,10 +26,10 @@ from handeye.view.link import Link
 from handeye.view.moment import Newest
 
 MOMENTS_PER_S: Final = 25
-MAX_MESSAGE_BYTES: Final = 4096  # of a viewer; a larger one ends the connection
+MAX_MESSAGE_BYTES: Final = 4096  # of a viewer's message; a larger message ends the connection
 MAX_LINE_CHARS: Final = 1000
 KEPT_MESSAGES: Final = 400  # for viewers who come later
-MAX_BEHIND: Final = 4 * KEPT_MESSAGES  # unsent messages at which a viewer is let go
+MAX_BEHIND: Final = 4 * KEPT_MESSAGES  # number of unsent messages at which a viewer is disconnected
 
 
 class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True):

@@ -275,7 +275,7 @@ def test_force_is_shown_where_a_guard_has_just_stopped_the_hand_and_nowhere_else
     assert shown.show.force_oz is None
     assert (
         as_text(shown).splitlines()[-1]
-        == "force     there is no force estimate here, because the last step did not end on a guard"
+        == "force     there is no force estimate here, because no guard ended the last step"
     )
     runner.context.state.drive.wrench = np.array((0, 0, -8.0, 0, 0, 0))
     runner.events.append(GuardTripped(time=runner.time, guard=GuardKind.FORCE, value=8.0, limit=7.0))

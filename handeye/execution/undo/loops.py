@@ -6,9 +6,9 @@ operator was not called; the hand holds the same object; every object put down w
 the other way round); and every screw driven in was backed out. Rounds that carry objects to another place do not
 meet the conditions and are reversed step by step.
 
-A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. Reversed
-step by step, the hand would touch the object a second time. If the object has been pushed since, a finger that had
-moved to its side would descend on its edge.
+A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a
+touch were reversed step by step, the hand would touch the object a second time. If the object has been pushed since
+then, a finger that had moved to the side of the object would descend on the object's edge.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -59,7 +59,7 @@ class EarlyContact:
 
     gap: Callable[[], float]  # present gap, m
     kept: float  # gap when the step was executed, m
-    holding: bool  # something was held then
+    holding: bool  # True if the hand held an object at that time
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
         return (ActiveGuard(guard=GuardKind.TOUCH, limit=3.0),)

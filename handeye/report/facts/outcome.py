@@ -16,8 +16,8 @@ from handeye.results.result import Check
 
 Kind = Literal["right", "wrong", "ended", "stopped", "panic", "paused", "broken off"]
 """The outcome of a run. If the program ended: `right` if the referee accepts the work, `wrong` if it does not,
-and `ended` if it has not judged the work. If not: `stopped` if the program called the operator, `panic` if the
-panic button was pressed, `paused` if the run can go on, and `broken off` if the trace is incomplete.
+and `ended` if it has not judged the work. If the program did not end: `stopped` if the program called the operator,
+`panic` if the panic button was pressed, `paused` if the run can go on, and `broken off` if the trace is incomplete.
 """
 
 
@@ -26,12 +26,12 @@ class Outcome:
     """The outcome of a run."""
 
     kind: Kind
-    time: float  # The moment to be looked at, s since the run began
+    time: float  # The moment to look at first, s since the run began
     stage: str | None = None
     step: StepStarted | None = None  # The step under way then, or done last
     call: OperatorCalled | None = None
     wrong: tuple[Check, ...] = ()
-    doubts: tuple[Check, ...] = ()  # Findings of a doubtful quality that do not make the work wrong
+    doubts: tuple[Check, ...] = ()  # Findings of doubtful quality that do not make the work wrong
 
     @property
     def good(self) -> bool:

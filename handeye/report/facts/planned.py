@@ -85,9 +85,9 @@ def _why(events: list[AnyEvent], off: Array, before: Array) -> EndReason:
 class Search:
     """A search that tried more than one place."""
 
-    step: StepStarted  # The step that sent it on last
-    times: tuple[float, ...]  # When it went on, s since the run began
-    places: tuple[tuple[float, float], ...]  # All of them, from the first on: x and y from the first, m
+    step: StepStarted  # The step that last advanced the search
+    times: tuple[float, ...]  # When the search advanced, s since the run began
+    places: tuple[tuple[float, float], ...]  # All places tried, in order: x and y relative to the first place, m
     exhausted: bool
 
 
@@ -141,7 +141,7 @@ class Cause:
 
     name: str
     by: Mover
-    place: str  # The line of its SAVE, of the look, or that sent the search on
+    place: str  # The line of the SAVE, of the inspection by camera, or of the step that advanced the search
     time: float  # When that was, s since the run began
 
 
@@ -189,8 +189,8 @@ def _corrections(run: RecordedRun) -> Iterator[Correction]:
 class _Search:
     """The present place of a search."""
 
-    offset: tuple[float, float] = (0.0, 0.0)  # From its first, m
-    cause: Cause | None = None  # None: it is at its first
+    offset: tuple[float, float] = (0.0, 0.0)  # Relative to the first place, m
+    cause: Cause | None = None  # None: at the first place
 
 
 def _cause(run: RecordedRun, step: DoneStep, name: str, time: float, by: Mover) -> Cause:

@@ -50,7 +50,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
         return
     met = sum(motion.trip is not None for motion in motions)
     yield note(
-        f"{counted(len(motions), 'guarded motion')}; stopped by a guard: {met}. Each curve is the guarded "
+        f"{counted(len(motions), 'guarded motion')}; a guard stopped {met} of them. Each curve is the guarded "
         "quantity: the force of the hand along an axis, a moment, or the torque of the screwdriver. The dashed line "
         f"is the limit; the dot is where the guard tripped and ended the motion.{how} Click a figure to go to "
         "that motion in the run."
@@ -81,7 +81,7 @@ def _figure(motion: GuardedMotion) -> Markup:
         element("span", said),
     ]
     figure = element("figure", _drawn(motion), element("figcaption", joined(told, " ")))
-    # the caption once more: a link does not get its name from a figure in it
+    # repeats the caption, because a link does not get its accessible name from a figure inside it
     return to_moment(float(moment), figure, class_="moment", aria_label=f"{when} {place} {statement} {said}")
 
 
@@ -89,10 +89,10 @@ def _said(motion: GuardedMotion) -> str:
     """Say in words whether the guard stopped the motion."""
     limit = felt(motion.guard, motion.limit)
     if motion.trip is not None:
-        return f"{_short(motion.guard, motion.trip.value)}; guard {limit}"
+        return f"{_short(motion.guard, motion.trip.value)}; limit {limit}"
     known = motion.values[np.isfinite(motion.values)]
     most = _short(motion.guard, float(known.max())) if len(known) else "no estimate"
-    return f"not stopped: maximum {most}; guard {limit}"
+    return f"not stopped: maximum {most}; limit {limit}"
 
 
 def _drawn(motion: GuardedMotion) -> Markup:

@@ -10,7 +10,7 @@ from handeye.core.polyline import Rows, needed_rows
 from handeye.core.pose import Array
 
 WIDE, HIGH = 240.0, 90.0  # Width and height of a small figure, in its own units
-TOLERANCE: Final = 0.4  # In units of the figure: a line may be that far off its points
+TOLERANCE: Final = 0.4  # Greatest distance of a drawn line from its points, in units of the figure
 
 
 @dataclass(frozen=True, slots=True)

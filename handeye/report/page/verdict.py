@@ -156,7 +156,9 @@ def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
 
 
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
-"""Events that are not sensor readings, or that are themselves the reason for the outcome."""
+"""Kinds of events that cannot explain an outcome: events without sensor readings, and events that are themselves
+the reason for the outcome.
+"""
 _SAID: Final = 4
 
 

@@ -12,7 +12,7 @@ from handeye.core.pose import Array
 from handeye.report.player.packing import columns, octahedral, quantised, rounded, zigzag
 from handeye.report.player.surfaces import Surface, creased
 
-FINE: Final = 200  # Triangles from which on a body has a coarser surface as well
+FINE: Final = 200  # A body with at least this number of triangles also has a coarser surface
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -31,7 +31,9 @@ class Piece:
 
 @dataclass(slots=True)
 class Meshes:
-    """The meshes of bodies. Each body has a fine mesh, and also a coarse one if that has far fewer corners."""
+    """The meshes of bodies. Each body has a fine mesh, and also a coarse mesh if the coarse mesh has far fewer
+    corners.
+    """
 
     told: list[dict[str, Any]] = field(default_factory=list)
     """Data for the page on each mesh: `fine` and `coarse`, first corner and number of corners of the triangles;

@@ -1,6 +1,6 @@
 """Packs arrays for a page into few bytes: a JSON header, followed by the arrays, all compressed.
 
-Arrays are stored by column, as differences of successive values. These contain many repeated bytes, which
+Arrays are stored by column, as differences of successive values. The differences contain many repeated bytes, which
 compress well.
 """
 

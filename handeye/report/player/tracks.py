@@ -12,9 +12,9 @@ from handeye.core.pose import Array
 from handeye.report.player.packing import columns, packed, quantised, rounded, zigzag
 from handeye.trace.messages import Poses
 
-PLACE: Final = 1.5e-4  # How far a body may be from where it was, m, before numbers are rounded
-TURN: Final = 2e-3  # How far it may be turned, rad
-_STILL: Final = 1e-6  # What is no movement: m, and parts of a quaternion
+PLACE: Final = 1.5e-4  # Tolerance of an interpolated position, m, before numbers are rounded
+TURN: Final = 2e-3  # Tolerance of an interpolated rotation, rad
+_STILL: Final = 1e-6  # Changes too small to be movement: m, and components of a quaternion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -143,8 +143,8 @@ class Mal:
         return self._machine.status(NUMBERS[axis]).name.lower()
 
     def interleavings(self, most: int = 50_000) -> list[str]:
-        """Try every order in which the tasks may run, whatever the time that each takes. Returns the report of
-        `handeye sigma check --interleavings`, a line each.
+        """Try every order in which the tasks may run, however long each task takes. Returns the lines of the report
+        that `handeye sigma check --interleavings` prints.
 
         Args:
             most: number of states after which the search ends.
@@ -153,8 +153,9 @@ class Mal:
 
     @property
     def history(self) -> Mapping[str, Array]:
-        """What has truly happened on the gantries, a row for each millisecond: `time` (s), `place` (mm) and `force`
-        on the wrists (N), both with columns X1, Y1, Z1, X2, Y2, Z2."""
+        """The true motion of the gantries, one row for each millisecond: `time` (s), `place` (mm) and `force` on
+        the wrists (N), both with columns X1, Y1, Z1, X2, Y2, Z2.
+        """
         self._physics()
         times, places, forces = zip(*self._rows, strict=True) if self._rows else ((), (), ())
         shape = (len(times), len(AXES))

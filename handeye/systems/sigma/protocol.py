@@ -10,7 +10,7 @@ from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.record import Record
 from handeye.ports.microbus import COMMAND_BYTES, Command
 
-STEP_MM: Final = 0.0375  # travel of one step
+STEP_MM: Final = 0.0375  # mm, travel of one step
 STEPS_PER_TURN: Final = 400
 FORCE_STEP_N: Final = 0.01  # of forces and thresholds on the bus
 STANDARD: Final = 0xFFFF  # a threshold that restores the standard one
@@ -45,19 +45,19 @@ class Timing(Record, frozen=True, kw_only=True):
     slot: int = 20  # from byte to byte of a command
     strobe_falls: int = 2  # /DATA READY, after the first byte begins
     strobe_rises: int = 12
-    poll: int = 5  # a free microcomputer looks at /DATA READY so often
+    poll: int = 5  # between two looks of a free microcomputer at /DATA READY
     interrupt: int = 3  # from the fall of /DATA READY until an interrupt is served
     sample: int = 2  # from seeing a strobe until the data are taken
     check: int = 3  # to compare the first byte with a number
-    act: int = 4  # to carry out a command that moves nothing
+    act: int = 4  # to execute a command that moves nothing
     prepare: int = 20  # from a question until its first byte
     answer: int = 100  # from byte to byte of an answer
     answer_low: int = 50  # /ANSWER READY and data, from the beginning of each
     guard: int = (
-        20  # the bus is watched longer than the last byte by this time for one that was not asked for
+        20  # after the last byte, for which the bus is watched for a byte that was not requested
     )
     time_limit: int = 5_000  # until each byte of an answer
-    settle: int = 0  # until a data line that has changed reads so
+    settle: int = 0  # from the change of a data line until its new level can be read
     scan: int = 1_000  # of a force microcomputer, all its channels
     hand: int = 150_000  # that a hand opens or closes
 
@@ -79,7 +79,7 @@ class Op(IntEnum):
     SET_POSITION = 0x07
     FORCE = 0x21  # asks
     THRESHOLD = 0x22
-    PEAK_FORCE = 0x23  # asks for the greatest force since it was asked last
+    PEAK_FORCE = 0x23  # asks for the greatest force since the last such question
     ACTUATE = 0x31
     BEAM = 0x32  # asks
     SENSE = 0x41  # asks a sensor of a newer kind; the length of its answer is its own

@@ -125,8 +125,8 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 SEATED: Final = 2e-4
-"""Greatest height of the shoulder above the face at which a pin counts as seated (m). Chosen: a hundredth of
-its descent.
+"""Greatest height of the shoulder above the face at which a pin counts as seated (m). Our choice: a hundredth of
+the pin's descent.
 """
 
 

@@ -9,7 +9,7 @@ from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD
 from handeye.tasks.stanford_cell.arm_variation import arm, hand, rubbing
 from handeye.tasks.stanford_cell.arm_world import ArmWorld, arm_values
 
-REACH: Final = 40.0  # how far off the hole can be along an axis, mm
+REACH: Final = 40.0  # greatest displacement of the hole along an axis, mm
 _RUBBING: Final = ("pad", "part")
 
 
@@ -42,7 +42,7 @@ class InsertionWorld(ArmWorld):
 
     clearance: float  # diameter of the hole over that of the pin's nose, m
     chamfer: float  # width of the chamfer around the hole, m
-    plate: tuple[float, float]  # how far the hole is off, x and y, m
+    plate: tuple[float, float]  # displacement of the hole, x and y, m
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:

@@ -9,8 +9,8 @@ on is woken explicitly.
 
 *Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on,
 welds hold the two layers, and the contacts between them are switched off, because they take most of the stack's
-computing time. The contacts are switched on again if a hand, a shank or any other body pushes a layer sideways
-by more than the friction or lifts it by more than the clamping force, or if fewer than two screws clamp the
+computing time. The contacts are switched on again if a hand, a shank or any other body pushes a layer sideways with
+more than the friction force or lifts it with more than the clamping force, or if fewer than two screws clamp the
 layers.
 """
 

@@ -36,7 +36,7 @@ class Break(Record, frozen=True, kw_only=True):
     """An interruption."""
 
     kind: BreakKind
-    after: Count  # Count since the run went on, in the unit of its kind
+    after: Count  # Count since the run continued, in the unit of its kind
 
     def __str__(self) -> str:
         return f"{self.kind}:{self.after}"

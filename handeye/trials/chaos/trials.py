@@ -119,7 +119,7 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     """The result of executing a schedule."""
 
     schedule: str
-    ended: str  # The kind of its last pause; `error`: it raised what nothing should
+    ended: str  # The kind of its last pause; `error`: an exception that should never occur
     broken: tuple[Violation, ...]
 
     @property

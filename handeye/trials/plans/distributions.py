@@ -12,7 +12,7 @@ from handeye.trials.figures import rate
 from handeye.trials.plans.row import Row
 from handeye.trials.sweep import Details
 
-ALIKE: Final = 1e-3  # Part of their mean by which margins may vary and still count as equal
+ALIKE: Final = 1e-3  # Fraction of their mean by which margins may vary and still count as equal
 
 
 class StageTime(Record, frozen=True, kw_only=True):
@@ -30,7 +30,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
     at: str
     n: int
-    found: int  # How many did not end in vain
+    found: int  # How many found the right place
     median: float
     p95: float
     most: int

@@ -19,13 +19,13 @@ class Contact(Record, frozen=True, kw_only=True):
 
     operation: str
     at: str  # The position
-    done: bool  # The program went on behind it
+    done: bool  # The program continued after the operation
 
 
 class SearchEnd(Record, frozen=True, kw_only=True):
     """How one search of a trial ended."""
 
-    at: str  # The position that it is around
+    at: str  # The position around which the program searched
     places: int  # tried, the first included
     found: bool  # True if the last place was the right one
 

@@ -112,7 +112,7 @@ def test_the_straight_motions_add_up_to_where_the_perfect_motors_are() -> None:
         ("MOVE X1 TO 20, Y1 TO 9 SLOW 5", "with SLOW, several axes leave a straight line"),
         ("MOVE X2 TO 20", "it uses arm 2, and line 10 uses arm 1"),
         ("ACTUATE BELL", "the arm has no BELL"),
-        ("ORIGIN X1", "an arm has one motion to its origin: name all three axes"),
+        ("ORIGIN X1", "ORIGIN is a single motion of the arm: name all three axes"),
         ("IF BEAM(1) = 1 THEN 10", "an IF can only compare ABS(FORCE(axis)) with a number"),
         ("IF ABS(FORCE(X1)) > 3 THEN 10", "a test of FORCE must follow the MOVE of this axis alone"),
     ],
@@ -134,7 +134,7 @@ def test_a_place_that_depends_on_the_way_is_refused_and_so_is_one_out_of_reach()
     (told,) = refused("10 MOVE X1 TO 20\n")
     assert "the place of Y1 and Z1 is not known here" in told
     (told,) = refused("10 ORIGIN X1, Y1, Z1\n20 MOVE X1 BY 5\n30 LIMIT X1, 9\n40 GOTO 20\n")
-    assert "its LIMIT or SPEED depends on the way" in told
+    assert "its LIMIT or SPEED depends on how the program reached this line" in told
     far = bridge((3000.0, 0.0))
     program, _ = far.compile(Source(name="press.mal", text=PRESS), Taught())
     assert program is not None

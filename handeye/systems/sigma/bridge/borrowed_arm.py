@@ -1,8 +1,8 @@
 """The Stanford arm in place of arm 1: the words of axes drive its tool coordinates, and there is no bus.
 
 The central computer sends the same commands as to the motors of SUPERSIGMA, but nothing carries them as bytes: they
-set goals of the tool (`execution/tool_axes.py`), one in each servo period of 1/60 s. Times, places and commands are
-those of the perfect motors, and each motion takes as long as this arm needs.
+set goals of the tool (`execution/tool_axes.py`), one in each servo period of 1/60 s. Commands, places and times are
+handled as for perfect motors, except that each motion takes as long as this arm needs.
 """
 
 import math
@@ -35,11 +35,11 @@ from handeye.systems.sigma.protocol import (
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
-FASTEST: Final = 150.0  # mm/s: at it, the arm feels up to some 5 N of its own in the air
+FASTEST: Final = 150.0  # mm/s: at this speed, the arm feels up to about 5 N in free motion
 QUINTIC: Final = 1.875  # greatest speed of a smooth motion from rest to rest, over its mean speed
 SETTLES: Final = 0.15  # s from the last goal until the arm has arrived
 HAND_S: Final = 1.0  # in which the fingers open or close
-_START_SPEED: Final = 0.1  # m/s, on the way to where the power finds the axes
+_START_SPEED: Final = 0.1  # m/s, on the way to the places of the axes at power-on
 _AXES: Final = tuple(NUMBERS[f"{component}1"] for component in COMPONENTS)
 _FORCE: Final = NUMBERS["FORCE1"]
 _HAND: Final = NUMBERS["HAND1"]
@@ -55,7 +55,7 @@ class BorrowedArm(PerfectMotors):
     """
 
     def __init__(self, drive: ArmDrive, at: tuple[float, float] = AT) -> None:
-        """Take an arm that is held in place, and bring its tool to where the power finds the axes."""
+        """Take an arm that is held in place, and bring its tool to the places of the axes at power-on."""
         super().__init__()
         self._drive, self._axes, self._at = drive, ToolAxes(drive), at
         self._limits: dict[int, float | None] = dict.fromkeys(_AXES)  # N
@@ -137,7 +137,7 @@ class BorrowedArm(PerfectMotors):
         return s if number in self._slow else s**3 * (10 - 15 * s + 6 * s * s)
 
     def _approach(self) -> None:
-        """Move the tool straight to where the power finds the axes."""
+        """Move the tool straight to the places of the axes at power-on."""
         here, goal = self._axes.read().q, self._goal()
         steps = math.ceil(float(np.abs(goal - here)[:3].max()) / _START_SPEED / self._axes.period)
         for share in [*np.linspace(0, 1, steps + 1)[1:], *np.ones(20)]:

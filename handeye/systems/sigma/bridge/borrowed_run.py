@@ -29,9 +29,9 @@ class BorrowedRun(Record, frozen=True, kw_only=True):
     """The results of a program on the borrowed arm."""
 
     completed: bool
-    message: str  # why it did not finish; empty: it did
+    message: str  # why the program did not finish; empty if it did
     seconds: float
-    commands: int  # that the computer gave; none of them was sent over a bus
+    commands: int  # commands of the computer; none of them was sent over a bus
     bus: bool = False
     most_n: float  # the greatest force that the arm felt along an axis
     error_mm: float  # greatest distance of the tool from the counts at the end, along an axis

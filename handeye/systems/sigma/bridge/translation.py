@@ -134,7 +134,7 @@ def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
                 line, "with SLOW, several axes leave a straight line; use LINE, or one MOVE for each axis"
             )
         elif word == "ORIGIN" and len(statement.names) != len(COMPONENTS):
-            yield _refused(line, "an arm has one motion to its origin: name all three axes")
+            yield _refused(line, "ORIGIN is a single motion of the arm: name all three axes")
         elif word == "ACTUATE" and (why := _device(statement)):
             yield _refused(line, why)
 
@@ -238,7 +238,7 @@ class _Translation:
         limits = [before.limits[name] for name in moved]
         settings = [*limits, *(before.speeds[name] for name in moved)]
         if any(isinstance(value, Unknown) for value in settings):
-            self._refuse(line, "its LIMIT or SPEED depends on the way by which the program comes here")
+            self._refuse(line, "its LIMIT or SPEED depends on how the program reached this line")
             return []
         for name, place in moved.items():
             most = TRAVEL[name] * STEP_MM

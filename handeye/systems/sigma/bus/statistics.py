@@ -17,13 +17,13 @@ _AT_ONCE: Final = 10_000  # commands whose numbers are drawn together
 class Rate(Record, frozen=True, kw_only=True):
     """Counts of random commands, each sent to one free microcomputer."""
 
-    clock: float  # the most that a clock is off, as a share
+    clock: float  # greatest clock error, as a fraction
     commands: int
     whole: int  # taken as they were sent
-    missed: int  # the microcomputer became free when the strobe was over
+    missed: int  # the microcomputer became free after the strobe
     misread: int
-    fast: float | None  # the least that a fast clock was off whose receiver misread one; None: none did
-    slow: float | None  # of a slow one
+    fast: float | None  # least error of a fast clock with which a receiver misread a command; None: none did
+    slow: float | None  # the same for a slow clock
 
 
 def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None = None) -> Rate:

@@ -28,7 +28,7 @@ def axis(
     ] = None,
     load: Annotated[float, Parameter(help="Force against the motion, N.")] = 0.0,
     stop_after: Annotated[
-        float | None, Parameter(help="Stop the motor in an emergency after this time, ms.")
+        float | None, Parameter(help="Make an emergency stop after this time, ms.")
     ] = None,
     cut: Annotated[
         bool, Parameter(negative=(), help="Stop by sending no more pulses, instead of by the steepest ramp.")

@@ -18,16 +18,17 @@ def borrow(
         tuple[float, float] | None,
         Parameter(help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres."),
     ] = None,
-    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: it decides the errors of the arm.")] = 0,
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: it determines the errors of the arm.")] = 0,
     json: Json = False,
 ) -> int:
-    """Run a MAL program with the Stanford arm in place of arm 1: its axes are those of the tool, and there is no bus.
+    """Run a MAL program with the Stanford arm in place of arm 1: X1, Y1 and Z1 move the tool of that arm, and there
+    is no bus.
 
-    The arm moves over the table of the water-pump cell. It moves at up to 150 mm/s. Without LIMIT, no force stops it;
-    after LIMIT, a force stops it within a servo period of 1/60 s. Programs that use arm 2, a light beam or another
-    device than HAND1 are refused. The run is not kept.
+    The arm moves over the table of the water-pump cell. It moves at up to 150 mm/s. Without LIMIT, no force stops
+    the arm; after LIMIT, a force above the limit stops the arm within a servo period of 1/60 s. Programs that use
+    arm 2, a light beam or a device other than HAND1 are refused. The run is not kept.
 
-    Exit code 0: all tasks have ended; 1: the program stopped before; 2: bad input; 130: interrupted.
+    Exit code 0: all tasks have ended; 1: the program stopped before its end; 2: bad input; 130: interrupted.
     """
     from handeye.cli.panic_button import PanicButton
     from handeye.core.source import read_source

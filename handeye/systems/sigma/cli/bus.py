@@ -77,8 +77,9 @@ def demo(
 ) -> int:
     """Send a command and ask a question; show the signals on all lines and the bytes that each receiver takes.
 
-    From its second byte on, the command to X1 reads like a command to Y1. If Y1 becomes free in its middle
-    (`--late-riser`), Y1 ignores these bytes; with `--fault long-strobe` too, it takes them for its own.
+    From its second byte on, the command to X1 reads like a command to Y1. If Y1 becomes free in the middle of that
+    command (`--late-riser`), Y1 ignores these bytes; if `--fault long-strobe` is given too, Y1 takes the bytes for
+    its own command.
 
     Exit code 0: every byte arrived as it was sent; 1: a byte was misread; 2: bad input.
     """
@@ -138,9 +139,10 @@ def run(
 ) -> int:
     """Run a program in MAL over the wires, and say how busy the bus and the computer were.
 
-    The diagram is drawn only with --out, of the whole run or of a part. `handeye sigma run --arm wired` keeps a run.
+    With --out, the command draws a diagram of the whole run or of a part. `handeye sigma run --arm wired` keeps a
+    run.
 
-    Exit code 0: all tasks have ended; 1: the program stopped before; 2: bad input; 130: interrupted.
+    Exit code 0: all tasks have ended; 1: the program stopped before its end; 2: bad input; 130: interrupted.
     """
     from handeye.cli.panic_button import PanicButton
     from handeye.core.source import read_source

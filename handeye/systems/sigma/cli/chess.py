@@ -32,12 +32,12 @@ def chess(
 ) -> int:
     """Find chess pieces along three lines, measure their heights with a light beam, and sort them: the paper's example.
 
-    `plans/chess.mal` runs on two simulated gantries in a world drawn from a seed. A referee then looks: each piece has
-    to stand on the line of its height, within 5 mm and 3 degrees, and each measured height has to be right within
-    .6 mm.
+    `plans/chess.mal` runs on two simulated gantries in a world drawn from a seed. A referee then checks that each
+    piece stands on the line for its height, within 5 mm and 3 degrees, and that each measured height is right
+    within .6 mm.
 
-    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
-    input; 130: interrupted.
+    Exit code 0: right; 1: the program stopped before its end; 3: the program ended, but the referee disagrees; 2:
+    bad input; 130: interrupted.
     """
     from handeye.systems.sigma.run.jobs import job_plan
 
@@ -60,11 +60,11 @@ def chess_trials(
 ) -> int:
     """Sort the pieces of many boards: how often all are right, errors of heights and places, and the load of the bus.
 
-    Each trial is that of `handeye sigma chess`. Ctrl-C ends the batch and prints what has finished; with --out it can
-    be continued.
+    Each trial does what `handeye sigma chess` does. Ctrl-C ends the batch and prints the trials that have finished;
+    with --out, the same command continues the batch.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+        the referee disagrees.
     """
     from handeye.systems.sigma.run.job_trials import CHESS_TRIALS
     from handeye.systems.sigma.run.jobs import job_plan

@@ -91,8 +91,8 @@ def run(
 ) -> int:
     """Run a program: a step is one statement of the task whose turn it is.
 
-    Exit code 0: all tasks have ended; 1: the program stopped before (an abort, a deadlock, or a statement that cannot
-    be executed); 2: bad input; 130: interrupted.
+    Exit code 0: all tasks have ended; 1: the program stopped before its end (an abort, a deadlock, or a statement
+    that cannot be executed); 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.core.variation import WorldSpec

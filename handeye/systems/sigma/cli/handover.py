@@ -32,12 +32,12 @@ def handover(
 ) -> int:
     """Hand four pieces from arm to arm: arm 1 brings them, arm 2 presses their pins in and takes them away.
 
-    `plans/handover_pieces.mal` runs on two simulated gantries in a world drawn from a seed. A referee then looks: each
-    piece has to stand at its last place, within 3 mm and 3 degrees, with its pin pressed in to within .5 mm; the
-    program has to have counted the pieces that are finished; and the arms must not have touched each other.
+    `plans/handover_pieces.mal` runs on two simulated gantries in a world drawn from a seed. A referee then checks
+    that each piece stands at its last place, within 3 mm and 3 degrees, with its pin pressed in to within .5 mm;
+    that the program counted the finished pieces correctly; and that the arms never touched each other.
 
-    Exit code 0: right; 1: the program has stopped before its end, for example at a deadlock or because the arms
-    collided; 3: it has ended, and the referee disagrees; 2: bad input; 130: interrupted.
+    Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because the arms
+        collided; 3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.systems.sigma.handover.pieces import MOST
 
@@ -54,11 +54,11 @@ def handover_trials(
 ) -> int:
     """Hand four pieces from arm to arm on many boards: how often all is right, errors of places, and load of the bus.
 
-    Each trial is that of `handeye sigma handover`. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye sigma handover` does. Ctrl-C ends the batch and prints the trials that have
+    finished; with --out, the same command continues the batch.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+        the referee disagrees.
     """
     from handeye.systems.sigma.handover.pieces import MOST
     from handeye.systems.sigma.run.job_trials import HANDOVER_TRIALS

@@ -35,15 +35,15 @@ def insert(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: JobOptions = ANY_RUN,
 ) -> int:
-    """Square pegs in a rack, and find the holes for them by force, with both arms.
+    """Straighten pegs in a rack, and find the holes for them by force, with both arms.
 
     `plans/insert.mal` runs on two simulated gantries in a world drawn from a seed. Pegs stand turned by up to 20
-    degrees, and plates lie up to 3 mm beside their places. A referee then looks: each peg has to stand in its hole, no
-    plate may have moved by more than 1 mm, no wrist may have felt more than 25 N, no motor may have lost a step, the
-    program has to have counted the inserted pegs, and the arms must not have touched each other.
+    degrees, and plates lie up to 3 mm beside their places. A referee then checks that each peg stands in its hole,
+    no plate moved by more than 1 mm, no wrist felt more than 25 N, no motor lost a step, the program counted the
+    inserted pegs correctly, and the arms never touched each other.
 
-    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
-    input; 130: interrupted.
+    Exit code 0: right; 1: the program stopped before its end; 3: the program ended, but the referee disagrees; 2:
+    bad input; 130: interrupted.
     """
     _check_pegs(pegs)
     plan = job_or_own_plan("insert", pegs, file)
@@ -65,11 +65,11 @@ def insert_trials(
 ) -> int:
     """Insert the pegs of many boards: how often all is right, forces, and the load of the bus.
 
-    Each trial is that of `handeye sigma insert`. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye sigma insert` does. Ctrl-C ends the batch and prints the trials that have
+    finished; with --out, the same command continues the batch.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+        the referee disagrees.
     """
     from handeye.systems.sigma.run.job_trials import INSERTION_TRIALS
     from handeye.systems.sigma.run.jobs import job_plan

@@ -30,7 +30,7 @@ NumberOfBoards = Annotated[
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobOptions(judged_jobs.JobOptions):
-    """Options of a run of a job, except its world."""
+    """Options for running a job, except its world."""
 
     fault: Faults = None
 

@@ -33,15 +33,16 @@ def line(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: JobOptions = ANY_RUN,
 ) -> int:
-    """Run an assembly line: a feeder brings pieces, two SUPERSIGMAs press a pin each into them, a belt withdraws them.
+    """Run an assembly line: a feeder brings pieces, each of two SUPERSIGMAs presses a pin into every piece, and a
+    belt withdraws them.
 
     `plans/line.mal` runs on four simulated arms, a feeder and a belt in a world drawn from a seed: 26 microcomputers on
-    one bus of three segments. A referee then looks: each piece has to stand at its place on the belt, within 3 mm and 3
-    degrees, with both pins pressed in to within .5 mm; the program has to have counted the pieces that are finished;
-    and no arms must have touched each other.
+    one bus of three segments. A referee then checks that each piece stands at its place on the belt, within 3 mm
+    and 3 degrees, with both pins pressed in to within .5 mm; that the program counted the finished pieces
+    correctly; and that no arms touched each other.
 
-    Exit code 0: right; 1: the program has stopped before its end, for example at a deadlock or because arms collided;
-    3: it has ended, and the referee disagrees; 2: bad input; 130: interrupted.
+    Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because arms collided;
+        3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.
     """
     _check_pieces(pieces)
     plan = job_or_own_plan("line", pieces, file)
@@ -63,11 +64,11 @@ def line_trials(
 ) -> int:
     """Run the assembly line in many worlds: how often all is right, errors of places, and the load of the bus.
 
-    Each trial is that of `handeye sigma line`. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye sigma line` does. Ctrl-C ends the batch and prints the trials that have finished;
+    with --out, the same command continues the batch.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+        the referee disagrees.
     """
     from handeye.systems.sigma.run.job_trials import LINE_TRIALS
     from handeye.systems.sigma.run.jobs import job_plan

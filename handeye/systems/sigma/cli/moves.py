@@ -17,9 +17,9 @@ def moves(
     seed: FirstSeed = 0,
     json: Json = False,
 ) -> int:
-    """Move fast in empty space, with the accelerometers of the wrists and without: forces, and false reflexes.
+    """Make fast moves in empty space, with and without the accelerometers of the wrists: forces, and false stops.
 
-    Exit code 0: with accelerometers no reflex stopped a move; 1: some did; 2: bad input.
+    Exit code 0: with accelerometers, no reflex stopped a move; 1: a reflex stopped a move; 2: bad input.
     """
     from handeye.systems.sigma.gantries.free_moves import free_moves, lines
 

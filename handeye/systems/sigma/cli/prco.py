@@ -24,13 +24,13 @@ def prco(
 ) -> int:
     """Assemble the plate of the pump with two arms: arm 1 lays it down and puts in two pins, arm 2 drives six screws.
 
-    `plans/prco.mal` runs on two simulated gantries in a world drawn from a seed. A referee then looks: the plate has
-    to lie on its base, with both pins at the bottom of their holes and each screw in its thread, its head at its seat
-    and clamped with at least 40 N; the program has to have counted the pins and screws that are right; and the arms
-    must not have touched each other.
+    `plans/prco.mal` runs on two simulated gantries in a world drawn from a seed. A referee then checks that the
+    plate lies on its base, with both pins at the bottom of their holes; that each screw is in its thread, with its
+    head at its seat and a clamping force of at least 40 N; that the program counted the pins and screws in place
+    correctly; and that the arms never touched each other.
 
-    Exit code 0: right; 1: the program has stopped before its end, for example because a screw did not reach its seat;
-    3: it has ended, and the referee disagrees; 2: bad input; 130: interrupted.
+    Exit code 0: right; 1: the program stopped before its end, for example because a screw did not reach its seat;
+        3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.systems.sigma.prco.drawing import MOST
 
@@ -47,11 +47,11 @@ def prco_trials(
 ) -> int:
     """Assemble the plate of the pump in many worlds: how often all is right, depth and clamp of screws, and bus load.
 
-    Each trial is that of `handeye sigma prco`. Ctrl-C ends the batch and prints what has finished; with --out it can
-    be continued.
+    Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished;
+    with --out, the same command continues the batch.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+        the referee disagrees.
     """
     from handeye.systems.sigma.prco.drawing import MOST
     from handeye.systems.sigma.run.job_trials import PRCO_TRIALS

@@ -10,7 +10,7 @@ def table1(*, json: Json = False) -> int:
     Layer 1 repeats one move. Layer 2 runs programs like those of the paper, `table1_*.mal` in `plans`. All motors are
     perfect.
 
-    Exit code 0: all claims of the paper hold; 1: one does not; 2: bad input.
+    Exit code 0: all claims of the paper hold; 1: a claim does not hold; 2: bad input.
     """
     from handeye.systems.sigma.table1 import lines
     from handeye.systems.sigma.table1 import table1 as measured

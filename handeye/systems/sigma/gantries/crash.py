@@ -75,8 +75,8 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
         speed: speed of arm 1 (mm/s), or None for the greatest speed that a motor reaches over the distance.
         reflex: True if the wires from the wrists to the motors are connected.
         endless_loop: True if the central computer hangs after it has sent the move, and reads no status.
-        lower: the arm whose hand is lower, so that the other one is hit above its wrist, or hits with what is above
-            it; 0: the hands meet.
+        lower: the arm whose hand is lower, so that the other arm is hit above its wrist, or hits with its column
+            above the wrist; 0: the hands meet.
     """
     if speed is not None and not SLOWEST <= speed <= FASTEST:
         raise BadArgument(f"a constant speed must be between {SLOWEST:g} and {FASTEST:g} mm/s, not {speed:g}")
@@ -104,7 +104,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
             vm.settle()
     _pass(bus)
     if endless_loop:
-        message = "nothing: the central computer hangs, and takes its command as executed"
+        message = "nothing: the central computer hangs, and assumes that its command was executed"
     else:
         message = vm.memory.fault.told if vm.memory.fault else f"ARRIVED AT {GOAL:g}"
     axes = tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS)

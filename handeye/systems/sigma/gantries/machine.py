@@ -42,7 +42,7 @@ from handeye.systems.sigma.protocol import AXES, COMPONENTS, DEVICES, LINE_NUMBE
 
 SCENE: Final = "supersigma/supersigma.xml"
 CAMERA: Final = "people"
-SWITCHED_ON_AT: Final = 400  # steps from its low switch where the power finds each axis
+SWITCHED_ON_AT: Final = 400  # steps of each axis from its low switch at power-on
 DIFFERENTIAL: Final = 2e-4  # m by which a switch is released later than it acts
 OPEN: Final = 0.044  # m between the fingers
 TICK: Final = 1000 * PS  # of the physics, ps

@@ -30,7 +30,7 @@ _IN_HOLE: Final = (HOLE - SIDE) / 2 + 0.5  # mm from the middle of a hole to tha
 
 
 class Insertion(JobTask):
-    """Square pegs in a rack, and insert them into plates that are not where they should be."""
+    """Straighten pegs in a rack, and insert them into plates that are displaced from their nominal places."""
 
     name = "insert"
     words = Words(product="the insertion", done="Each peg is in its hole.")

@@ -287,7 +287,7 @@ class _Check:
                 task, where = first.setdefault(axis.text, (line.task, axis))
                 if task != line.task and (axis.text, line.task) not in told_of:
                     told_of.add((axis.text, line.task))
-                    label = Label(span=where.span, text=f"{task} moves it here")
+                    label = Label(span=where.span, text=f"the task {task} moves {axis.text} here")
                     told = f"the tasks {task} and {line.task} both move {axis.text}"
                     yield mistake("axis-shared", told, axis.span, label)
 

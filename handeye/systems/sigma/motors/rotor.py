@@ -65,7 +65,7 @@ class Followed:
 
     lost: int  # poles by which it is behind at the end; negative: ahead
     lag: float  # the greatest, steps
-    margin: float  # the least of pull-out force over the force that is wanted; below 1 it cannot follow
+    margin: float  # least ratio of the pull-out force to the required force; below 1 the rotor cannot follow
     tightest: float  # s, when
     rotor: NDArray[np.float64]  # steps it has made, each `period`
     period: float  # s

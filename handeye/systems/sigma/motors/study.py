@@ -31,8 +31,8 @@ class Moment(Record, frozen=True, kw_only=True):
 
     time: float  # s
     speed: float  # steps/s
-    force: float  # N that is asked for
-    pull_out: float  # N that there is
+    force: float  # N, required
+    pull_out: float  # N, available: the pull-out force
 
 
 class AxisStudy(Record, frozen=True, kw_only=True):
@@ -47,7 +47,7 @@ class AxisStudy(Record, frozen=True, kw_only=True):
     seconds: float
     top: float  # steps/s
     moments: tuple[Moment, ...]
-    margin: float  # the least of pull-out force over the force that is asked for
+    margin: float  # least ratio of the pull-out force to the required force
     tightest: float  # s, when
     starts: bool  # the rotor can follow the jump to start/stop speed by itself
     lag: float  # the greatest by the sine, steps; the rotor slips at 2

@@ -25,7 +25,7 @@ from handeye.systems.sigma.run.system import SIGMA
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 _ENDED: Final = {0: "right", 1: "stopped", 3: "silent"}
-_LONGEST: Final = 600.0  # s of simulated time, after which a program is taken for one that never ends
+_LONGEST: Final = 600.0  # s of simulated time after which a program counts as endless
 
 
 class MalFaultRow(TrialRow, frozen=True, kw_only=True):

@@ -21,12 +21,12 @@ class BusRun(Record, frozen=True, kw_only=True):
     """The results of a program on the bus."""
 
     completed: bool
-    message: str  # why it did not finish; empty: it did
+    message: str  # why the program did not finish; empty if it did
     seconds: float
     commands: int  # questions among them
     per_second: float
-    saturation: float  # share of the most that the bus carries
-    idle: float  # share of the time in which no statement could be carried out
+    saturation: float  # fraction of the greatest number of commands that the bus can carry
+    idle: float  # fraction of the time in which no statement could be executed
     misread: int  # frames that receivers took and that were never sent
 
 

@@ -53,7 +53,7 @@ class KeptOptions:
     ] = None
     video: Annotated[
         Path | None,
-        Parameter(help="Video of the job, .webp, .webm or .mp4, 20 s long at most."),
+        Parameter(help="File for a video of the job (at most 20 s): .webp, .webm or .mp4."),
     ] = None
     overwrite: Overwrite = False
 
@@ -111,8 +111,8 @@ def bucket(
     """Drop a block into a bucket, and put another block in its place: the paper's first example, with physics.
 
     The program is taught and run in a random world, and a referee judges it. It is not run backwards, because a block
-    in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows where that
-    stops).
+    in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows where the
+    attempt stops).
 
     Exit code 0: done and right; 1: the arm stopped before that; 3: done, but the referee disagrees; 2: bad input;
     130: interrupted.
@@ -240,8 +240,8 @@ def pallet_trials(
     Each trial does what `handeye trig palletise` does: the program is taught, run, judged, undone and judged again.
     Ctrl-C ends the batch and prints the trials that have finished.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program reported success, but the
-    referee disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program reported
+    success, but the referee disagrees.
     """
     from handeye.systems.trig.jobs.benches import MOST_BLOCKS
     from handeye.systems.trig.run.pallet_trials import PALLET, PalletWork

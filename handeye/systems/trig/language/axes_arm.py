@@ -27,8 +27,8 @@ from handeye.systems.trig.language.trig_arm import (
 APPROACH: Final = 5e-3  # m of vertical approach when setting down: a slanted path would push over a stack
 DEEPER: Final = 2e-3
 """Distance below a place (m) within which the arm must find support when it puts an object back. Places are
-taught with an accuracy of .3 mm, so an object may have dropped by two or three times that, and have been
-grasped that much higher.
+taught with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released, and have been
+grasped that much too high.
 """
 AGAIN: Final = 1.5
 """Permitted force during a reversal, as a multiple of the force met in the move itself. It is the same as for
@@ -156,7 +156,7 @@ class AxesArm(TrigArm):
 
     def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
         """Return the obstacle in the way, or None: either a force that exceeds `tare` by more than `limit` (N),
-        or an axis that lags behind. `speed` is that of the n axes (m/s or rad/s, shape (n,)).
+        or an axis that lags behind. `speed` is the speed of the n axes (m/s or rad/s, shape (n,)).
         """
         found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:

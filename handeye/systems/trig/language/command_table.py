@@ -51,7 +51,7 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; a position that is not defined is taught, of the same kind as in the previous move",
+        help="move to a position; if it is not defined, teach it, as absolute or relative like the previous move's",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
@@ -110,7 +110,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="DA [STEP]", group=CHANGES, takes=("step",), act=step_commands.delete_all,
-        help="delete a step and all steps that only it leads to",
+        help="delete a step and all steps that can be reached only through it",
     ),
     TrigCommand(
         usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=step_commands.unlink,

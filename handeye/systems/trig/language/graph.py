@@ -4,7 +4,7 @@ fathers.
 One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other
 edges to the step are links. The own edges form a tree that starts at the top and contains every step. A loop
 has a partner (bloop) above its target step, so that the loop can also be reversed. If several loops return to
-one step, the nearest loop below the step owns the nearest bloop above it, whichever loop was made first.
+one step, the nearest loop below the step owns the nearest bloop above the step, whichever loop was made first.
 """
 
 from collections import deque

@@ -1,7 +1,7 @@
 """An imaginary arm, which reaches every place at once and exactly.
 
-With blocks, it can be used to try out a program without an arm. The blocks do not fall, and they exert a force
-only on top: a guarded move stops there if its vector responds to upward force. All other moves pass through
+With blocks, it can be used to try out a program without an arm. The blocks do not fall, and they exert a force only
+on top: a guarded move stops on top of a block if its vector responds to upward force. All other moves pass through
 blocks.
 """
 

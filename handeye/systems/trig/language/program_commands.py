@@ -17,7 +17,7 @@ _MAX_DISTANCE = 100_000  # steps of the cursor
 
 
 def next_step(session: Session, given: Arguments) -> None:
-    """N: move the cursor down by a number of steps. At a loop, it moves on instead of back."""
+    """N: move the cursor down by a number of steps. At a loop, the cursor moves on instead of back."""
     program = session.program
     for _ in range(_distance(given)):
         branch = session.branch(None)

@@ -34,7 +34,7 @@ VERDICTS: Final[dict[Outcome, str]] = {
     "silent": "done, but the referee disagrees",
     "halted": "interrupted",
 }
-_SIDE: Final = 30.0  # mm, of a block
+_SIDE: Final = 30.0  # mm, side of a block
 _COLUMNS: Final = 110  # characters of a program line
 _WIDE, _HIGH, _BOTTOM = 960.0, 330.0, 325.0
 _PLATTER: Final = (0.0, 300.0)
@@ -80,8 +80,9 @@ def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
 
 def _blocks(done: JobReport) -> Iterator[Markup]:
     above = (
-        "The ground truth, which neither arm nor program sees, from above: outlines of the wanted and the actual "
-        "places of the blocks, numbered in the order of grasping, and a cross at the centre of the platter."
+        "The true scene from above, which neither arm nor program sees: outlines of the wanted and the "
+        "actual places of the blocks, numbered in the order of grasping, and a cross at the centre of the "
+        "platter."
     )
     off = " The chart on the right shows the centre of each block, relative to its wanted place."
     yield note(above + (off if _placed(done) or done.checks_back else ""))

@@ -263,8 +263,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         f"{motor}.slow", "The screwdriver's motor turns at the commanded speed times this factor.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns more slowly seats equally well; half the speed shows, because the motor "
-                "starts sooner.",
+            harmless="A screw that turns more slowly seats equally well; half the speed is noticed, because "
+                "the motor starts sooner.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip

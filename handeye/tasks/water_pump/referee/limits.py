@@ -80,7 +80,7 @@ settle by up to .03 mm; a part without support falls.
 
 HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or touches something is nearer
 
-APART: Final = 3.0  # mm from where the run found a part: what the arm puts back, its next run must find
+APART: Final = 3.0  # mm from where the run found a part: the next run must find what the arm puts back
 APART_GASKET: Final = 6.0
 """Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket in
 its tray draw it along before they lift it, by 3.3 mm in seed 0. The gasket is laid back where it was lifted; at
