@@ -148,7 +148,7 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
         told = f"{quoted(begun.task)}, not to {quoted(str(wanted.of_task))}"
         raise Refused(f"the run in {path} belongs to the task {told}")
     if wanted.spec is not None and wanted.spec != begun.world:
-        raise Refused(f"the run in {path} uses the world of {begun.world}, not that of {wanted.spec}")
+        raise Refused(f"the run in {path} uses the world of {begun.world}, not the world of {wanted.spec}")
     if wanted.camera is not None and wanted.camera != begun.camera:
         raise Refused(f"the run in {path} uses the camera `{begun.camera}`, not `{wanted.camera}`")
 

@@ -94,8 +94,8 @@ def swings_unevenly(arm: ArmModel, M: Array, dither: Array, rates: Array) -> boo
     """Return True if the rate readings of a joint, shape (N, n), change from each swing to the next by more than
     `UNEVEN` of the swing and two converter steps.
 
-    The torques `dither`, shape (n,), N m and N, shake the joints, and change sign in each servo period. The swing is
-    that of a joint without friction: it follows from the inertia and from the damping of the servo.
+    The torques `dither`, shape (n,), N m and N, shake the joints, and change sign in each servo period. The swing
+    is computed for a joint without friction, from the inertia and from the damping of the servo.
     """
     period = arm.servo.period
     swing = np.abs(np.linalg.inv(M)) @ dither * period / (2 - 2 * constants(arm).frequency * period)

@@ -115,7 +115,7 @@ class PhysicsStepper:
         return self._pairs
 
     def _carrying(self) -> bool:
-        """Return True if the only contacts are those of carried parts, or there are none."""
+        """Return True if no parts except carried parts have contacts."""
         self._touching()
         return self._only_carried
 

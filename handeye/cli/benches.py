@@ -1,4 +1,4 @@
-"""Commands of the benches: the timing table next to that of 1973, and insertion."""
+"""Commands of the benches: the table of stage times next to the times of 1973, and insertion."""
 
 import time
 from typing import TYPE_CHECKING, Annotated, Final, Literal
@@ -23,7 +23,7 @@ MOST_SD: Final = 5.0  # mm; with a larger error, most holes would be outside the
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     """Assemble once and print the times of the stages next to those of 1973.
 
-    Exit code 0: the program finished; 1: it stopped and called the operator.
+    Exit code 0: the program finished; 1: the program stopped and called the operator.
     """
     from handeye.core.host_time import HostTimer
     from handeye.results.page import timing as table
@@ -82,10 +82,10 @@ def insertion(
 ) -> int:
     """Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 
-    The arm, hand and servo are those of the pump. The plate has one hole, which is displaced by a normal error along
-    each axis. As with the pump, worlds differ in the errors of arm and hand. A trial begins with the pin held over
-    the hole. Without --clearance, --chamfer and --sd, the command tries a grid around the setting of a published
-    benchmark, which takes some minutes.
+    The arm, hand and servo are the same as in the pump's cell. The plate has one hole, which is displaced by a
+    normal error along each axis. As with the pump, worlds differ in the errors of arm and hand. A trial begins with
+    the pin held over the hole. Without --clearance, --chamfer and --sd, the command tries a grid around the setting
+    of a published benchmark, which takes some minutes.
 
     Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
     program never sees it. Ctrl-C stops the command and prints the trials that have finished.

@@ -95,7 +95,8 @@ Size = Annotated[str, Parameter(help="Width and height in pixels.")]
 Camera = Annotated[
     CameraKind,
     Parameter(
-        help="How to render pictures: with OpenGL, by ray casting, or `auto`: OpenGL if this computer has it."
+        help="How to render pictures: `gl` (OpenGL), `ray` (ray casting), or `auto` (OpenGL if it works here, "
+        "or else ray casting)."
     ),
 ]
 Calibrate = Annotated[

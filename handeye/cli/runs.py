@@ -264,7 +264,7 @@ def resume(
 
     If the run has ended, the command shows its result and changes nothing; with `--step` you can go back in it.
 
-    The folder of a run resumes from its newest valid checkpoint. Exit codes are those of `run`.
+    The folder of a run resumes from its newest valid checkpoint. Exit codes are the same as for `run`.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.reports import shown

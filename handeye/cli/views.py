@@ -50,8 +50,8 @@ def view(
     """Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
 
     Prints the address to open, which contains a secret and works on this computer only. Several pages can
-    show the run, but only one controls it; the other pages neither change nor slow the run. Exit codes are those of
-    `run`, and with --teach those of `teach`; for a recorded run the code is 0 when Ctrl-C ends it.
+    show the run, but only one controls it; the other pages neither change nor slow the run. Exit codes are the same
+    as for `run`, or with --teach for `teach`. For a recorded run, Ctrl-C ends the command with exit code 0.
     """
     from handeye.cli.job import Job, work
     from handeye.core import resources

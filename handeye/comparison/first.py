@@ -154,7 +154,7 @@ class First:
 
     @property
     def place(self) -> Place | None:
-        """The step at which the first run differs, or that of the second run if the first run has ended."""
+        """The step at which the first run differs, or the step of the second run if the first run has ended."""
         return self.a or self.b
 
 

@@ -124,8 +124,8 @@ ERRORS: Final[dict[int, str]] = {
     PICTURE_WRONG: "the camera's picture is not live, or is too noisy",
     JOINT_STIFF: "one joint alone does not follow its drive: its drive, brake or friction has changed",
 }
-"""Error numbers that a script can test, with the message to the operator. Numbers 2 and 23 are those of 1973;
-numbers from 50 on mean a faulty sensor.
+"""Error numbers that a script can test, with the message to the operator. Numbers 2 and 23 are from 1973; numbers
+from 50 on mean a faulty sensor.
 """
 
 

@@ -86,7 +86,7 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
     used = {other.macro for other in others if same(other, name)} - {""}
     for other in others if new != name.name else ():
         if other.name == new and other.macro in used and PARAMETER in (other.kind, name.kind):
-            raise Refused(f"in macro {quoted(other.macro)} {quoted(new)} already has another meaning")
+            raise Refused(f"{quoted(new)} already has another meaning in macro {quoted(other.macro)}")
     return [Edit(span=f.span, text=new, taught=f.taught, file=f.file) for _, f in _all(document, name)]
 
 

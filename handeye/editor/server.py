@@ -44,8 +44,9 @@ class ArmServer(LanguageServer):
         return EditedScript(self.workspace, uri)
 
     def diagnostics(self, script: EditedScript) -> list[Diagnostic]:
-        """Return the present diagnostics of a script. Those of the planner are included only if they were
-        computed for the present text."""
+        """Return the present diagnostics of a script. The planner's diagnostics are included only if they were
+        computed for the present text.
+        """
         whole, taught, problems = self.planned.get(script.uri, (None, None, []))
         known = problems if (whole, taught) == (script.document.whole, script.document.taught) else []
         return [*script.diagnostics(), *known]
@@ -73,8 +74,9 @@ class ArmServer(LanguageServer):
         )
 
     async def check(self, uri: str) -> None:
-        """Send the client the diagnostics of the text at once, and those of the planner after a pause in
-        typing."""
+        """Send the client the diagnostics of the text at once, and the planner's diagnostics after a pause in
+        typing.
+        """
         if (language := own_language(uri)) is not None:
             await self.publish_own(uri, language)
             return

@@ -125,7 +125,7 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def page(self, number: int) -> int:
-        """Return ten status lines at once, those of microcomputers 5n to 5n + 4. Lines A are in bits 1, 3, 5, 7
+        """Return ten status lines at once: the lines of microcomputers 5n to 5n + 4. Lines A are in bits 1, 3, 5, 7
         and 9; each line B is in the bit below its line A.
 
         No time passes.

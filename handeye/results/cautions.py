@@ -1,4 +1,4 @@
-"""Warns why the result of a resumed run may differ from that of an uninterrupted run."""
+"""Warns why the result of a resumed run may differ from the result of an uninterrupted run."""
 
 from collections.abc import Iterator
 

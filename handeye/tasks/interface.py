@@ -125,8 +125,8 @@ class AnyTask(ABC):
         """
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        """Return the scene of a recorded run, whose plan may determine which objects lie in the cell. The
-        errors are those of `scene`.
+        """Return the scene of a recorded run, whose plan may determine which objects lie in the cell. Raises the
+        same errors as `scene`.
         """
         return self.scene(spec)
 

@@ -134,7 +134,7 @@ class Workplace:
     def carry_out(self, plan: Plan) -> Pause:
         """Execute a plan. Raises Refused if the plan takes pictures and the camera was not set up."""
         if self.run.state.calibration is None and plan.program.written("picture"):
-            raise Refused("the camera is not calibrated; to take pictures, start with --look")
+            raise Refused("the camera is not calibrated; to take pictures, start the command with --look")
         self.mark()
         here = self.checkpoint()
         assert here.snapshot is not None

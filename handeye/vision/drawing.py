@@ -43,5 +43,5 @@ def _pixel(point: Point, scale: int) -> tuple[int, int]:
     """Return the pixel of the enlarged picture at the centre of a picture point."""
     u, v = point
     if not max(abs(u), abs(v)) <= MAX_COORDINATE:
-        raise ValueError(f"a mark at ({u:g}, {v:g}) belongs to no picture")
+        raise ValueError(f"a mark at ({u:g}, {v:g}) is too far outside the picture")
     return round((u + 0.5) * scale), round((v + 0.5) * scale)

@@ -186,7 +186,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
         ("PROCEED", "`proceed` answers a call of the operator, but no call is waiting for an answer"),
         ("WRITE", "`WRITE` takes the name of a file"),
         ("WRITE .", ". is a directory, not a file"),
-        ("DO LOOK VIEW", "the camera is not calibrated; to take pictures, start with --look"),
+        ("DO LOOK VIEW", "the camera is not calibrated; to take pictures, start the command with --look"),
         ("HELP OPNE", "there is no instruction `OPNE`; did you mean `OPEN`?"),
         ("DROP", "nothing is collected"),
     ],

@@ -253,8 +253,8 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """Return True if a test skips only the next test, which tests for an error that can be pending, and if both
-        tests lead to the same step.
+        """Return True if a test skips only another test, for an error that can be pending, and both tests lead to
+        the same step.
         """
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)

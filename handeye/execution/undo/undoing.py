@@ -196,9 +196,9 @@ def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     """Reverse a grasp: open the fingers to the earlier gap. If they held an object before the step, they grip it
     again as firmly as before.
 
-    Before opening, the fingers must hold the object that they grasped: the gap must be that of the grasp, or of a
-    later grasp in the reversal. A carried object may straighten between the fingers; in the world of seed 1, one
-    base changed the gap by 1.1 mm. A change of more than twice that means another object, or no object.
+    Before opening, the fingers must hold the object that they grasped: the gap must be the same as in the grasp, or
+    as in a later grasp during the reversal. A carried object may straighten between the fingers; in the world of
+    seed 1, one base changed the gap by 1.1 mm. A change of more than twice that means another object, or no object.
     """
     kept = done.gap[1]
     held = kept if run.state.held is None else run.state.held

@@ -149,8 +149,8 @@ class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
 class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
     """The switches of `fingers` are open although an object holds the driven fingers apart at `gap` (m).
 
-    `fits` is True if the gap is that of the object that should be held. If it is not, or if the thickness of the
-    object is unknown, another object may stand between the fingers where no switch feels it.
+    `fits` is True if the gap fits the object that should be held. If the gap does not fit, or if the thickness of
+    the object is unknown, another object may stand between the fingers where no switch feels it.
     """
 
     fingers: tuple[bool, bool]

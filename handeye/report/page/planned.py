@@ -66,9 +66,9 @@ def _ends(ends: Sequence[MotionEnd], stages: Sequence[Stage]) -> Iterator[Markup
         yield note("No motion of this run was completed.")
         return
     yield note(
-        f"How far each of {counted(len(ends), 'motion')} ended from its planned end, in millimetres, as measured "
-        "by the arm’s own sensors. The plan is made before any measurement; measurements in the working phase then "
-        "move the goals of motions."
+        f"The figure shows how far each of {counted(len(ends), 'motion')} ended from its planned end, in "
+        "millimetres, as measured by the arm’s own sensors. The plan is made before any measurement; "
+        "measurements in the working phase then move the goals of motions."
     )
     yield region(_chart(ends, stages), label="chart", class_="chart")
     counts = {why: sum(end.why is why for end in ends) for why in EndReason}

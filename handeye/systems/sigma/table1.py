@@ -171,7 +171,7 @@ def _claims(layer1: Sequence[Load], layer2: Sequence[Load], arithmetic: Sequence
     )
     digits = max(abs(found.saturation - row.saturation) for row, found in zip(ROWS, layer1, strict=True))
     yield Claim(
-        claim="layer 1: the saturation is that of the paper, within one unit of the last printed digit",
+        claim="layer 1: the saturation is the same as in the paper, within one unit of the last printed digit",
         holds=digits < 0.001,
         found=f"at most {digits:.4f} % off",
     )

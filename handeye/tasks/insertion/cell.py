@@ -88,7 +88,7 @@ def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
 
 
 def _add_holder(shaper: Shaper) -> None:
-    """Add a holder like that of the pump's pins, with the pin in it; the pin's origin is in the plane of its
+    """Add a holder like the holder of the pump's pins, with the pin in it; the pin's origin is in the plane of its
     shoulder.
     """
     d, (x, y) = dimensions(), HOLDER

@@ -146,7 +146,7 @@ def test_a_player_tests_asks_swaps_and_accuses() -> None:
     assert told[0].startswith("X1 0-0, Y1 0-0, Z1 0-0, FORCE1 0-1, HAND1 0-0")
     assert told[1:5] == [
         "X1 is at step 0", "HAND1 answers to its self-test 0", "at full speed: steps lost: X2 0",
-        "a spare microcomputer replaces that of X1; the machine was switched off and on",
+        "a spare microcomputer replaces the microcomputer of X1; the machine was switched off and on",
     ]  # fmt: skip
     assert told[-1].startswith("Right: the low switch of X1 is stuck off. You used 5 tests")
 

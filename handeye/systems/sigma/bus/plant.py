@@ -25,7 +25,7 @@ class Level(NamedTuple):
 
 
 class Plant(ABC, Generic[Kept]):
-    """The machine as the microcomputers see it at their pins. Numbers are those of microcomputers; times are in
+    """The machine as the microcomputers see it at their pins. Numbers identify microcomputers; times are in
     picoseconds.
 
     A machine that can predict its levels returns them from `next_pin`, and its forces are constant. A machine

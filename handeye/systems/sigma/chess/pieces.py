@@ -1,5 +1,6 @@
-"""Draws chess pieces at random positions along three lines of a board. Their shapes are those of pieces turned
-of boxwood."""
+"""Draws chess pieces at random positions along three lines of a board. They have the shapes of pieces turned from
+boxwood.
+"""
 
 from typing import Final, NamedTuple
 

@@ -88,7 +88,7 @@ class Strategy:
         for number in self._test("clocks", lambda: means.clocks(self._at)).wrong:
             raise Found(
                 f"microcomputer {name_of(number)}",
-                "its answers take more or less time than those of the other microcomputers",
+                "its answers take more or less time than the answers of the other microcomputers",
             )
         if self._test("strobe", lambda: means.strobe(self._at)).misread:
             raise Found(
@@ -202,7 +202,7 @@ class Swapped(Record, frozen=True, kw_only=True):
 
     @property
     def lines(self) -> Sequence[str]:
-        return [f"a spare microcomputer replaces that of {self.name}; the machine was switched off and on"]
+        return [f"a spare microcomputer replaces the microcomputer of {self.name}; the machine was switched off and on"]
 
 
 def swapped(at: Technician, name: str) -> Swapped:

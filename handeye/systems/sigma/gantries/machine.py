@@ -117,7 +117,7 @@ class Gantries(Plant[GantryMemory]):
         """Switch the gantries on.
 
         Args:
-            compensated: add the signals of the accelerometers to those of the wrists, so that the force that
+            compensated: correct the readings of the wrists by the accelerometers, so that the force that
                 accelerates a hand is not counted.
         """
         self.bench, self.rig, self._n = Bench(spec.compile()), rig, len(rig.axes)

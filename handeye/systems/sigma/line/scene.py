@@ -1,4 +1,6 @@
-"""The scene of the assembly line: that of SUPERSIGMA with a second pair of arms, and the devices of `line.xml`."""
+"""The scene of the assembly line: the scene of SUPERSIGMA with a second pair of arms, and the devices of
+`line.xml`.
+"""
 
 import re
 from typing import Final

@@ -17,7 +17,7 @@ def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> l
     """Return commands that move axes to their goals (steps) along a straight line, with a deviation of at most
     half a millimetre.
 
-    Speeds can be set only in steps of 2 mm/s, so the ratio of the speeds is only approximately that of the
+    Speeds can be set only in steps of 2 mm/s, so the ratio of the speeds only approximates the ratio of the
     distances. The path is therefore divided into parts. After each part, the axes wait for each other.
     """
     ways = {axis: target - counts.get(axis, 0) for axis, target in goals}

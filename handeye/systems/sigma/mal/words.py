@@ -137,7 +137,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "CRASHPOS": Word(
         "function", "CRASHPOS(axis)",
-        "The place of the axis when it was last aborted, mm, as the motor answers.",
+        "The place, mm, at which the last motion of the axis was aborted, as reported by the motor.",
     ),
     "STATUS": Word("function", "STATUS(axis)", "0 free, 1 busy, 2 stopped at the end of its rail, 3 stopped by a "
     "force."),

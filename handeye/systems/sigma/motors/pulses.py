@@ -109,7 +109,7 @@ def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
 
     Args:
         steps: number of steps, at least 1.
-        limit: greatest speed (steps/s), or 0 for that of the curve.
+        limit: greatest speed (steps/s), or 0 for the greatest speed of the curve.
     """
     top = min(curve.top, float(limit)) if limit else curve.top
     return Train(steps=steps, start=min(curve.start, top), top=top, acceleration=curve.acceleration)

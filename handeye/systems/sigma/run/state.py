@@ -1,5 +1,6 @@
-"""Defines the state of a MAL run between two statements: the state of the virtual machine, and that of the
-simulated machine."""
+"""Defines the state of a MAL run between two statements: the states of the virtual machine and of the simulated
+machine.
+"""
 
 from msgspec import field
 
