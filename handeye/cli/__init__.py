@@ -69,7 +69,7 @@ def _carried_out() -> int:
     except KeyboardInterrupt:
         note("\nhandeye: interrupted")
         return INTERRUPTED
-    except UnicodeEncodeError as error:  # Python reads byte 0xff of a file name as U+DCFF, which no encoding can write
+    except UnicodeEncodeError as error:  # byte 0xff of a name is read as U+DCFF, which cannot be encoded
         byte = ord(error.object[error.start]) & 0xFF
         return _complained(
             f"the name contains the byte {byte:#04x}, which is not UTF-8 text; choose another name"

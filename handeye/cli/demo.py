@@ -68,7 +68,7 @@ def opened(page: Path) -> bool:
         return False
     try:
         found = webbrowser.get()
-        if type(found) is webbrowser.GenericBrowser and not named:  # a text browser, which would take over the terminal
+        if type(found) is webbrowser.GenericBrowser and not named:  # a text browser takes over the terminal
             return False
         return found.open(page.resolve().as_uri())
     except (webbrowser.Error, OSError):

@@ -30,7 +30,9 @@ class JobOptions:
     json: Json = False
     details: Details = False
     out: Out = None
-    video: Annotated[Path | None, Parameter(help="File for a video of the run (14 s): .webp, .webm or .mp4.")] = None
+    video: Annotated[
+        Path | None, Parameter(help="File for a video of the run (14 s): .webp, .webm or .mp4.")
+    ] = None
     overwrite: Overwrite = False
     no_keep: NoKeep = False
     breaks: Break = None

@@ -13,7 +13,7 @@ from handeye.cli.common import notes, say
 
 T = TypeVar("T")
 
-LINES: Final = 20  # Number of lines printed for all trials without a terminal; one more is printed for the first trial
+LINES: Final = 20  # Progress lines for all trials without a terminal; one more for the first trial
 
 
 class Tally:

@@ -41,7 +41,8 @@ class AttemptOptions:
 
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     worlds: Annotated[
-        WholeNumber | None, Parameter(help="Number of worlds, from --seed on. Default: as many as trials (--n).")
+        WholeNumber | None,
+        Parameter(help="Number of worlds, from --seed on. Default: as many as trials (--n)."),
     ] = None
     eye: Annotated[
         Known,
@@ -175,7 +176,8 @@ def chaos_trials(
     count: Annotated[WholeNumber, Parameter(name="--n", help="Number of schedules to draw.")] = 100,
     seed: FirstSeed = 0,
     worlds: Annotated[
-        WholeNumber, Parameter(help="Number of worlds; the level of their errors alternates: nominal, low, high.")
+        WholeNumber,
+        Parameter(help="Number of worlds; the level of their errors alternates: nominal, low, high."),
     ] = 3,
     schedule: Annotated[
         list[str] | None,

@@ -137,9 +137,7 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
     return lines
 
 
-_NOTHING: Final = {
-    "force_oz": "there is no force estimate here, because no guard ended the last step"
-}
+_NOTHING: Final = {"force_oz": "there is no force estimate here, because no guard ended the last step"}
 _JOINTS_PER_LINE: Final = 3
 _LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {
     "time_s": lambda seconds: [f"{seconds:.2f} s"],

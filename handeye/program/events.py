@@ -46,7 +46,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     program: str
     steps: int
     plan: str  # digest that identifies the plan
-    content: str | UnsetType = UNSET  # digest of the bytes of the plan, which changes if any number in the plan changes
+    content: str | UnsetType = UNSET  # digest of the plan's bytes, which any change of a number changes
     arm: str
     arm_digest: str
     world: WorldSpec

@@ -55,7 +55,7 @@ class Head(Record, frozen=True, kw_only=True):
     task: str
     judged: bool = False  # the referee judges the result
     limits: dict[str, float] | UnsetType = UNSET  # limits of findings, which replace the referee's own limits
-    replaced: dict[str, str] | UnsetType = UNSET  # replaced parts; a run resumes only with parts of these names
+    replaced: dict[str, str] | UnsetType = UNSET  # replaced parts; to resume, give parts of these names
     without: tuple[str, ...] | UnsetType = UNSET  # senses that are switched off for the program
 
 

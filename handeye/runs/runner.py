@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.snapshot_cell import SnapshotCell
 
-RECENT: Final = 400  # steps whose states are kept in memory; older states are kept only at the beginning of stages
+RECENT: Final = 400  # steps whose states stay in memory; older states only at the beginning of stages
 
 
 def reach(first: int) -> str:

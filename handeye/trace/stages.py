@@ -116,7 +116,7 @@ def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 class _Walk:
     found: list[Stage] = field(default_factory=list)
     _done: list[str] = field(default_factory=list)  # begun and not undone, the present or last one at the end
-    _begun: float | None = None  # time at which the present stage began or was re-entered; None between stages
+    _begun: float | None = None  # when the present stage began or was re-entered; None between stages
     _back: bool = False
 
     def go(self, event: AnyEvent) -> None:

@@ -303,7 +303,10 @@ def test_a_referee_of_ones_own_has_the_word() -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ({"search": 3}, r"^a search must be a function that takes the number of a place and returns the place, not 3$"),
+        (
+            {"search": 3},
+            r"^a search must be a function that takes the number of a place and returns the place, not 3$",
+        ),
         ({"camera": 3}, r"^a camera must be `auto`, `gl`, `ray`, or a function that takes a scene, not 3$"),
         (
             {"referee": 3},

@@ -87,7 +87,7 @@ class Search:
 
     step: StepStarted  # The step that last advanced the search
     times: tuple[float, ...]  # When the search advanced, s since the run began
-    places: tuple[tuple[float, float], ...]  # All places tried, in order: x and y relative to the first place, m
+    places: tuple[tuple[float, float], ...]  # Places tried, in order: x, y relative to the first place, m
     exhausted: bool
 
 

@@ -46,7 +46,9 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
         )
     if not motions:
         if not lost:
-            yield note("No motion of this run had a guard (a limit of force or torque that stops the motion).")
+            yield note(
+                "No motion of this run had a guard (a limit of force or torque that stops the motion)."
+            )
         return
     met = sum(motion.trip is not None for motion in motions)
     yield note(

@@ -53,9 +53,7 @@ class Timing(Record, frozen=True, kw_only=True):
     prepare: int = 20  # from a question until its first byte
     answer: int = 100  # from byte to byte of an answer
     answer_low: int = 50  # /ANSWER READY and data, from the beginning of each
-    guard: int = (
-        20  # after the last byte, for which the bus is watched for a byte that was not requested
-    )
+    guard: int = 20  # after the last byte, for which the bus is watched for a byte that was not requested
     time_limit: int = 5_000  # until each byte of an answer
     settle: int = 0  # from the change of a data line until its new level can be read
     scan: int = 1_000  # of a force microcomputer, all its channels

@@ -27,9 +27,7 @@ def axis(
         Parameter(help="Constant speed, mm/s; above 37.5 mm/s the move begins and ends with ramps."),
     ] = None,
     load: Annotated[float, Parameter(help="Force against the motion, N.")] = 0.0,
-    stop_after: Annotated[
-        float | None, Parameter(help="Make an emergency stop after this time, ms.")
-    ] = None,
+    stop_after: Annotated[float | None, Parameter(help="Make an emergency stop after this time, ms.")] = None,
     cut: Annotated[
         bool, Parameter(negative=(), help="Stop by sending no more pulses, instead of by the steepest ramp.")
     ] = False,

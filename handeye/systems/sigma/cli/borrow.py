@@ -18,7 +18,9 @@ def borrow(
         tuple[float, float] | None,
         Parameter(help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres."),
     ] = None,
-    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: it determines the errors of the arm.")] = 0,
+    seed: Annotated[
+        WholeNumber, Parameter(help="Seed of the world: it determines the errors of the arm.")
+    ] = 0,
     json: Json = False,
 ) -> int:
     """Run a MAL program with the Stanford arm in place of arm 1: X1, Y1 and Z1 move the tool of that arm, and there

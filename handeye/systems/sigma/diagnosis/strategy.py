@@ -202,7 +202,9 @@ class Swapped(Record, frozen=True, kw_only=True):
 
     @property
     def lines(self) -> Sequence[str]:
-        return [f"a spare microcomputer replaces the microcomputer of {self.name}; the machine was switched off and on"]
+        return [
+            f"a spare microcomputer replaces the microcomputer of {self.name}; the machine was switched off and on"
+        ]
 
 
 def swapped(at: Technician, name: str) -> Swapped:

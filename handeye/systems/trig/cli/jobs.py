@@ -76,7 +76,8 @@ class _Progress(Observer):
 def palletise(
     *,
     blocks: Annotated[
-        WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20; only 15 blocks fit on the pallet.")
+        WholeNumber,
+        Parameter(help="Number of blocks in the stack, 0 to 20; only 15 blocks fit on the pallet."),
     ] = 20,
     seed: Seed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
