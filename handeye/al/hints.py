@@ -110,7 +110,7 @@ def strange(text: str) -> str | None:
 
 _LENGTH, _ANGLE = "distances are in inches", "angles are in degrees"
 _FORCE = "forces and weights are in ounces, moments and torques in ounce-inches"
-_SPEED = "speeds are in inches per second, the screwdriver's in revolutions per minute"
+_SPEED = "speeds are in inches per second, the speed of the screwdriver in revolutions per minute"
 UNIT_WORDS: Final = {
     **dict.fromkeys(("in", "inch", "inches", "ft", "mm", "cm", "m"), _LENGTH),
     **dict.fromkeys(("oz", "ounce", "ounces", "lb", "lbs", "g", "kg", "n", "nm", "ozin"), _FORCE),

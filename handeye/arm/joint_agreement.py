@@ -29,8 +29,8 @@ tachometer does not show.
 One step for rounding, and five standard deviations of the noise (.2 steps per reading, .4 at the high level).
 """
 STRUCK: Final = 3.0
-"""A joint that is struck may move in one servo period by this factor farther than half the change of its rate
-explains. Chosen.
+"""Factor by which a struck joint may move farther in one servo period than half the change of its rate explains.
+Chosen.
 """
 
 

@@ -160,8 +160,9 @@ _BEFORE: Final = -1  # pair number for the time before the first step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Leg:
-    """A segment of the timeline. In it, both runs did the same step, or one run did a step while the other
-    waited."""
+    """A segment of the timeline. In a leg, both runs did the same step, or one run did a step while the other run
+    waited.
+    """
 
     begin: float  # s of the course
     a: float

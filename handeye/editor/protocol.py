@@ -17,8 +17,9 @@ _log: Final = logging.getLogger(__name__)
 
 
 class Protocol(LanguageServerProtocol):
-    """A protocol handler that answers requests with invalid parameters by an error, and ignores invalid
-    notifications."""
+    """A protocol handler that answers a request that has invalid parameters with an error, and ignores invalid
+    notifications.
+    """
 
     def structure_message(self, data: dict[str, Any]) -> Any:
         """Make a typed message. The JSON decoder calls this for each object in a message."""

@@ -114,8 +114,8 @@ class TorqueMonitor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TouchMonitor:
-    """Trips when a finger touches. With `mask` 1 it watches the first switch of `Sensed.touch`, with 2 the second,
-    with 3 both (either one trips it).
+    """Trips when a finger touches. `mask` selects the watched switches of `Sensed.touch`: 1 the first, 2 the
+    second, 3 both (either switch trips the monitor).
     """
 
     mask: int

@@ -88,8 +88,9 @@ class Condition(Record, frozen=True, kw_only=True):
 
 
 def grid(search: Search) -> list[Condition]:
-    """Return the conditions to try. The first one is the setting of Factory; each of the others differs from it
-    in one value."""
+    """Return the conditions to try. The first condition is the setting of the Factory benchmark; each further
+    condition differs from the first in one value.
+    """
     return [
         Condition(search=search),
         *(Condition(search=search, clearance=clearance) for clearance in (0.05, 0.3, 1.0)),

@@ -34,8 +34,8 @@ Standing = Literal["right", "wrong", "silent", "uncounted"]
 
 FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
-"""A process is ended when its CPU time reaches this multiple of the limit, because it then hangs in code that
-does not check the limit.
+"""A process is ended when its CPU time reaches this multiple of the limit, because the process then hangs in code
+that does not check the limit.
 """
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")

@@ -1,6 +1,6 @@
 """The memory of the program. With each executed step, the values that the step changed are stored.
 
-Pictures are not restored, because a program that continues takes them again before it examines them. Lens and aim
+Pictures are not restored, because a program that continues takes new pictures before it examines them. Lens and aim
 of the camera are not restored either, because a reversal moves only the arm.
 """
 

@@ -19,7 +19,7 @@ from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
 """Speed of turning out, as a multiple of the speed of driving in. A motor stalls at a torque in proportion to its
-commanded speed, so it needs this speed to give the loosening torque.
+commanded speed, so this speed is needed to give the loosening torque.
 """
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5

@@ -81,8 +81,9 @@ def _told(finding: Finding) -> str:
 
 
 def _mark(mark: Mark) -> Markup:
-    """Return a mark as SVG. Coordinates in pictures count from the centre of the first pixel, those in drawings
-    from its corner."""
+    """Return a mark as SVG. Coordinates in pictures count from the centre of the first pixel; coordinates in
+    drawings count from the corner of that pixel.
+    """
     match mark:
         case Loop():
             points = " ".join(f"{u + 0.5:.2f},{v + 0.5:.2f}" for u, v in mark.points)

@@ -3,9 +3,9 @@ motion is refused.
 
 The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A
 MOVE of one axis, or with LINE, is a straight motion, and a MOVE of several axes is a motion on any path. A LIMIT
-becomes a guard of the motions of its axis, and a test of FORCE right after a motion becomes a guard of this motion, so
-that it stops at the force instead of being asked afterwards. Without a LIMIT there is no guard, because an arm that is
-not balanced feels several newtons of its own in free motion.
+becomes a guard of the motions of its axis, and a test of FORCE right after a motion becomes a guard of this motion,
+so that the motion stops at this force; the program no longer tests the force afterwards. Without a LIMIT there is
+no guard, because an arm that is not balanced feels several newtons of its own in free motion.
 """
 
 from collections.abc import Iterator, Sequence

@@ -137,10 +137,9 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     one = heard[number]
 
     def takes(stranger: int, other: int) -> bool:
-        """Return True if a microcomputer that is silent at its own number answers to the number of another one.
-
-        It then becomes busy together with the other one. A microcomputer that is always busy, such as that of a
-        wrist, is recognised because it disturbs the answers of the other one.
+        """Return True if a microcomputer that is silent at its own number answers to the number of the
+        microcomputer `other`. The two then become busy together. A microcomputer that is always busy, such as the
+        one of a wrist, is recognised because it disturbs the answers of `other`.
         """
         theirs = heard[other]
         seen = not theirs.right if stranger in scanning else stranger in theirs.busy

@@ -243,7 +243,7 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def counting(self) -> tuple[bool, ...]:
-        """For each axis, False while it searches the end of its rail, because its count begins there."""
+        """For each axis, False while the axis searches for the end of its rail, where its count begins."""
         return tuple(motor is not None and motor.memory.state in COUNTING for motor in self._motors)
 
     @property

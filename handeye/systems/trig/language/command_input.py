@@ -23,7 +23,7 @@ from handeye.systems.trig.language.trig_arm import Halted
 
 WITHDRAWN: Final = "cancelled"
 TABLE_HELP: Final = (
-    "To set the table, as a person next to it:",
+    "To place objects on the table, as a person would:",
     "  * STACK 20 X 150 Y 0  stack blocks at a place, in mm",
     "  * BUCKET X 140 Y 0    put a bucket at a place",
     "  * CLEAR               remove everything",

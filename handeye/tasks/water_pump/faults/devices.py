@@ -302,8 +302,8 @@ def _sight() -> Iterator[DeviceFault]:
     yield _fault("picture.dark", "Every picture is black.", PICTURE, DEAD, wrong)
     yield _fault(
         "camera.bumped",
-        "The camera has been bumped: relative to its mounting direction, it is turned by this angle to the side, "
-        "and by this angle downwards.",
+        "The camera has been bumped: relative to its mounting direction, it is turned by this angle to the "
+        "side, and by the same angle downwards.",
         ("camera.pan", "camera.tilt"), OffsetEffect,
         ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, GASKET_WRONG),

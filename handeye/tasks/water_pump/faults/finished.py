@@ -153,7 +153,7 @@ def _rotors() -> Iterator[MishapFault]:
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
         calls=(detect.CRANK_ASTRAY,),
-        harmless="The fingers that close on the crank find it if it is near its expected place.",
+        harmless="Fingers that close on the crank find the crank if it is near its expected place.",
     )
     meaning = "A person turns the rotor by this angle."
     yield declared("rotor.turned", meaning, _turn, expected, size, stage=LAST_STAGE)

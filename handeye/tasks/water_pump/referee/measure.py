@@ -127,8 +127,8 @@ def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
 
 
 def rotor_deviation(measured: SettledState) -> float:
-    """Return the greater of two distances (m): that of the rotor from its bearing on the top, and that of the
-    end of its crank pin from its nominal position.
+    """Return the greater of two distances (m): the distance of the rotor from its bearing on the top, and the
+    distance of the end of the crank pin from its nominal position.
     """
     model, size = measured.model, dimensions()
     height = size("top.flange") + size("top.hub_height")

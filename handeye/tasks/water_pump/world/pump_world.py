@@ -44,8 +44,8 @@ class Placing:
     roll: float = 0.0
 
     def about(self, x: float, y: float, z: float = 0.0) -> Pose:
-        """Return the error as a pose: the displacement of everything fixed to a part that is displaced by this
-        error and turned by it about (x, y, z) (m).
+        """Return the error as a pose that moves everything fixed to the part: the displacement of this error, and
+        its turns about the point (x, y, z) (m).
         """
         R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
         p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])

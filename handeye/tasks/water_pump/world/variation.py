@@ -96,9 +96,8 @@ def _camera() -> Iterator[Quantity]:
         *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
             "Shape of the raster: the inward shift of a corner as a fraction of its distance from the centre, and "
-            "the shift of the middle of lines and field as a fraction of half their length. Honesty study, finding "
-            "10: 1 % at the "
-            "corners."),
+            "the shift of the middle of the lines and of the field as a fraction of half their length. Honesty "
+            "study, finding 10: 1 % at the corners."),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
             "Shift of each picture from the previous one, as a fraction of half its width and height: half a pixel. "
             "The paper mentions a slight shift between two pictures; vision study, section 4: up to one pixel."),
@@ -171,8 +170,8 @@ def _parts() -> Iterator[Quantity]:
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Rotation of the screwdriver in its guides: the play that the width of the guides allows, in addition "
-            "to that of its position.", greatest=0.6),
+            "Rotation of the screwdriver in its guides: the play that the width of the guides allows, in "
+            "addition to the play of its position.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
         rubbing(RUBBING),
