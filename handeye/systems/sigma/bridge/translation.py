@@ -67,8 +67,8 @@ _WHY: Final = {
 
 
 _CURE: Final = (
-    f"a plan has {', '.join(_TURNED[:5])} of one task, tests of FORCE right after a MOVE, and GOTO; "
-    "`handeye sigma run` runs all programs"
+    f"a plan can have only {', '.join(_TURNED[:5])} of one task, tests of FORCE right after a MOVE, and GOTO; "
+    "`handeye sigma run` runs any program"
 )
 
 

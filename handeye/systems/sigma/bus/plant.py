@@ -56,8 +56,9 @@ class Plant(ABC, Generic[Kept]):
 
     @abstractmethod
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:
-        """Return the time at which a switch of the rail changes next if the motor continues, the pin of that
-        switch, and its new level. None if no switch changes."""
+        """Return the next change of a switch of the rail if the motor continues: the time, the pin of the switch,
+        and the new level. None if no switch changes.
+        """
 
     @abstractmethod
     def forces(self, number: int) -> Sequence[float]:

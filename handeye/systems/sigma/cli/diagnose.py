@@ -13,7 +13,7 @@ from handeye.systems.sigma.cli.studies import put_study
 def diagnose(
     *,
     fault: Annotated[
-        str | None, Parameter(help="Plant this fault and find it; `--all` lists the names.")
+        str | None, Parameter(help="Plant this fault and find it; `--all` prints the names of all faults.")
     ] = None,
     every: Annotated[
         bool, Parameter(name="--all", negative=(), help="Plant and find each of the twenty faults.")

@@ -48,7 +48,8 @@ class Witness(Mechanism[H], Generic[H]):
 
     name = HEARD
     growing: ClassVar[tuple[str, ...]] = ("lines",)
-    """The fields of its state that change during a run; the others describe the board at the beginning."""
+    """Fields of the witness's state that change during a run; the other fields describe the board at the beginning.
+    """
 
     def __init__(self, heard: H) -> None:
         self.heard, self.kind = heard, type(heard)
