@@ -79,6 +79,7 @@ CHEAP = {
     "trials line": "trials line --n ✓",
     "trials blocks": "trials blocks --n ✓",
     "trials train": "trials train --n ✓",
+    "trials support": "trials support --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

@@ -18,6 +18,7 @@ ml = handeye.systems.ml.cli.commands:ml: MOS and ML (IBM, 1975): guarded motions
 trials follow = handeye.systems.ml.cli.follow:follow_trials: Follow an outline by touch in many worlds: success rate, errors of touches.
 trials blocks = handeye.systems.ml.cli.toys:blocks_trials: Stack three blocks by touch in many worlds: success rate, errors of places.
 trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by touch in many worlds: success rate, errors of places.
+trials support = handeye.systems.ml.cli.support:support_trials: Assemble the rail support in many worlds: success rate, depths, forces.
 """,  # noqa: E501 - a command a line
     tasks={
         "ml": "handeye.systems.ml.run.task:ML_TASK",
@@ -25,6 +26,7 @@ trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by t
         "follow": "handeye.systems.ml.follow.task:FOLLOW",
         "blocks": "handeye.systems.ml.blocks.task:BLOCKS",
         "train": "handeye.systems.ml.train.task:TRAIN",
+        "support": "handeye.systems.ml.support.task:SUPPORT",
     },
     languages={
         ".ml": "handeye.systems.ml.language.language:LANGUAGE",
@@ -34,6 +36,7 @@ trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by t
         "follow": "handeye.systems.ml.run.job_trials:FOLLOW_TRIALS",
         "blocks": "handeye.systems.ml.run.job_trials:BLOCKS_TRIALS",
         "train": "handeye.systems.ml.run.job_trials:TRAIN_TRIALS",
+        "support": "handeye.systems.ml.run.job_trials:SUPPORT_TRIALS",
     },
     events="handeye.systems.ml.happenings:EVENTS",
     files=("tables.gz", "follow.json"),

@@ -7,6 +7,7 @@ from handeye.core.units import Measures
 from handeye.program.events import Importance, SystemEvent
 from handeye.systems.ml.follow.happenings import FOLLOW_EVENTS
 from handeye.systems.ml.realtime.happenings import REALTIME_EVENTS
+from handeye.systems.ml.support.happenings import SUPPORT_EVENTS
 
 
 class Printed(SystemEvent, frozen=True, kw_only=True):
@@ -46,4 +47,4 @@ class Nullified(SystemEvent, frozen=True, kw_only=True):
         return f"{where} moves nothing, because {which} on"
 
 
-EVENTS = (Printed, Traced, Nullified, *REALTIME_EVENTS, *FOLLOW_EVENTS)
+EVENTS = (Printed, Traced, Nullified, *REALTIME_EVENTS, *FOLLOW_EVENTS, *SUPPORT_EVENTS)

@@ -19,6 +19,13 @@ class Printed(Record, frozen=True, kw_only=True):
     lines: tuple[str, ...] = ()
 
 
+def counted(heard: object) -> int:
+    """Return the number that the program printed beside its final 0; 0 if it has not."""
+    assert isinstance(heard, Printed)
+    words = heard.lines[-1].split() if heard.lines else []
+    return int(words[1]) if len(words) == 2 and words[0] == "0" else 0
+
+
 class Listener(Mechanism[Printed]):
     """Keeps the lines that the program prints."""
 
@@ -58,8 +65,13 @@ class ReportingHardware(StationHardware):
     def hear(self, text: str) -> None:
         self._listener.hear(text)
 
+    @property
+    def heard(self) -> tuple[str, ...]:
+        """The lines that the program has printed."""
+        return self._listener.heard.lines
+
     def ending(self, statement: int) -> Ending | None:
-        lines = self._listener.heard.lines
+        lines = self.heard
         trouble, _, count = lines[-1].partition(" ") if lines else ("0", "", "")
         if trouble not in self._troubles:
             return None

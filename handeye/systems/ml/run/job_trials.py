@@ -22,3 +22,4 @@ def _sentence(means: Mapping[str, float]) -> str:
 FOLLOW_TRIALS: Final = job_sweep("follow", MlJobRow, _sentence)
 BLOCKS_TRIALS: Final = job_sweep("blocks", MlJobRow, _sentence)
 TRAIN_TRIALS: Final = job_sweep("train", MlJobRow, _sentence)
+SUPPORT_TRIALS: Final = job_sweep("support", MlJobRow, _sentence)

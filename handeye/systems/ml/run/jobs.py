@@ -7,16 +7,24 @@ from handeye.core.source import read_source
 from handeye.core.variation import WorldSpec
 from handeye.runs.setup import Setup
 from handeye.systems.ml import ENTRY
+from handeye.systems.ml.language.assembler import assembled
 from handeye.systems.ml.run.plan import MlPlan
 
-PROGRAMS: Final = {"follow": "curve_follower.ml", "blocks": "blocks.ml", "train": "train.ml"}
+PROGRAMS: Final = {
+    "follow": "curve_follower.ml",
+    "blocks": "blocks.ml",
+    "train": "train.ml",
+    "support": "support.sym",
+}
+SYMBOLIC: Final = ".sym"  # ending of programs that the symbolic assembler translates off line
 USUAL: Final = {"follow": "square"}  # variant of a job where none is named
 
 
 def job_plan(job: str, variant: str = "") -> MlPlan:
     """Return the plan of a job's own program."""
     name = PROGRAMS[job]
-    text = read_source(plans() / name).text
+    source = read_source(plans() / name)
+    text = assembled(source)[0] if name.endswith(SYMBOLIC) else source.text
     return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant or USUAL.get(job, ""))
 
 

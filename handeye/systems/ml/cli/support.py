@@ -1,0 +1,47 @@
+"""The commands of the rail support, for one world and for many worlds."""
+
+from handeye.cli.judged_jobs import ANY_RUN, JobOptions
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.systems.ml.cli.jobs import JobSeed, NumberOfWorlds, carry_out, carry_out_trials
+
+
+def support(
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+) -> int:
+    """Assemble the rail support of a typewriter from 22 parts by touch.
+
+    `plans/support.sym` takes a frame, two rails, four pins and five saddles from their pallets, puts them into their
+    places, and presses each to learn whether it is down. Then it fetches a power screwdriver, drives ten screws,
+    accepts each by its depth and the torque of the clutch, and puts the screwdriver back. A referee looks whether all
+    22 parts are right, and whether the program has counted them right.
+
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    input; 130: interrupted.
+    """
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out(job_plan("support"), seed, errors, options)
+
+
+def support_trials(
+    *,
+    n: NumberOfWorlds = 10,
+    seed: FirstSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Assemble the rail support in many worlds: how often all 22 parts are right, and their errors.
+
+    Each trial is that of `handeye ml support`. Ctrl-C ends the batch and prints what has finished; with --out it can be
+    continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
+    disagrees.
+    """
+    from handeye.systems.ml.run.job_trials import SUPPORT_TRIALS
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out_trials(
+        SUPPORT_TRIALS, job_plan("support"), n, seed, errors, options, title="the rail support"
+    )

@@ -1,0 +1,63 @@
+"""Defines the event with which the program of the rail support reports a screw."""
+
+from typing import Final, Literal
+
+from handeye.core.units import MILLIMETRE, Measures
+from handeye.program.events import SystemEvent
+from handeye.systems.ml.machine.spec import LINEAR, TORQUE_COUNT
+
+Found = Literal["seated", "crossed", "lost", "not taken", "loose", "beside", "tightened"]
+FOUND: Final[dict[int, Found]] = {
+    70: "seated",
+    71: "crossed",
+    72: "lost",
+    73: "not taken",
+    74: "loose",
+    75: "beside",
+    76: "tightened",
+}
+"""What the program found, by the number that it prints before that of the screw."""
+_ENDS: Final[dict[Found, str]] = {
+    "seated": "is seated",
+    "crossed": "stopped the screwdriver too early: it is crossed or jammed, and is turned out",
+    "lost": "is no longer on the bit",
+    "not taken": "turns, and no thread takes it",
+    "loose": "is deep, but not tight yet",
+    "beside": "stands beside its hole",
+    "tightened": "is tightened again",
+}
+
+
+class ScrewReported(SystemEvent, frozen=True, kw_only=True):
+    """The program has judged a screw by the height of the bit, and by the torque of the screwdriver."""
+
+    screw: int
+    found: Found
+    deeper: float
+    """By how much the bit is deeper than it would be over a seated screw, or, if the screw was not turned, over a screw
+    in the mouth of its thread, m.
+    """
+    torque: float  # N m; 0 if the clutch has not slipped
+
+    def sentence(self, measures: Measures) -> str:
+        way = "deeper" if self.deeper > 0 else "higher"
+        where = "the mouth of its thread" if self.found in ("lost", "beside") else "its seat"
+        torque = f", and the torque is {self.torque:.3f} N m" if self.torque else ""
+        off = f"{abs(self.deeper) / MILLIMETRE:.2f} mm {way}"
+        return (
+            f"screw {self.screw} {_ENDS[self.found]}; the bit is {off} than over a screw at {where}{torque}"
+        )
+
+
+def reported(line: str, time: float) -> ScrewReported | None:
+    """Return the report of a screw in a printed line, or None if there is none."""
+    words = [*map(int, line.split()), 0, 0, 0, 0]
+    if words[0] not in FOUND:
+        return None
+    _, screw, depth, torque = words[:4]
+    return ScrewReported(
+        time=time, screw=screw, found=FOUND[words[0]], deeper=depth * LINEAR, torque=torque * TORQUE_COUNT
+    )
+
+
+SUPPORT_EVENTS = (ScrewReported,)

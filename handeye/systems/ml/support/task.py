@@ -1,0 +1,108 @@
+"""Defines the job `support` and its worlds."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final
+
+from handeye.cell.physics_stepper import allow
+from handeye.cell.threads import ThreadFigures, Threads
+from handeye.core.variation import Variation, WorldSpec
+from handeye.judge.finding import Findings
+from handeye.systems.ml.bench.hardware import ArmTask
+from handeye.systems.ml.bench.reporting import Listener, ReportingHardware, counted
+from handeye.systems.ml.bench.station import Station, scene
+from handeye.systems.ml.bench.world import ArmWorld
+from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
+from handeye.systems.ml.run.hardware import Hardware, Tell
+from handeye.systems.ml.support.drawing import VARIATION, Drawing
+from handeye.systems.ml.support.equipment import ForceGauge, PowerScrewdriver, ScrewdriverCurrent
+from handeye.systems.ml.support.happenings import FOUND, reported
+from handeye.systems.ml.support.referee import judge
+from handeye.systems.ml.support.scene import add_support
+from handeye.tasks.interface import Words
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.truth import Truth
+    from handeye.systems.ml.run.plan import MlPlan
+
+TROUBLES: Final = {
+    "1": "the hand has met something on its way down",
+    "2": "the hand holds no part, or a wrong one",
+    "3": "a part, or the screwdriver, is not down in its place",
+    "4": "the bit finds no screw in the dispenser",
+    "5": "a screw finds no thread",
+    "6": "a screw does not become tight",
+}  # by the number that the program prints
+
+
+class SupportHardware(ReportingHardware):
+    """The station with the parts of the rail support."""
+
+    def __init__(self, station: Station, gauge: ForceGauge, tell: Tell) -> None:
+        super().__init__(station, tell, TROUBLES)
+        self._gauge, self._tell = gauge, tell
+
+    def hear(self, text: str) -> None:
+        super().hear(text)
+        if (screw := reported(text, self.machine.now / CYCLES_PER_SECOND)) is not None:
+            self._tell(screw)
+
+    @property
+    def figures(self) -> Mapping[str, float]:
+        forces = self._gauge.greatest
+        found = Counter(screw.found for line in self.heard if (screw := reported(line, 0.0)) is not None)
+        return {
+            **{f"screws_{name.replace(' ', '_')}": found[name] for name in FOUND.values()},
+            "fingers_driving_N": round(forces.driving, 1),
+            "fingers_along_N": round(forces.along, 1),
+            "fingers_across_N": round(forces.across, 1),
+        }
+
+
+class Support(ArmTask):
+    """Assemble a rail support of 22 parts, with ten screws."""
+
+    name = "support"
+    words = Words(product="the rail support", done="The rail support is assembled from its 22 parts.")
+
+    def variation(self) -> Variation:
+        return VARIATION
+
+    def station(self, world: ArmWorld) -> tuple[Station, ForceGauge]:
+        """Return the station with its parts."""
+        spec, drawing, driver = scene(world, wand=False), Drawing(world), PowerScrewdriver()
+        add_support(spec, drawing)
+        station = Station(spec, world, tools={"screwdriver": driver.turn, "reverse": driver.reverse})
+        bench = station.bench
+        for name in ("frame", "driver"):
+            allow(bench.model, int(bench.model.body_treeid[bench.model.body(name).id]))
+        station.arm.torque = ScrewdriverCurrent(
+            bench.model, bench.data, world.numbers("torque"), drawing.torque_noise
+        )
+        bench.add(
+            Threads(
+                bench.model,
+                bench.data,
+                driver,
+                ThreadFigures(phases=drawing.phases, friction=drawing.friction),
+            )
+        )
+        bench.add(gauge := ForceGauge(bench.model, bench.data, driver))
+        return station, gauge
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return self.station(self.world(spec))[0].bench.model
+
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        return SupportHardware(*self.station(self.world(world)), tell)
+
+    def judge(self, truth: Truth) -> Findings:
+        """Judge what the program has assembled, and the number of parts that it printed last."""
+        return judge(truth, counted(truth.states[Listener.name]))
+
+
+SUPPORT: Final = Support()
