@@ -80,6 +80,7 @@ CHEAP = {
     "trials blocks": "trials blocks --n ✓",
     "trials train": "trials train --n ✓",
     "trials support": "trials support --n ✓",
+    "trials orient": "trials orient --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

@@ -19,6 +19,7 @@ trials follow = handeye.systems.ml.cli.follow:follow_trials: Follow an outline b
 trials blocks = handeye.systems.ml.cli.toys:blocks_trials: Stack three blocks by touch in many worlds: success rate, errors of places.
 trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by touch in many worlds: success rate, errors of places.
 trials support = handeye.systems.ml.cli.support:support_trials: Assemble the rail support in many worlds: success rate, depths, forces.
+trials orient = handeye.systems.ml.cli.parts:orient_trials: Turn a bar into a known attitude by touch in many worlds: success rate, errors.
 """,  # noqa: E501 - a command a line
     tasks={
         "ml": "handeye.systems.ml.run.task:ML_TASK",
@@ -27,6 +28,7 @@ trials support = handeye.systems.ml.cli.support:support_trials: Assemble the rai
         "blocks": "handeye.systems.ml.blocks.task:BLOCKS",
         "train": "handeye.systems.ml.train.task:TRAIN",
         "support": "handeye.systems.ml.support.task:SUPPORT",
+        "orient": "handeye.systems.ml.orient.task:ORIENT",
     },
     languages={
         ".ml": "handeye.systems.ml.language.language:LANGUAGE",
@@ -37,6 +39,7 @@ trials support = handeye.systems.ml.cli.support:support_trials: Assemble the rai
         "blocks": "handeye.systems.ml.run.job_trials:BLOCKS_TRIALS",
         "train": "handeye.systems.ml.run.job_trials:TRAIN_TRIALS",
         "support": "handeye.systems.ml.run.job_trials:SUPPORT_TRIALS",
+        "orient": "handeye.systems.ml.run.job_trials:ORIENT_TRIALS",
     },
     events="handeye.systems.ml.happenings:EVENTS",
     files=("tables.gz", "follow.json"),

@@ -17,6 +17,7 @@ from handeye.core.source import Source, read_source
 from handeye.program.events import AnyEvent
 from handeye.runs.observer import Observer
 from handeye.systems.ml.cli.follow import follow
+from handeye.systems.ml.cli.parts import orient
 from handeye.systems.ml.cli.support import support
 from handeye.systems.ml.cli.tables import tables
 from handeye.systems.ml.cli.touch import touch
@@ -267,7 +268,7 @@ def _session(file: Path | None, *typed: str, left: bool = False) -> int:
     return 0 if terminal else code
 
 
-_COMMANDS: Final = (run, check, assemble, words, tables, view, touch, follow, blocks, train, support)
+_COMMANDS: Final = (run, check, assemble, words, tables, view, touch, follow, blocks, train, support, orient)
 ml.default(console)
 for _command in _COMMANDS:
     ml.command(_command)

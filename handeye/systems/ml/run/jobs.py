@@ -15,6 +15,7 @@ PROGRAMS: Final = {
     "blocks": "blocks.ml",
     "train": "train.ml",
     "support": "support.sym",
+    "orient": "orient.ml",
 }
 SYMBOLIC: Final = ".sym"  # ending of programs that the symbolic assembler translates off line
 USUAL: Final = {"follow": "square"}  # variant of a job where none is named

@@ -1,0 +1,49 @@
+"""Bars of aluminium: the parts that the hand takes from a cradle or out of a bin."""
+
+from math import acos, atan2, degrees, pi
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.core.pose import Array
+
+LONG: Final = 0.050  # m, along y of a bar
+WIDE: Final = 0.014  # m, its sides along x and z
+DENSITY: Final = 2700.0  # kg/m3: a bar weighs 26.5 g
+
+
+def add_bar(
+    spec: mujoco.MjSpec, name: str, at: Array, quat: Array, friction: float, *, wide: float = WIDE,
+    density: float = DENSITY,
+) -> None:  # fmt: skip
+    """Put a bar into a scene; `at` is its middle (m)."""
+    body = spec.worldbody.add_body(name=name, pos=at.tolist(), quat=quat.tolist())
+    body.add_freejoint(name=name)
+    body.add_geom(
+        name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=[wide / 2, LONG / 2, wide / 2], density=density,
+        friction=[friction, 0.003, 0.0001], rgba=[0.72, 0.73, 0.75, 1], group=1,
+    )  # fmt: skip
+
+
+def turned(axis: str, angle: float) -> Array:
+    """Return the quaternion of a rotation about x, y or z."""
+    quat = np.zeros(4)
+    quat[0], quat[1 + "xyz".index(axis)] = np.cos(angle / 2), np.sin(angle / 2)
+    return quat
+
+
+def after(one: Array, other: Array) -> Array:
+    """Return the quaternion of the rotation `other`, followed by `one`."""
+    product = np.empty(4)
+    mujoco.mju_mulQuat(product, one, other)
+    return product
+
+
+def off_attitude(R: Array, along: Array, up: Array) -> float:
+    """Return how far a bar is from an attitude (deg): with its length along `along`, whichever end is ahead, and with
+    one of its four long sides facing up. Its orientation is `R`.
+    """
+    length = acos(min(abs(float(R[:, 1] @ along)), 1.0))
+    side = atan2(float(R[:, 0] @ up), float(R[:, 2] @ up)) % (pi / 2)
+    return degrees(max(length, min(side, pi / 2 - side)))

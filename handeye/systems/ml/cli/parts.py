@@ -1,0 +1,52 @@
+"""The commands of the jobs with bars, for one world and for many worlds."""
+
+from handeye.cli.judged_jobs import ANY_RUN, JobOptions
+from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.systems.ml.cli.jobs import (
+    JobSeed,
+    NumberOfWorlds,
+    carry_out,
+    carry_out_trials,
+)
+
+
+def orient(
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+) -> int:
+    """Take a bar in an unknown attitude, and turn it into a known one by touch.
+
+    `plans/orient.ml` takes the bar out of a cradle, in which it is pitched by up to 50 degrees and turned by up to 25.
+    It puts the bar down by a guarded move, lets it fall flat, grasps it again, feels its end at a stop, and grasps it
+    in its middle. A referee then looks: the bar has to be in the fingers, within 3 degrees of the attitude and 1 mm of
+    the place that were asked for.
+
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    input; 130: interrupted.
+    """
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out(job_plan("orient"), seed, errors, options)
+
+
+def orient_trials(
+    *,
+    n: NumberOfWorlds = 10,
+    seed: FirstSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Orient a bar in many worlds: how often it is in its attitude and place, and its errors.
+
+    Each trial is that of `handeye ml orient`. Ctrl-C ends the batch and prints what has finished; with --out it can be
+    continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
+    disagrees.
+    """
+    from handeye.systems.ml.run.job_trials import ORIENT_TRIALS
+    from handeye.systems.ml.run.jobs import job_plan
+
+    return carry_out_trials(
+        ORIENT_TRIALS, job_plan("orient"), n, seed, errors, options, title="a bar oriented"
+    )

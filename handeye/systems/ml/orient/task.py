@@ -1,0 +1,179 @@
+"""Defines the job `orient`, its worlds and its referee."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from handeye.core.distributions import Noise, Range
+from handeye.core.units import MILLIMETRE
+from handeye.core.variation import Variation, WorldSpec
+from handeye.judge.finding import Findings, at_least, at_most
+from handeye.systems.ml.bench.bars import LONG, WIDE, add_bar, after, off_attitude, turned
+from handeye.systems.ml.bench.hardware import ArmTask
+from handeye.systems.ml.bench.reporting import ReportingHardware
+from handeye.systems.ml.bench.station import Station, scene
+from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
+from handeye.systems.ml.machine.spec import LINEAR
+from handeye.systems.ml.run.hardware import Hardware, Tell
+from handeye.tasks.interface import Words
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import mujoco
+
+    from handeye.cell.truth import Truth
+    from handeye.core.pose import Array
+    from handeye.systems.ml.run.plan import MlPlan
+
+CRADLE: Final = (0, 3000)  # x and y of the slides, where the program expects the bar
+STOP: Final = (-4000, -1500)  # the axis of the stop against which it feels the end of the bar
+ASKED: Final = (3000, -2500, 0.100)  # where the bar is wanted: x and y of the slides, and m over the table
+ATTITUDE: Final = 3.0  # deg
+PLACED: Final = 1.0  # mm
+STOP_RADIUS: Final = 0.004  # m: the stop fits between fingers that hold a bar
+HIGH: Final = 0.050  # m, the middle of the bar in its cradle over the table
+_PITCH, _YAW = "cradle.pitch", "cradle.yaw"
+_PLACE, _STOP, _FRICTION = "cradle.place", "stop.place", "bar.friction"
+_PLATE: Final = (0.0025, 0.004, 0.0015)  # m, half sizes of the two plates on which the ends of the bar lie
+_LIP: Final = (0.0025, 0.0015, 0.004)  # of the lip at the lower end
+TROUBLES: Final = {
+    "1": "the hand has met something on its way down",
+    "2": "the hand does not hold one bar by its sides",
+    "3": "the bar meets nothing where the table should be",
+    "4": "the bar does not lie flat on the table",
+    "5": "the bar does not meet the stop",
+}  # by the number that the program prints
+VARIATION: Final = Variation(
+    *ARM,
+    quantity(
+        _PITCH,
+        "deg",
+        Range(0.0, 50.0),
+        50.0,
+        "Pitch of the bar in its cradle; the seed determines which end is higher. The specification's row 48.",
+    ),
+    quantity(
+        _YAW,
+        "deg",
+        Range(0.0, 25.0),
+        25.0,
+        "Yaw of the bar in its cradle; the seed determines to which side. The specification's row 48.",
+    ),
+    quantity(
+        _PLACE,
+        "mm",
+        Noise(1.5),
+        5.0,
+        "Standard deviation of the cradle's position along x and y. No source: our choice, for one placed by hand.",
+    ),
+    quantity(
+        _STOP,
+        "mm",
+        Noise(0.05),
+        1.0,
+        "Standard deviation of the stop's position along x and y. No source: our choice, for one that is screwed on.",
+    ),
+    quantity(
+        _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of bar, table and cradle. No source: our choice.", 0.4
+    ),
+)
+
+
+class Orient(ArmTask):
+    """Turn a bar into a known attitude."""
+
+    name = "orient"
+    words = Words(product="the bar", done="The bar is in the attitude and at the place that were asked for.")
+
+    def variation(self) -> Variation:
+        return VARIATION
+
+    def station(self, world: ArmWorld) -> Station:
+        """Return the station with the cradle and its bar, and with the stop."""
+        spec = scene(world, wand=False)
+        at = np.array(CRADLE) * LINEAR + [
+            world.normal("cradle.x", _PLACE),
+            world.normal("cradle.y", _PLACE),
+        ]
+        pitch, yaw = (world.value(name) * world.numbers(name).choice((-1, 1)) for name in (_PITCH, _YAW))
+        friction = world.value(_FRICTION)
+        _add_cradle(spec, at, pitch, yaw, friction)
+        stop = np.array(STOP) * LINEAR + [world.normal("stop.x", _STOP), world.normal("stop.y", _STOP)]
+        _add_stop(spec, stop)
+        return Station(spec, world)
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return self.station(self.world(spec)).bench.model
+
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        return ReportingHardware(self.station(self.world(world)), tell, TROUBLES)
+
+    def judge(self, truth: Truth) -> Findings:
+        bar = truth.data.body("bar")
+        x, y, high = ASKED
+        off = np.linalg.norm(bar.xpos - [x * LINEAR, -y * LINEAR, high])
+        turn = off_attitude(bar.xmat.reshape(3, 3), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
+        touching = sum(_touch(truth, "bar", pad) for pad in ("left_pad", "right_pad"))
+        return {
+            "attitude": at_most(
+                turn, ATTITUDE, "deg", "angle of the bar from the attitude that was asked for"
+            ),
+            "place": at_most(
+                float(off) / MILLIMETRE, PLACED, "mm", "distance of the bar from the place that was asked for"
+            ),
+            "held": at_least(touching, 2, "", "fingers that touch the bar"),
+        }
+
+
+def _touch(truth: Truth, one: str, other: str) -> bool:
+    pair = {truth.model.geom(one).id, truth.model.geom(other).id}
+    return any({*map(int, geoms)} == pair for geoms in truth.data.contact.geom)
+
+
+def _add_cradle(spec: mujoco.MjSpec, at: Array, pitch: float, yaw: float, friction: float) -> None:
+    """Add two narrow plates on feet, on which the ends of the bar lie, and a lip at its lower end; x and y of the
+    slides (m).
+    """
+    import mujoco
+
+    middle = np.array([at[0], -at[1], HIGH])
+    quat = after(turned("z", yaw), turned("x", pitch))
+    add_bar(spec, "bar", middle, quat, friction)
+    R, below = _matrix(quat), -WIDE / 2 - _PLATE[2]
+    lower = -1 if pitch > 0 else 1  # a positive pitch lifts the end along y
+    cradle = spec.worldbody.add_body(name="cradle", pos=middle.tolist(), quat=quat.tolist())
+    colour = [0.30, 0.36, 0.46, 1]
+
+    def box(body: mujoco.MjsBody, size: Sequence[float], place: Sequence[float]) -> None:
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=place, rgba=colour, group=1)
+
+    for end in (-1, 1):
+        plate = np.array([0, end * (LONG / 2 - _PLATE[1]), below])
+        box(cradle, _PLATE, plate.tolist())
+        x, y, z = middle + R @ plate
+        box(spec.worldbody, (0.0022, 0.0022, z / 2), (x, y, z / 2))
+    box(cradle, _LIP, (0, lower * (LONG / 2 + _LIP[1]), _LIP[2] - WIDE / 2 - 2 * _PLATE[2]))
+
+
+def _matrix(quat: Array) -> Array:
+    import mujoco
+
+    flat = np.empty(9)
+    mujoco.mju_quat2Mat(flat, quat)
+    return flat.reshape(3, 3)
+
+
+def _add_stop(spec: mujoco.MjSpec, at: Array) -> None:
+    """Add an upright pin; x and y of the slides (m)."""
+    import mujoco
+
+    spec.worldbody.add_geom(
+        name="stop", type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=[STOP_RADIUS, 0.02, 0], pos=[at[0], -at[1], 0.02],
+        rgba=[0.62, 0.55, 0.30, 1], group=1,
+    )  # fmt: skip
+
+
+ORIENT: Final = Orient()

@@ -1,0 +1,90 @@
+"""The job that orients a bar: its program in worlds drawn from seeds, and its referee."""
+
+import json
+from collections.abc import Callable
+from math import radians
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+from handeye.core.pose import rotation_x
+from handeye.core.variation import WorldSpec
+from handeye.results.finishing import finished
+from handeye.results.result import Result
+from handeye.runs.advance import advance
+from handeye.runs.host_seconds import Meter
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.systems.ml.bench.bars import after, off_attitude, turned
+from handeye.systems.ml.machine.spec import LINEAR
+from handeye.systems.ml.orient.task import ASKED, ORIENT
+from handeye.systems.ml.run.jobs import job_plan, job_setup
+
+Command = Callable[..., tuple[int, str, str]]
+Y, Z = np.eye(3)[1:]
+
+
+def begun(job: str, seed: int = 7, text: str = "") -> Runner:
+    plan = job_plan(job)
+    return Runner(Checkpoint(setup=job_setup(replace(plan, text=text or plan.text), WorldSpec(seed=seed))))
+
+
+def done(runner: Runner) -> Result:
+    return finished(runner, advance(runner), Meter(), judged=True)
+
+
+def wrong_bar(runner: Runner, at: np.ndarray, quat: np.ndarray) -> list[str]:
+    runner.cell.truth.data.joint("bar").qpos[:] = (*at, *quat)
+    runner.cell.restore(runner.cell.capture())
+    return [name for name, found in ORIENT.judge(runner.cell.truth).items() if not found.ok]
+
+
+@pytest.mark.ml_row(48)
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1000, 1001])
+def test_a_bar_in_an_unknown_attitude_is_turned_into_a_known_one(seed: int) -> None:
+    result = done(begun("orient", seed))
+    assert (result.exit_code, result.completed) == (0, True)
+    assert all(check.ok for check in result.referee.values())
+
+
+def test_an_attitude_counts_for_either_end_and_any_side() -> None:
+    assert off_attitude(rotation_x(radians(180)), Y, Z) == pytest.approx(0, abs=1e-6)
+    assert off_attitude(rotation_x(radians(-4)), Y, Z) == pytest.approx(4)
+    rolled = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])  # a quarter turn about its length
+    assert off_attitude(rolled, Y, Z) == pytest.approx(0, abs=1e-6)
+    assert off_attitude(rolled @ rotation_x(radians(5)), Y, Z) == pytest.approx(5)
+
+
+def test_the_referee_sees_a_bar_that_is_turned_shifted_or_not_held() -> None:
+    runner = begun("orient")
+    x, y, high = ASKED
+    there = np.array([x * LINEAR, -y * LINEAR, high])
+    level = turned("z", 0)
+    assert wrong_bar(runner, there, level) == ["held"]
+    assert wrong_bar(runner, there, turned("x", radians(2.9))) == ["held"]
+    assert wrong_bar(runner, there, turned("x", radians(3.1))) == ["attitude", "held"]
+    assert wrong_bar(runner, there, after(turned("y", radians(3.1)), level)) == ["attitude", "held"]
+    assert wrong_bar(runner, there + np.array([0, 0.0011, 0]), level) == ["place", "held"]
+    tips = runner.cell.truth.data.body("hand").xpos - [0, 0, 0.15]
+    assert wrong_bar(runner, tips, level) == ["place"]  # the closed fingers touch it
+
+
+@pytest.mark.slow
+def test_an_empty_cradle_and_a_missing_stop_are_reported() -> None:
+    runner = begun("orient")
+    runner.cell.truth.data.joint("bar").qpos[:3] = (-0.2, 0.2, 0.007)
+    runner.cell.restore(runner.cell.capture())
+    result = done(runner)
+    sentence = "the hand does not hold one bar by its sides (done before: 0)"
+    assert (result.exit_code, result.message) == (1, sentence)
+    elsewhere = job_plan("orient").text.replace("86 MOVE 0 9000 -4500 -4000", "86 MOVE 0 9000 -4500 -2500")
+    result = done(begun("orient", text=elsewhere))
+    assert (result.exit_code, result.message) == (1, "the bar does not meet the stop (done before: 0)")
+
+
+@pytest.mark.slow
+def test_trials_are_counted(command: Command) -> None:
+    code, out, _ = command("trials", "orient", "--n", "1", "--seed", "7", "--jobs", "1", "--json")
+    assert (code, json.loads(out)["right"]) == (0, 1)
