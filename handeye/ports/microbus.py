@@ -152,6 +152,11 @@ class MicrobusPort(ABC):
         """Return the status lines of one microcomputer. No time passes."""
         return Status(self.page(number // PAGE) >> 2 * (number % PAGE) & 0b11)
 
+    def begun(self, number: int) -> bool:
+        """Return True if a microcomputer shows, after the last byte of a command that takes time, that it executes
+        the command or has refused it."""
+        return self.status(number) is not Status.FREE
+
     def send(self, command: Command) -> None:
         """Send a command, and wait until its last byte has been sent."""
         self.begin(command)

@@ -73,8 +73,24 @@ def test_a_dead_microcomputer_stops_a_program_that_asks_it() -> None:
 
 
 def test_a_slow_clock_is_seen_in_what_is_taken() -> None:
-    found, _, _ = over_wires(program_of("slow.mal", mal("handover")), 2000, [defect("clock:Y2:200")])
-    assert found.misread > 10
+    text = "10 FOR N = 1 TO 9\n20 MOVE X1 BY 5\n30 NEXT N\n"
+    found, _, _ = over_wires(program_of("slow.mal", text), 2000, [defect("clock:Y2:200")])
+    assert (found.completed, found.misread) == (True, 9)
+
+
+@pytest.mark.parametrize(
+    "fault", ["dead:X1", "dead-interface", "address:X1:1", "clock:X1:200", "status-b:X1:0"]
+)
+def test_a_motor_that_does_not_begin_stops_the_program_at_its_first_command(fault: str) -> None:
+    found, _, _ = over_wires(program_of("one.mal", "10 MOVE X1 BY 5\n"), 2000, [defect(fault)])
+    assert found.message == "line 10: NOTSTARTED: X1 has not begun to execute its command"
+
+
+def test_a_hand_that_does_not_begin_stops_the_program_and_one_that_switches_a_lamp_need_not_be_busy() -> None:
+    text = "10 ACTUATE LAMP = 1\n20 ACTUATE HAND1 = 1\n"
+    assert over_wires(program_of("hand.mal", text), 2000)[0].completed
+    found, _, _ = over_wires(program_of("hand.mal", text), 2000, [defect("dead:HAND1")])
+    assert found.message == "line 20: NOTSTARTED: HAND1 has not begun to execute its command"
 
 
 def test_the_bus_of_a_program_is_a_command_with_a_drawing(command: Command) -> None:

@@ -16,7 +16,9 @@ def borrow(
     *,
     at: Annotated[
         tuple[float, float] | None,
-        Parameter(help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres."),
+        Parameter(
+            help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres. Default: 350 550."
+        ),
     ] = None,
     seed: Annotated[
         WholeNumber, Parameter(help="Seed of the world: it determines the errors of the arm.")

@@ -16,7 +16,9 @@ def bridge(
     *,
     at: Annotated[
         tuple[float, float] | None,
-        Parameter(help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres."),
+        Parameter(
+            help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres. Default: 350 550."
+        ),
     ] = None,
     task: TaskWords = None,
     output: Annotated[Path | None, Parameter(name=["--out", "-o"])] = None,

@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import Annotated, Final
 
 from cyclopts import App, Parameter
 
@@ -43,9 +43,6 @@ from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
 
-if TYPE_CHECKING:
-    pass
-
 MalFile = Annotated[Path, Parameter(help="A program in MAL, `.mal`.")]
 StatementTime = Annotated[
     WholeNumber,
@@ -66,7 +63,11 @@ Arm = Annotated[
     ),
 ]
 
-sigma = App(name="sigma", help="SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.")
+sigma = App(
+    name="sigma",
+    help="SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.\n\nWithout a command, `handeye sigma` "
+    "opens the console of 1981.",
+)
 
 
 def run(

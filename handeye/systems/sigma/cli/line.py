@@ -76,5 +76,5 @@ def line_trials(
     _check_pieces(pieces)
     return carry_out_trials(
         LINE_TRIALS, job_plan("line", pieces), n, seed, errors, options,
-        title=f"assembly line with {counted(pieces, 'peg')}", again=f"--pieces {pieces}",
+        title=f"assembly line with {counted(pieces, 'piece')}", again=f"--pieces {pieces}",
     )  # fmt: skip

@@ -27,6 +27,7 @@ class JobTask(GantryTask):
     layout: Layout = SUPERSIGMA
     usual: int
     """The number of pieces if none is given."""
+    few = 2  # pieces for a short run
     judges_stopped = True
 
     @abstractmethod

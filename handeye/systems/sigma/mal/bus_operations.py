@@ -195,6 +195,8 @@ class BusOperations:
             self.memory.doubtful = tuple(axis for axis in self.memory.doubtful if axis != what.to)
         self._transmit(name, command, means or _meaning(command))
         self.machine.send(command)
+        if _takes_time(command) and not self.machine.begun(command.number):
+            raise Trap(f"NOTSTARTED: {what.to} has not begun to execute its command")
 
     def _compare(self, name: str, axis: str) -> None:
         """Raise Trap if a motor has counted other steps than the program has commanded, because its microcomputer
@@ -243,6 +245,12 @@ def text_of(instruction: Instruction) -> str:
 def names_of(instruction: Instruction) -> tuple[str, ...]:
     assert isinstance(instruction.operand, tuple)
     return instruction.operand
+
+
+def _takes_time(command: Command) -> bool:
+    """Return True if a microcomputer that executes a command is busy for longer than the command is sent."""
+    fingers = command.op == Op.ACTUATE and command.detail == protocol.DEVICES["HAND"]
+    return fingers or command.op in (Op.MOVE, Op.MOVE_SLOW, Op.ORIGIN)
 
 
 _DEVICES: Final = {number: name for name, number in protocol.DEVICES.items()}

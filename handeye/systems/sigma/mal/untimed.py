@@ -73,6 +73,9 @@ class UntimedMachine(MicrobusPort):
         busy = (AXIS_OF.get(PAGE * number + n, "") in self.state.moving for n in range(PAGE))
         return sum((Status.BUSY if each else Status.FREE) << 2 * n for n, each in enumerate(busy))
 
+    def begun(self, number: int) -> bool:
+        return True  # axes in `instant` have arrived
+
     @property
     def interrupt(self) -> bool:
         return False

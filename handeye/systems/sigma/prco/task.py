@@ -45,7 +45,7 @@ class Plate(JobTask):
 
     name = "prco"
     words = Words(product="the plate", done="The plate is on its base, with its pins and screws.")
-    usual = MOST
+    usual = few = MOST  # its program drives all screws
 
     def board(self, world: GantryWorld, count: int) -> tuple[mujoco.MjSpec, PumpWitness]:
         spec, pump = scene(world), drawn(world, count)

@@ -16,7 +16,6 @@ from handeye.systems.sigma.run.running import RunningMal
 from handeye.systems.sigma.run.state import MalState
 from handeye.tasks import any_task
 
-OWN_PIECES: Final = 2  # of a board where no number is given
 OWN: Final = "handover.mal"  # the program that is run where none is named
 
 
@@ -66,7 +65,7 @@ class SigmaSystem(System):
     def own_plan(self, task: str) -> MalPlan:
         for job in PROGRAMS:
             if task == job:
-                return job_plan(job, OWN_PIECES)
+                return job_plan(job, few_pieces(job))
         text = read_source(plans() / OWN).text
         return MalPlan(name=OWN, text=text, arm="gantries" if task == "gantries" else "none")
 
@@ -76,6 +75,15 @@ class SigmaSystem(System):
             "retry": "retry: execute this statement again",
             "skip": "skip: end the program here",
         }
+
+
+def few_pieces(job: str) -> int:
+    """Return the number of pieces for a short run of a job."""
+    from handeye.systems.sigma.gantries.job import JobTask
+
+    task = any_task(job)
+    assert isinstance(task, JobTask)
+    return task.few
 
 
 SIGMA: Final = SigmaSystem()
