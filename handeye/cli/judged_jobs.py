@@ -24,15 +24,12 @@ if TYPE_CHECKING:
 
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
-class JobOptions:
-    """Options for running a job, except its world."""
+class RunOptions:
+    """Options for running a program."""
 
     json: Json = False
     details: Details = False
     out: Out = None
-    video: Annotated[
-        Path | None, Parameter(help="File for a video of the run (14 s): .webp, .webm or .mp4.")
-    ] = None
     overwrite: Overwrite = False
     no_keep: NoKeep = False
     breaks: Break = None
@@ -41,14 +38,49 @@ class JobOptions:
     on_stop: OnStop = None
 
 
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobOptions(RunOptions):
+    """Options for running a job, except its world."""
+
+    video: Annotated[
+        Path | None, Parameter(help="File for a video of the run (14 s): .webp, .webm or .mp4.")
+    ] = None
+
+
+USUAL_RUN: Final = RunOptions()
 ANY_RUN: Final = JobOptions()
+
+
+def carry_out_run(
+    setup: "Setup",
+    options: RunOptions,
+    listening: "Sequence[Observer]" = (),
+    *,
+    folder: Path | None = None,
+    judged: bool = True,
+) -> int:
+    """Run a program and report how it ended. Returns the exit code.
+
+    Args:
+        listening: observers of the run, unless it is stepped.
+        folder: where the run is kept, in place of --out.
+    """
+    from handeye.cli.job import Job, work
+    from handeye.runs.snapshot import Checkpoint
+
+    return work(
+        Job(
+            start=Checkpoint(setup=setup), out=folder or options.out, keep=not (options.no_keep or options.step),
+            details=options.details, overwrite=options.overwrite, breaks=options.breaks or (), step=options.step,
+            live=options.live, on_stop=options.on_stop, json=options.json, referee=judged,
+            listening=() if options.step else listening,
+        )
+    )  # fmt: skip
 
 
 def carry_out_job(setup: "Setup", options: JobOptions, listening: "Sequence[Observer]" = ()) -> int:
     """Run a job and let its referee judge; make the video. Returns the exit code."""
-    from handeye.cli.job import Job, work
-    from handeye.runs.snapshot import Checkpoint
-
     out, video, overwrite = options.out, options.video, options.overwrite
     check_kept(options.no_keep, out)
     with TemporaryDirectory() as aside:
@@ -56,13 +88,7 @@ def carry_out_job(setup: "Setup", options: JobOptions, listening: "Sequence[Obse
         if video is not None:
             _check_video(video, out, overwrite=overwrite)
             folder = out or Path(aside) / "run"
-        code = work(
-            Job(
-                start=Checkpoint(setup=setup), out=folder, keep=not (options.no_keep or options.step),
-                details=options.details, overwrite=overwrite, breaks=options.breaks or (), step=options.step,
-                live=options.live, on_stop=options.on_stop, json=options.json, referee=True, listening=listening,
-            )
-        )  # fmt: skip
+        code = carry_out_run(setup, options, listening, folder=folder)
         if video is None or folder is None or code not in (0, 1, 3):
             return code
         return code or (0 if _filmed(folder, video, overwrite=overwrite) else 2)

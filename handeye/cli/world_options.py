@@ -27,7 +27,7 @@ Faults = Annotated[
         group=WORLD,
         consume_multiple=False,
         help="A fault: NAME or NAME=VALUE, followed by @STAGE to begin the fault at that stage instead of at the "
-        "start. `handeye faults --list` lists the faults of the pump, and with `--task JOB` those of another job. May be "
+        "start. `handeye faults --list` lists the faults of the pump, and with `--task JOB` those of a job. May be "
         "repeated.",
     ),
 ]

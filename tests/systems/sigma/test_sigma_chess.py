@@ -16,6 +16,7 @@ from handeye.core.errors import BadArgument, BadFile
 from handeye.core.variation import WorldSpec
 from handeye.judge.finding import Findings
 from handeye.program.events import to_line
+from handeye.program.numbered import encode
 from handeye.results.finishing import finished
 from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
@@ -26,7 +27,7 @@ from handeye.systems.sigma.chess.task import CHESS, HEIGHT
 from handeye.systems.sigma.gantries.machine import Gantries
 from handeye.systems.sigma.gantries.world import GantryWorld
 from handeye.systems.sigma.run.jobs import job_plan, job_setup
-from handeye.systems.sigma.run.plan import MOST_PIECES, MalPlan, decode, encode
+from handeye.systems.sigma.run.plan import MOST_PIECES, MalPlan, decode
 from handeye.trials.jobs import JobRow, JobWork
 from handeye.trials.sweep import Case
 

@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from handeye.core.errors import BadArgument, BadFile
 from handeye.core.variation import WorldSpec
 from handeye.judge.finding import Findings
+from handeye.program.numbered import encode
 from handeye.results.finishing import finished
 from handeye.results.result import Result
 from handeye.runs.advance import advance
@@ -28,7 +29,7 @@ from handeye.systems.sigma.handover.witness import HandoverWitness
 from handeye.systems.sigma.mal.compiler import program_of
 from handeye.systems.sigma.mal.interleavings import Interleavings, interleavings
 from handeye.systems.sigma.run.jobs import job_plan, job_setup
-from handeye.systems.sigma.run.plan import decode, encode
+from handeye.systems.sigma.run.plan import decode
 
 Command = Callable[..., tuple[int, str, str]]
 PAGE: Final = ROOT / "docs/handover.md"

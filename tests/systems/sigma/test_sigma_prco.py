@@ -15,6 +15,7 @@ from handeye.core.errors import BadArgument, BadFile
 from handeye.core.pose import pose
 from handeye.core.variation import WorldSpec
 from handeye.judge.finding import Findings
+from handeye.program.numbered import encode
 from handeye.results.finishing import finished
 from handeye.results.result import Result
 from handeye.runs.advance import advance
@@ -29,7 +30,7 @@ from handeye.systems.sigma.prco.task import PRCO
 from handeye.systems.sigma.prco.witness import PumpWitness
 from handeye.systems.sigma.protocol import NUMBERS
 from handeye.systems.sigma.run.jobs import job_plan, job_setup
-from handeye.systems.sigma.run.plan import decode, encode
+from handeye.systems.sigma.run.plan import decode
 from handeye.tasks.stanford_cell.screws import LENGTH
 
 Command = Callable[..., tuple[int, str, str]]

@@ -1,21 +1,19 @@
 """The commands of MOS and ML: run and check a program, assemble a symbolic one, and open the terminal of 1975."""
 
-import sys
 from collections.abc import Callable
-from itertools import chain
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Details, Json, NoKeep, Out, Overwrite, WholeNumber, note, say, show
-from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
-from handeye.core.diagnostics import has_errors, quoted, suggestion
-from handeye.core.errors import BadArgument, InvalidInput, NoSuchName
+from handeye.cli.common import Overwrite, WholeNumber, note, say
+from handeye.cli.judged_jobs import USUAL_RUN, RunOptions, carry_out_run
+from handeye.cli.numbered import Ask, LinePrinter, converse, explain_word, show_check, shown_without_errors
+from handeye.cli.runs import check_kept
+from handeye.core.errors import BadArgument
 from handeye.core.files import check_new, write_whole
 from handeye.core.source import Source, read_source
-from handeye.program.events import AnyEvent
-from handeye.runs.observer import Observer
 from handeye.systems.ml.cli.follow import follow
 from handeye.systems.ml.cli.parts import orient
 from handeye.systems.ml.cli.support import support
@@ -68,28 +66,18 @@ def run(
             "at 2750 or farther from 0, and `door=1@.5s` from .5 s on. Give --sense for each."
         ),
     ] = None,
-    json: Json = False,
-    details: Details = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    no_keep: NoKeep = False,
-    breaks: Break = None,
-    step: Step = False,
-    live: Live = False,
-    on_stop: OnStop = None,
+    options: RunOptions = USUAL_RUN,
 ) -> int:
     """Run a program. The arm is enabled first. A step is one statement.
 
     Exit code 0: the program has ended; 1: an error or an emergency has stopped it; 2: bad input; 130: interrupted.
     """
-    from handeye.cli.job import Job, work
     from handeye.core.variation import WorldSpec
     from handeye.runs.setup import Setup
-    from handeye.runs.snapshot import Checkpoint
     from handeye.systems.ml.cli.senses import sensed
     from handeye.systems.ml.run.plan import MlPlan, sound
 
-    check_kept(no_keep, out)
+    check_kept(options.no_keep, options.out)
     check_machine(arm, seed=seed, left=left, sense=sense)
     stimuli = tuple(sensed(each) for each in sense or ())
     source = read_source(file)
@@ -99,13 +87,7 @@ def run(
     sound(plan)
     judged = arm == "none"  # what any program does to an empty table is neither right nor wrong
     setup = Setup(system="ml", plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=judged)
-    return work(
-        Job(
-            start=Checkpoint(setup=setup), out=out, keep=not (no_keep or step), details=details, overwrite=overwrite,
-            breaks=breaks or (), step=step, live=live, on_stop=on_stop, json=json, referee=judged,
-            listening=() if step else (Printer(note if json else say),),
-        )
-    )  # fmt: skip
+    return carry_out_run(setup, options, (Printer(note if options.json else say),), judged=judged)
 
 
 def check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str] | None) -> None:
@@ -121,22 +103,13 @@ def check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str]
         )
 
 
-class Printer(Observer):
-    """Prints the output of a program."""
-
-    def __init__(self, put: Callable[[str], None]) -> None:
-        self._put = put
-
-    def event(self, event: AnyEvent) -> None:
-        if isinstance(event, Printed):
-            self._put(event.text)
+Printer = partial(LinePrinter, Printed)
+"""Prints the output of a program."""
 
 
 def reported(source: Source, *, first: int | None, left: int | None) -> bool:
     """Print the mistakes of a program. Returns True if there are no errors."""
-    found = checked(source, first=first, left=left)[1]
-    show(found, source, json=False)
-    return not has_errors(found)
+    return shown_without_errors(checked(source, first=first, left=left)[1], source)
 
 
 def check(
@@ -147,11 +120,7 @@ def check(
     Exit code 0: no errors; 2: bad input, or a program with errors.
     """
     source = read_source(file)
-    found = checked(source)[1]
-    show(found, source, json=json)
-    if not found and not json:
-        say(f"{file}: no errors")
-    return 2 if has_errors(found) else 0
+    return show_check(file, checked(source)[1], source, json=json)
 
 
 def assemble(
@@ -172,8 +141,7 @@ def assemble(
 
     source = read_source(file)
     text, found = assembled(source)
-    show(found, source, json=False)
-    if has_errors(found):
+    if not shown_without_errors(found, source):
         return 2
     if out is None:
         say(text.removesuffix("\n"), whole=True)
@@ -194,22 +162,12 @@ def words(word: str | None = None, /) -> int:
     """
     from handeye.systems.ml.language.commands import COMMANDS, explained
 
-    if word is None:
-        for category in dict.fromkeys(command.category for command in COMMANDS.values()):
-            say(f"{category} commands")
-            for command in COMMANDS.values():
-                if command.category == category:
-                    say(f"  {command.form}", whole=True)
-        return 0
-    text = explained(word)
-    if text is None:
-        near = suggestion(word.upper(), COMMANDS)
-        raise NoSuchName(
-            f"{quoted(word)} is not a command of ML"
-            + (f"; {near}" if near else "; `handeye ml words` lists them")
-        )
-    say(text)
-    return 0
+    usages: dict[str, list[str]] = {}
+    for each in COMMANDS.values():
+        usages.setdefault(f"{each.category} commands", []).append(each.form)
+    return explain_word(
+        word, usages, explained, known=COMMANDS, noun="a command of ML", command="handeye ml words"
+    )
 
 
 def console(
@@ -241,31 +199,15 @@ def try_program(file: MlFile, /) -> int:
 
 def _session(file: Path | None, *typed: str, left: bool = False) -> int:
     """Execute some lines, then those that the user types. Returns the exit code."""
-    from handeye.cli.panic_button import PanicButton
-    from handeye.cli.prompt import typed_lines
     from handeye.systems.ml.cli.console import Console
 
-    terminal, code = sys.stdin.isatty(), 0
-    with PanicButton() as panic:
-
-        def asked(prompt: str) -> str | None:
-            if not terminal:
-                say(prompt.rstrip())
-            return next(typed_lines(prompt if terminal else "", panic.aside, lambda: ()), None)
-
-        session = Console(say, asked, panic, left=left)
+    def begin(ask: Ask, halted: Callable[[], bool]) -> Console:
+        session = Console(say, ask, halted, left=left)
         if file is not None:
             session.load(read_source(file))
-        lines = typed_lines("READY " if terminal else "", panic.aside, session.words)
-        for line in chain(typed, lines):
-            try:
-                session.hear(line)
-            except InvalidInput as error:
-                say(str(error))
-                code = 2
-            if session.over:
-                break
-    return 0 if terminal else code
+        return session
+
+    return converse(begin, "READY ", typed, echo=True)
 
 
 _COMMANDS: Final = (run, check, assemble, words, tables, view, touch, follow, blocks, train, support, orient)

@@ -2,149 +2,124 @@
 
 from typing import Final
 
-from handeye.core.codes import Severity
-from handeye.core.diagnostics import Diagnostic, KnownNames, Label, SimilarName, names_sentence, problem
-from handeye.core.record import Record
-from handeye.core.source import Span
+from handeye.program.mistakes import Mistake, Mistakes
 
-
-class MlCode(Record, frozen=True, kw_only=True):
-    """A kind of mistake."""
-
-    meaning: str
-    example: str
-    cure: str
-    severity: Severity = "error"
-
-
-CODES: Final[dict[str, MlCode]] = {
-    "M01": MlCode(
+CODES: Final[dict[str, Mistake]] = {
+    "M01": Mistake(
         meaning="a command does not exist", example="10 MOOVE 0 0 2000",
         cure="`handeye ml words` lists the commands",
     ),
-    "M02": MlCode(
+    "M02": Mistake(
         meaning="a sequence number is not between 1 and 5000", example="5001 STOP",
         cure="give statements numbers from 1 to 5000",
     ),
-    "M03": MlCode(
+    "M03": Mistake(
         meaning="a command has too few or too many parameters", example="10 MOTOR 3",
         cure="`handeye ml words` with the command shows its parameters",
     ),
-    "M04": MlCode(
+    "M04": Mistake(
         meaning="a number does not fit into 16 bits, or the limits of a sensor are in the wrong order",
         example="10 LOAD 1 32768", cure="use numbers from -32768 to 32767, and give the lower limit first",
     ),
-    "M05": MlCode(
+    "M05": Mistake(
         meaning="the number of a variable is not between 1 and 256", example="10 LOAD 3 &257",
         cure="use `&1` to `&256`",
     ),
-    "M06": MlCode(
+    "M06": Mistake(
         meaning="a reference has more than six `&`", example="10 BRANCH &&&&&&&17",
         cure="load a part of the chain into a variable first",
     ),
-    "M07": MlCode(
+    "M07": Mistake(
         meaning="a statement does not exist", example="10 BRANCH 700\n20 STOP",
         cure="give the number of a stored statement",
     ),
-    "M08": MlCode(
+    "M08": Mistake(
         meaning="a point does not exist", example="10 GOPOINT 5\n20 STOP",
         cure="store a POINT statement under this number",
     ),
-    "M09": MlCode(
+    "M09": Mistake(
         meaning="a motor is not installed", example="10 MOTOR 6 100",
         cure="use motors 1 to 4 and 8 to 12 of the right arm, or 2 to 4 and 8 to 11 of the left arm; give 0 for absent "
         "motors in MOVE and DMOVE",
     ),
-    "M10": MlCode(
+    "M10": Mistake(
         meaning="a goal is outside the travel of its motor", example="10 MOTOR 3 12000",
         cure="the table MT has the travel of each motor in words 6 and 7",
     ),
-    "M11": MlCode(
+    "M11": Mistake(
         meaning="a sensor or a table, or a line or word of a table, does not exist", example="10 GET 1 MT 13 1",
         cure="`QUERY` shows a table; `handeye ml words` lists all tables",
     ),
-    "M13": MlCode(
+    "M13": Mistake(
         meaning="the end of a loop, or a RETURN, without its beginning", example="10 NEXTI",
         cure="write LOOPI before NEXTI, LOOPJ before NEXTJ, and call the subroutine with GOSUB",
     ),
-    "bad-parameter": MlCode(
+    "bad-parameter": Mistake(
         meaning="a parameter has a form that its command does not accept", example="10 LOAD 1 ABC",
         cure="write a number such as `-100`, or a reference such as `&17` or `-&17`",
     ),
-    "flag-left-on": MlCode(
+    "flag-left-on": Mistake(
         meaning="a motion follows a branch on a flag that no SENSOR has cleared, so it moves nothing",
         example="10 SENSOR 5 -178 450\n20 DMOTOR 2 100\n30 BRANCH 40 50 5\n40 DMOTOR 2 -100\n50 STOP",
         cure="clear the flag with SENSOR before the motion", severity="warning",
     ),
-    "limits-empty": MlCode(
+    "limits-empty": Mistake(
         meaning="no reading is strictly between two limits, so the flag comes on at once",
         example="10 SENSOR 1 0 1\n20 STOP", cure="readings equal to a limit are outside; `SENSOR 1 -1 1` accepts 0",
         severity="warning",
     ),
-    "line-replaced": MlCode(
+    "line-replaced": Mistake(
         meaning="two lines have the same sequence number, and the second replaces the first",
         example="10 LOAD 1 5\n10 LOAD 1 6", cure="give each line a different number", severity="warning",
     ),
-    "long-line": MlCode(
+    "long-line": Mistake(
         meaning="a line has more than 500 characters", example=f"10 PRINT{' ' * 500}1", cure="remove blanks",
     ),
-    "loop-without-end": MlCode(
+    "loop-without-end": Mistake(
         meaning="a loop has no end after it", example="10 LOOPI 3\n20 ADD 1 1",
         cure="write NEXTI or NEXTJ after the statements to repeat",
     ),
-    "not-stored": MlCode(
+    "not-stored": Mistake(
         meaning="a line of a file has no sequence number", example="MOTOR 3 2000",
         cure="number the line; `handeye ml` executes lines without a number immediately",
     ),
-    "point-not-filled": MlCode(
+    "point-not-filled": Mistake(
         meaning="the arm goes to a POINT that nothing fills", example="5 POINT\n10 GOPOINT 5",
         cure="fill the point with DEFPOINT or JOY, or give its positions: `5 POINT * 0 0 2000 ...`", severity="warning",
     ),
-    "too-fast": MlCode(
+    "too-fast": Mistake(
         meaning="a motion is so fast that its own start trips the limit of a finger's strain",
         example="10 SENSOR 7 -60 60\n20 DMOTOR 2 500\n30 SENSOR\n40 STOP",
         cure="lower the speed before the motion with PUT MT m 8, or widen the limits", severity="warning",
     ),
-    "unguarded-motion": MlCode(
+    "unguarded-motion": Mistake(
         meaning="no sensor is guarded during a motion", example="10 DMOTOR 2 -100\n20 STOP",
         cure="write a SENSOR with limits before the motion", severity="warning",
     ),
 }  # fmt: skip
 
-SYMBOLIC: Final[dict[str, MlCode]] = {
-    "bad-definition": MlCode(
+SYMBOLIC: Final[dict[str, Mistake]] = {
+    "bad-definition": Mistake(
         meaning="a definition does not have the form that it requires", example="STEP EQU",
         cure="write `NAME EQU number`, or `NAME VAR`",
     ),
-    "bad-name": MlCode(
+    "bad-name": Mistake(
         meaning="a name is a command or a table, or contains characters other than letters, digits and `_`",
         example="STOP EQU 5", cure="choose another name, which begins with a letter",
     ),
-    "name-twice": MlCode(
+    "name-twice": Mistake(
         meaning="a name is defined twice", example="A EQU 5\nA VAR", cure="give each value a different name",
     ),
-    "too-many-statements": MlCode(
+    "too-many-statements": Mistake(
         meaning="a symbolic program has more than 1000 statements", example="STOP\n" * 1001,
         cure="write repeated statements once, as a subroutine",
     ),
-    "unknown-name": MlCode(
+    "unknown-name": Mistake(
         meaning="a name of a symbolic program is not defined", example="BRANCH AGAIN",
         cure="define the name with EQU or VAR, or as a label",
     ),
 }  # fmt: skip
 """Mistakes in symbolic programs, besides those of ML."""
 
-
-def mistake(
-    code: str,
-    message: str,
-    span: Span,
-    *secondary: Label,
-    help: str | None = None,
-    meant: SimilarName | KnownNames | None = None,
-    notes: tuple[str, ...] = (),
-) -> Diagnostic:
-    """Make a diagnostic. It has the cure of its code, unless a more specific cure is given."""
-    known = CODES.get(code) or SYMBOLIC[code]
-    cure = help or names_sentence(meant) or known.cure
-    return problem(code, message, span, *secondary, help=cure, meant=meant, own=known.severity, notes=notes)
+mistake: Final = Mistakes(CODES, SYMBOLIC)
+"""Makes a diagnostic of ML."""

@@ -2,9 +2,10 @@
 
 from typing import Final
 
-from handeye.core.diagnostics import Diagnostic, render
+from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source
 from handeye.program.language import OwnLanguage
+from handeye.program.mistakes import explained_mistake
 from handeye.systems.ml.errors import MEANINGS
 from handeye.systems.ml.language.assembler import assembled
 from handeye.systems.ml.language.check import checked
@@ -13,8 +14,6 @@ from handeye.systems.ml.language.commands import COMMANDS, Kind, explained
 from handeye.systems.ml.language.parser import parsed, parsed_line
 from handeye.systems.ml.machine.rectilinear import RIGHT
 from handeye.systems.ml.tables.layout import SENSORS, SHAPES
-
-LONGEST_EXAMPLE: Final = 10  # lines that are shown
 
 
 class MlLanguage(OwnLanguage):
@@ -80,14 +79,9 @@ def code_explained(code: str) -> str | None:
     if known is None:
         more = "The checker does not look for this mistake; it stops a running program."
         return f"error[{code}]: {MEANINGS[code]}\n{more}" if code in MEANINGS else None
-    ending, check = (".sym", assembled) if code in SYMBOLIC else (".ml", checked)
-    source = Source(name=f"example{ending}", text=known.example)
-    shown = next(each for each in check(source)[1] if each.code == code)
-    example = known.example.strip().split("\n")
-    example = example if len(example) <= LONGEST_EXAMPLE else [*example[:2], "...", example[-1]]
-    lines = (*example, "", *render(shown, source).split("\n"))
-    text = "\n".join(f"    {line}"[:100].rstrip() for line in lines)
-    return f"{known.severity}[{code}]: {known.meaning}\ncure: {known.cure}\n\nfor example\n\n{text}"
+    symbolic = code in SYMBOLIC
+    language = SYMBOLIC_LANGUAGE if symbolic else LANGUAGE
+    return explained_mistake(code, known, ".sym" if symbolic else ".ml", language.check)
 
 
 class SymbolicLanguage(OwnLanguage):

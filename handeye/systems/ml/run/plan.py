@@ -1,10 +1,8 @@
 """The plan of an ML run: the text of the program, and the settings of the run."""
 
-from bisect import bisect_right
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from functools import lru_cache
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 import msgspec
 
@@ -12,7 +10,8 @@ from handeye.core.errors import BadFile
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.source import LARGEST, Source
-from handeye.program.operation import Device
+from handeye.program import numbered
+from handeye.program.numbered import NumberedListing, NumberedStep
 from handeye.systems.ml.language.check import checked
 from handeye.systems.ml.language.commands import MOTIONS
 from handeye.systems.ml.language.flow import Flow
@@ -52,48 +51,6 @@ class MlPlan(Record, frozen=True, kw_only=True):
         return self.job or ("ml" if self.arm == "none" else self.arm)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MlStep:
-    """A statement of a listing."""
-
-    line: int  # its sequence number
-    text: str
-    word: str
-    ways: tuple[int | None, ...]
-    guarded: bool
-    stage: ClassVar[int] = 0
-    file: ClassVar[str] = ""
-    macro: ClassVar[str] = ""
-    examines: ClassVar[None] = None
-    begins_search: ClassVar[bool] = False
-
-    @property
-    def needs(self) -> Device | None:
-        return "hand" if self.word in ("HAND", "DHAND") else None
-
-    @property
-    def place(self) -> str:
-        return str(self.line)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MlListing:
-    """The stored statements of a program, in ascending order of their numbers."""
-
-    name: str
-    source: str
-    steps: Sequence[MlStep]
-    numbered: Mapping[int, str]
-    stages: tuple[str, ...]
-    labels: ClassVar[dict[str, Sequence[int]]] = {}
-    required: ClassVar[dict[str, str]] = {}
-    errors: ClassVar[tuple[int, ...]] = ()
-
-    def step_of(self, number: int) -> int:
-        """Return the step of a statement; of one that was stored during the run, the step before it."""
-        return max(bisect_right(self.steps, number, key=lambda step: step.line) - 1, 0)
-
-
 @lru_cache(maxsize=8)
 def stored(name: str, text: str, first: int | None, left: int | None) -> Mapping[int, Line]:
     """Return the lines of a program by their numbers. Raises BadFile if the text has errors."""
@@ -104,37 +61,29 @@ def stored(name: str, text: str, first: int | None, left: int | None) -> Mapping
 
 
 @lru_cache(maxsize=8)
-def listing(plan: MlPlan) -> MlListing:
+def listing(plan: MlPlan) -> NumberedListing:
     """Return the listing of a plan."""
     statements = {number: line.statement for number, line in plan.lines.items()}
     index = {number: step for step, number in enumerate(statements)}
     flow = Flow(statements)
     steps = [
-        MlStep(
+        NumberedStep(
             line=number,
             text=str(statement),
             word=statement.code,
             ways=tuple(None if way is None else index[way] for way in flow.ways(number)),
             guarded=statement.code in MOTIONS,
+            needs="hand" if statement.code in ("HAND", "DHAND") else None,
         )
         for number, statement in statements.items()
     ]
     texts = {number: str(statement) for number, statement in statements.items()}
-    return MlListing(name=plan.name, source=plan.text, steps=steps, stages=(plan.name,), numbered=texts)
-
-
-def encode(plan: MlPlan) -> bytes:
-    return msgspec.json.format(msgspec.json.encode(plan), indent=1) + b"\n"
+    return NumberedListing(name=plan.name, source=plan.text, steps=steps, numbered=texts)
 
 
 def decode(data: bytes, name: str) -> MlPlan:
     """Decode a plan; raises BadFile."""
-    try:
-        plan = msgspec.json.decode(data, type=MlPlan)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{name} is not a valid plan: {error}") from None
-    sound(plan)
-    return plan
+    return numbered.decode(data, name, MlPlan, sound)
 
 
 def sound(plan: MlPlan) -> None:

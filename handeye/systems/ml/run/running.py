@@ -7,34 +7,25 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from msgspec.structs import replace
 
-from handeye.core.entries import refusal
 from handeye.core.errors import BadFile, InvalidInput, Refused
 from handeye.core.mutable_records import put_back
-from handeye.core.plain_text import printable
-from handeye.core.versions import versions
-from handeye.execution.servo import Halted, ServoPeriod
-from handeye.execution.state import ReversalOrder
-from handeye.planfile.store import written_digest
+from handeye.execution.servo import ServoPeriod
 from handeye.ports.axes import Channel
-from handeye.ports.camera import Renderer
 from handeye.ports.workcell import Sensed
 from handeye.program.events import (
     AnyEvent,
     Choice,
     LineTyped,
     OperatorAnswered,
-    OperatorCalled,
-    RunFinished,
-    RunStarted,
-    StageFinished,
-    StageStarted,
     StepFinished,
     StepStarted,
     SystemEvent,
 )
+from handeye.program.numbered import encode
 from handeye.program.system_state import SystemState, TaskPlace
+from handeye.runs.numbered import NumberedRun
 from handeye.runs.setup import Setup
-from handeye.runs.system import RunCallbacks, RunningSystem, Settable
+from handeye.runs.system import RunCallbacks, Settable
 from handeye.systems.ml import ENTRY
 from handeye.systems.ml.arithmetic import HIGHEST, LOWEST
 from handeye.systems.ml.background.host import Host
@@ -50,7 +41,7 @@ from handeye.systems.ml.machine.rectilinear import INTERLOCKS
 from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 from handeye.systems.ml.run.channels import level_channels, level_values
 from handeye.systems.ml.run.hardware import Hardware, PerfectHardware, StationTask
-from handeye.systems.ml.run.plan import MlPlan, encode, listing
+from handeye.systems.ml.run.plan import MlPlan, listing
 from handeye.systems.ml.run.state import MlState, tables_of
 from handeye.systems.ml.tables.layout import SHAPES
 from handeye.tasks import any_task
@@ -59,15 +50,15 @@ if TYPE_CHECKING:
     from handeye.cell.snapshot_cell import SnapshotCell
 
 
-class RunningMl(RunningSystem):
+class RunningMl(NumberedRun):
     """Executes a program on the machine of its plan."""
 
-    trouble = None
+    system = ENTRY.name
 
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
         assert isinstance(setup.plan, MlPlan)
-        self._setup, self._around, self._plan = setup, around, setup.plan
-        self._listing = listing(setup.plan)
+        super().__init__(setup, around, listing(setup.plan))
+        self._plan = setup.plan
         self._held: list[SystemEvent] | None = []  # events that are emitted later; None: at once
         self._foreseen: list[LineTyped] = []  # lines that were typed in the middle of the present step
         self._hardware = self._open()
@@ -133,11 +124,7 @@ class RunningMl(RunningSystem):
 
     def begin(self) -> Sequence[AnyEvent]:
         plan = self._plan
-        started = RunStarted(
-            system=ENTRY.name, time=0.0, program=plan.name, steps=len(self._listing.steps),
-            plan=written_digest(encode(plan)), arm="", arm_digest="", world=self._setup.world,
-            camera=Renderer(method="none"), versions=versions(), task=self._setup.task,
-        )  # fmt: skip
+        started = self._started(encode(plan))
         for level in self.machine.levels.values():
             level.enable()
         self.interpreters["right"].run(plan.first)
@@ -149,19 +136,13 @@ class RunningMl(RunningSystem):
         return [started, *early]
 
     def step(self) -> None:
-        state = self._state
-        assert state.at is not None
-        number, step = state.at, self._listing.steps[state.at]
-        if state.stage is None:
-            state.stage = 0
-            self._around.emit(StageStarted(time=self.time, stage=self._plan.name))
-        self._poll()
+        number, step = self._enter()
         turn = self._next
         assert turn is not None
         text = self.program.memory.statements.get(turn.memory.at, step.text)
         self._around.emit(StepStarted(time=self.time, step=number, line=turn.memory.at, text=text))
         turn.statement()
-        state.statements += 1
+        self._state.statements += 1
         self._pass()
         self._around.emit(StepFinished(time=self.time, step=number, hand=None, planned=None, gap=None))
         ending = self._hardware.ending(turn.memory.executing) if self._stopped is None else None
@@ -172,12 +153,8 @@ class RunningMl(RunningSystem):
             self._stand()
             self._call()
         else:
-            self._stop(ending.text, turn.memory.executing)
+            self._stop(ending.text, self._listing.step_of(turn.memory.executing))
         self.recorder.statement()
-
-    def _poll(self) -> None:
-        if self._around.halt():
-            raise Halted
 
     def _pass(self) -> None:
         """Let cycles pass until a statement can be executed, or until all programs have ended."""
@@ -244,18 +221,7 @@ class RunningMl(RunningSystem):
     def _call(self) -> None:
         """Call the operator if a program was stopped."""
         if (stopped := self._stopped) is not None:
-            self._stop(stopped.memory.stopped, stopped.memory.executing)
-
-    def _stop(self, why: str, statement: int) -> None:
-        state = self._state
-        state.stopped = OperatorCalled(time=self.time, message=printable(why))
-        state.at, state.onward = None, self._listing.step_of(statement)
-        self._around.emit(state.stopped)
-
-    def _close(self, status: str) -> None:
-        if self._state.stage is not None:
-            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status=status))  # type: ignore[arg-type]
-            self._state.stage = None
+            self._stop(stopped.memory.stopped, self._listing.step_of(stopped.memory.executing))
 
     def answer(self, choice: Choice) -> None:
         """Follow the operator's answer: continue after the statement at which the program was stopped, repeat that
@@ -286,9 +252,6 @@ class RunningMl(RunningSystem):
         held, self._held = self._held or [], None
         for event in held:
             self._around.emit(event)
-
-    def reverse(self, undoing: ReversalOrder) -> None:
-        raise refusal(ENTRY.name, "undo")
 
     def type_line(self, text: str, task: str) -> None:
         """Execute a line that is typed at the terminal between two statements, or store it."""
@@ -331,20 +294,14 @@ class RunningMl(RunningSystem):
         return LiveTables(self.tables.head, self.machine, self.recorder)
 
     def finish(self) -> bool:
-        completed = self._next is None and self._stopped is None and self._state.stopped is None
-        if not completed and self._state.stage is not None:  # which stays: results name it
-            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status="stopped"))
-        self._around.emit(RunFinished(time=self.time, completed=completed))
-        return completed
+        ended = self._next is None and self._stopped is None and self._state.stopped is None
+        return self._finish(completed=ended)
 
     def restore(self, state: SystemState) -> None:
-        steps = len(self._listing.steps)
-        numbers = [state.at, state.onward, *(place.step for place in state.places)]
         if (
             not isinstance(state, MlState)
             or {*state.background} != {*self.interpreters}
-            or any(number is not None and not 0 <= number < steps for number in numbers)
-            or state.stage not in (None, 0)
+            or not self._fits(state)
         ):
             raise BadFile("the state of the run does not fit this program")
         self.machine.remember(state.machine)
@@ -420,11 +377,7 @@ class RunningMl(RunningSystem):
             ),
         }  # fmt: skip
 
-    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        settable = self.settables().get(what)
-        if settable is None or name not in settable.names or len(value) != 1:
-            raise Refused(f"{what} {name} cannot be set")
-        number = value[0]
+    def _set(self, what: str, name: str, number: float) -> None:
         if what == "interlock":
             if number not in (0.0, 1.0):
                 raise Refused(f"an interlock must be 0 or 1, not {number:g}")

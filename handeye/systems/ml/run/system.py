@@ -8,6 +8,7 @@ from handeye.core.markup import PagePart
 from handeye.core.resources import plans
 from handeye.core.source import read_source
 from handeye.program.events import Choice
+from handeye.program.numbered import encode
 from handeye.results.result import Result
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
@@ -21,7 +22,7 @@ from handeye.systems.ml.follow.page import kept_page
 from handeye.systems.ml.machine.spec import GRAM_FORCE, RANGE_COUNT
 from handeye.systems.ml.machine.surroundings import Stimulus
 from handeye.systems.ml.run.jobs import PROGRAMS, job_plan
-from handeye.systems.ml.run.plan import MlPlan, decode, encode, listing, sound
+from handeye.systems.ml.run.plan import MlPlan, decode, listing, sound
 from handeye.systems.ml.run.running import RunningMl
 from handeye.systems.ml.run.state import MlState
 

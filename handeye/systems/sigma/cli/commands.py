@@ -1,43 +1,31 @@
 """The commands of SUPERSIGMA: run a MAL program, try its interleavings, explain words, and open the console."""
 
-import sys
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
 
 from cyclopts import App, Parameter
 
 from handeye.cli.common import (
-    Details,
-    Json,
-    NoKeep,
-    Out,
-    Overwrite,
     WholeNumber,
     answer,
     note,
     positive,
     say,
-    show,
 )
-from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
-from handeye.core.diagnostics import has_errors, quoted, suggestion
-from handeye.core.errors import BadArgument, InvalidInput, NoSuchName
+from handeye.cli.judged_jobs import USUAL_RUN, RunOptions, carry_out_run
+from handeye.cli.numbered import LinePrinter, converse, explain_word, show_check, shown_without_errors
+from handeye.cli.runs import check_kept
+from handeye.core.errors import BadArgument
 from handeye.core.source import Source, read_source
-from handeye.program.events import AnyEvent
-from handeye.runs.observer import Observer
 from handeye.systems.sigma.cli.axis import axis
 from handeye.systems.sigma.cli.borrow import borrow
 from handeye.systems.sigma.cli.bridge import bridge
 from handeye.systems.sigma.cli.bus import bus
-from handeye.systems.sigma.cli.chess import chess
 from handeye.systems.sigma.cli.crash import crash
 from handeye.systems.sigma.cli.diagnose import diagnose
-from handeye.systems.sigma.cli.handover import handover
-from handeye.systems.sigma.cli.insert import insert
-from handeye.systems.sigma.cli.line import line
+from handeye.systems.sigma.cli.jobs import chess, handover, insert, line, prco
 from handeye.systems.sigma.cli.moves import moves
-from handeye.systems.sigma.cli.prco import prco
 from handeye.systems.sigma.cli.table1 import table1
 from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
@@ -80,28 +68,18 @@ def run(
         Parameter(help="Seed of the world of `--arm gantries`: it determines the errors of the machine."),
     ] = 0,
     statement_us: StatementTime = 2000,
-    json: Json = False,
-    details: Details = False,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    no_keep: NoKeep = False,
-    breaks: Break = None,
-    step: Step = False,
-    live: Live = False,
-    on_stop: OnStop = None,
+    options: RunOptions = USUAL_RUN,
 ) -> int:
     """Run a program: a step is one statement of the task whose turn it is.
 
     Exit code 0: all tasks have ended; 1: the program stopped before its end (an abort, a deadlock, or a statement
     that cannot be executed); 2: bad input; 130: interrupted.
     """
-    from handeye.cli.job import Job, work
     from handeye.core.variation import WorldSpec
     from handeye.runs.setup import Setup
-    from handeye.runs.snapshot import Checkpoint
     from handeye.systems.sigma.run.plan import MalPlan, sound
 
-    check_kept(no_keep, out)
+    check_kept(options.no_keep, options.out)
     if not 0 <= statement_us <= LONGEST_STATEMENT_US:
         raise BadArgument(f"--statement-us must be between 0 and {LONGEST_STATEMENT_US}, not {statement_us}")
     if seed and arm != "gantries":
@@ -115,31 +93,16 @@ def run(
     sound(plan)
     judged = arm != "gantries"  # what any program does to the gantries is neither right nor wrong
     setup = Setup(system="sigma", plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=judged)
-    return work(
-        Job(
-            start=Checkpoint(setup=setup), out=out, keep=not (no_keep or step), details=details, overwrite=overwrite,
-            breaks=breaks or (), step=step, live=live,
-            on_stop=on_stop, json=json, referee=judged, listening=() if step else (Printer(note if json else say),),
-        )
-    )  # fmt: skip
+    return carry_out_run(setup, options, (Printer(note if options.json else say),), judged=judged)
 
 
-class Printer(Observer):
-    """Prints the output of a program."""
-
-    def __init__(self, put: Callable[[str], None]) -> None:
-        self._put = put
-
-    def event(self, event: AnyEvent) -> None:
-        if isinstance(event, Printed):
-            self._put(event.text)
+Printer = partial(LinePrinter, Printed)
+"""Prints the output of a program."""
 
 
 def reported(source: Source) -> bool:
     """Print the mistakes of a program. Returns True if there are no errors."""
-    found = checked(source)[1]
-    show(found, source, json=False)
-    return not has_errors(found)
+    return shown_without_errors(checked(source)[1], source)
 
 
 def check(
@@ -172,11 +135,7 @@ def check(
     positive(most, "state")
     source = read_source(file)
     if not interleavings:
-        found = checked(source)[1]
-        show(found, source, json=json)
-        if not found and not json:
-            say(f"{file}: no errors")
-        return 2 if has_errors(found) else 0
+        return show_check(file, checked(source)[1], source, json=json)
     if not reported(source):
         return 2
     program = program_of(file.name, source.text, line=True)
@@ -197,22 +156,13 @@ def words(word: str | None = None, /) -> int:
     """
     from handeye.systems.sigma.mal.words import WORDS, explained
 
-    if word is None:
-        for kind in ("statement", "part", "function", "operator"):
-            say(f"{kind}s")
-            for each in WORDS.values():
-                if each.kind == kind:
-                    say(f"  {each.usage}", whole=True)
-        return 0
-    text = explained(word)
-    if text is None:
-        near = suggestion(word.upper(), WORDS)
-        raise NoSuchName(
-            f"{quoted(word)} is not a word of MAL"
-            + (f"; {near}" if near else "; `handeye sigma words` lists them")
-        )
-    say(text)
-    return 0
+    usages = {
+        f"{kind}s": [each.usage for each in WORDS.values() if each.kind == kind]
+        for kind in ("statement", "part", "function", "operator")
+    }
+    return explain_word(
+        word, usages, explained, known=WORDS, noun="a word of MAL", command="handeye sigma words"
+    )
 
 
 def console(
@@ -222,29 +172,9 @@ def console(
 
     Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
     """
-    from handeye.cli.panic_button import PanicButton
-    from handeye.cli.prompt import typed_lines
     from handeye.systems.sigma.cli.console import Console
 
-    terminal, code = sys.stdin.isatty(), 0
-    with PanicButton() as panic:
-
-        def asked(prompt: str) -> str | None:
-            return next(typed_lines(prompt if terminal else "", panic.aside, lambda: ()), None)
-
-        session = Console(say, asked, panic)
-        if file is not None:
-            session.hear(f"LOAD {file}")
-        lines = typed_lines("* " if terminal else "", panic.aside, session.words)
-        for line in lines:
-            try:
-                session.hear(line)
-            except InvalidInput as error:
-                say(str(error))
-                code = 2
-            if session.over:
-                break
-    return 0 if terminal else code
+    return converse(partial(Console, say), "* ", () if file is None else (f"LOAD {file}",))
 
 
 _COMMANDS: Final = (

@@ -3,9 +3,10 @@
 import re
 from typing import Final
 
-from handeye.core.diagnostics import Diagnostic, render
+from handeye.core.diagnostics import Diagnostic
 from handeye.core.source import Source
 from handeye.program.language import OwnLanguage
+from handeye.program.mistakes import explained_mistake
 from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.mal.check import checked, in_order
 from handeye.systems.sigma.mal.codes import CODES
@@ -14,7 +15,6 @@ from handeye.systems.sigma.mal.syntax import MAIN
 from handeye.systems.sigma.mal.words import MAL_DEVICES, STATEMENTS, WORDS, explained
 from handeye.systems.sigma.protocol import LINE_AXES
 
-LONGEST_EXAMPLE: Final = 10  # lines that are shown
 _AXIS_NEXT: Final = {"MOVE", "ORIGIN", "SPEED", "CURVE", "LIMIT", "ABORT"}
 _FLAG_NEXT: Final = {"SET", "RESET", "WAIT", "TAKE"}
 _LINE_NEXT: Final = {"GOTO", "GOSUB", "THEN", "ELSE"}
@@ -96,16 +96,7 @@ def code_explained(code: str) -> str | None:
     known = CODES.get(code.casefold())
     if known is None:
         return None
-    source = Source(name="example.mal", text=known.example)
-    shown = next(each for each in checked(source)[1] if each.code == code.casefold())
-    example = known.example.split("\n")
-    if len(example) > LONGEST_EXAMPLE:
-        example = [*example[:2], "...", example[-1]]
-    lines = (*example, "", *render(shown, source).split("\n"))
-    text = "\n".join(f"    {line}"[:100].rstrip() for line in lines)
-    return (
-        f"{known.severity}[{code.casefold()}]: {known.meaning}\ncure: {known.cure}\n\nfor example\n\n{text}"
-    )
+    return explained_mistake(code.casefold(), known, ".mal", LANGUAGE.check)
 
 
 LANGUAGE: Final = MalLanguage()

@@ -3,7 +3,9 @@
 from collections.abc import Mapping
 from typing import Final
 
+from handeye.systems.sigma.run.plan import JobName
 from handeye.trials.jobs import JobRow, job_sweep
+from handeye.trials.sweep import Sweep
 
 
 class BoardRow(JobRow, frozen=True, kw_only=True):
@@ -25,3 +27,10 @@ HANDOVER_TRIALS: Final = job_sweep("handover", BoardRow, _sentence)
 INSERTION_TRIALS: Final = job_sweep("insert", BoardRow, _sentence)
 PRCO_TRIALS: Final = job_sweep("prco", BoardRow, _sentence)
 LINE_TRIALS: Final = job_sweep("line", BoardRow, _sentence)
+TRIALS: Final[dict[JobName, Sweep[BoardRow]]] = {
+    "chess": CHESS_TRIALS,
+    "handover": HANDOVER_TRIALS,
+    "insert": INSERTION_TRIALS,
+    "prco": PRCO_TRIALS,
+    "line": LINE_TRIALS,
+}

@@ -1,6 +1,6 @@
 """Sets up the runs of jobs. A job is a program together with the pieces on the gantries' board."""
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from handeye.core.resources import plans
 from handeye.core.source import read_source
@@ -8,6 +8,10 @@ from handeye.core.variation import WorldSpec
 from handeye.runs.setup import Setup
 from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.run.plan import JobName, MalPlan
+from handeye.tasks import any_task
+
+if TYPE_CHECKING:  # plans are made without a simulator
+    from handeye.systems.sigma.gantries.job import JobTask
 
 PROGRAMS: Final[dict[JobName, str]] = {
     "chess": "chess.mal",
@@ -22,6 +26,15 @@ def job_plan(job: JobName, pieces: int) -> MalPlan:
     """Return the plan of a job's own program, for a number of pieces."""
     name = PROGRAMS[job]
     return MalPlan(name=name, text=read_source(plans() / name).text, arm="gantries", job=job, pieces=pieces)
+
+
+def job_task(job: JobName) -> "JobTask":
+    """Return the task of a job."""
+    from handeye.systems.sigma.gantries.job import JobTask
+
+    task = any_task(job)
+    assert isinstance(task, JobTask)
+    return task
 
 
 def job_setup(plan: MalPlan, world: WorldSpec) -> Setup:

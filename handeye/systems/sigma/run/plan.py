@@ -1,16 +1,16 @@
 """The plan of a MAL run: the text of the program, and the settings of the run."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import lru_cache
-from typing import Annotated, ClassVar, Final, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
 
 from handeye.core.errors import BadFile
 from handeye.core.record import Record
 from handeye.core.source import LARGEST
-from handeye.program.operation import Device
+from handeye.program import numbered
+from handeye.program.numbered import NumberedListing, NumberedStep
 from handeye.systems.sigma.mal.compiler import MalProgram, program_of
 from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US
 from handeye.systems.sigma.mal.words import MAL_DEVICES
@@ -49,79 +49,28 @@ class MalPlan(Record, frozen=True, kw_only=True):
         return program_of(self.name, self.text, line=self.task == "line")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MalStep:
-    """A line of a listing."""
-
-    line: int  # its own number
-    text: str
-    word: str
-    task: str
-    ways: tuple[int | None, ...]
-    stage: ClassVar[int] = 0
-    file: ClassVar[str] = ""
-    macro: ClassVar[str] = ""
-    examines: ClassVar[None] = None
-    guarded: ClassVar[bool] = False
-    begins_search: ClassVar[bool] = False
-
-    @property
-    def needs(self) -> Device | None:
-        """The device that the line uses: `hand` if the line actuates a device of a hand, or else None."""
-        return (
-            "hand"
-            if self.word == "ACTUATE" and any(f" {name}" in self.text for name in MAL_DEVICES)
-            else None
-        )
-
-    @property
-    def place(self) -> str:
-        return str(self.line)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MalListing:
-    """The executable lines of a program, in the order of their numbers."""
-
-    name: str
-    source: str
-    steps: Sequence[MalStep]
-    labels: Mapping[str, Sequence[int]]
-    stages: tuple[str, ...]
-    numbered: Mapping[int, str]
-    required: ClassVar[dict[str, str]] = {}
-    errors: ClassVar[tuple[int, ...]] = ()
-
-
 @lru_cache(maxsize=8)
-def listing(plan: MalPlan) -> MalListing:
+def listing(plan: MalPlan) -> NumberedListing:
     """Return the listing of a plan. Its labels are the names of the tasks."""
     program = plan.program
     steps = [
-        MalStep(line=line.number, text=line.text, word=line.word, task=line.task, ways=line.ways)
+        NumberedStep(
+            line=line.number, text=line.text, word=line.word, ways=line.ways,
+            needs="hand" if line.word == "ACTUATE" and any(f" {name}" in line.text for name in MAL_DEVICES) else None,
+        )
         for line in program.lines
-    ]
+    ]  # fmt: skip
     labels: dict[str, Sequence[int]] = {}
     for number, line in enumerate(program.lines):
         labels.setdefault(line.task, (number,))
-    return MalListing(
-        name=plan.name, source=plan.text, steps=tuple(steps), labels=labels, stages=(plan.name,),
-        numbered=program.texts,
-    )  # fmt: skip
-
-
-def encode(plan: MalPlan) -> bytes:
-    return msgspec.json.format(msgspec.json.encode(plan), indent=1) + b"\n"
+    return NumberedListing(
+        name=plan.name, source=plan.text, steps=steps, labels=labels, numbered=program.texts
+    )
 
 
 def decode(data: bytes, name: str) -> MalPlan:
     """Decode a plan; raises BadFile."""
-    try:
-        plan = msgspec.json.decode(data, type=MalPlan)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadFile(f"{name} is not a valid plan: {error}") from None
-    sound(plan)
-    return plan
+    return numbered.decode(data, name, MalPlan, sound)
 
 
 def sound(plan: MalPlan) -> None:

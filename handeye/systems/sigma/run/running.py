@@ -4,33 +4,23 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final
 
-from handeye.core.entries import refusal
 from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import put_back
-from handeye.core.plain_text import printable
-from handeye.core.versions import versions
-from handeye.execution.servo import Halted
-from handeye.execution.state import ReversalOrder
-from handeye.planfile.store import written_digest
 from handeye.ports.axes import Channel
-from handeye.ports.camera import Renderer
 from handeye.program.events import (
     AnyEvent,
     Choice,
     LineTyped,
     OperatorAnswered,
-    OperatorCalled,
-    RunFinished,
-    RunStarted,
-    StageFinished,
-    StageStarted,
     StepFinished,
     StepStarted,
     SystemEvent,
 )
+from handeye.program.numbered import encode
 from handeye.program.system_state import SystemState, TaskPlace
+from handeye.runs.numbered import NumberedRun
 from handeye.runs.setup import Setup
-from handeye.runs.system import RunCallbacks, RunningSystem, Settable
+from handeye.runs.system import RunCallbacks, Settable
 from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.bus.layout import SUPERSIGMA
 from handeye.systems.sigma.bus.wired import WiredBus
@@ -38,7 +28,7 @@ from handeye.systems.sigma.machine.perfect import PerfectMemory, PerfectMotors
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.protocol import STEP_MM
-from handeye.systems.sigma.run.plan import MalPlan, encode, listing
+from handeye.systems.sigma.run.plan import MalPlan, listing
 from handeye.systems.sigma.run.state import MalState
 from handeye.tasks import any_task
 
@@ -51,15 +41,15 @@ COMMANDS_PER_SECOND: Final = 10_000  # that the bus carries at most
 WATCHED: Final = 50  # periods in a second that a trace keeps of the gantries
 
 
-class RunningMal(RunningSystem):
+class RunningMal(NumberedRun):
     """Executes a program on the machine of its plan."""
 
-    trouble = None
+    system = ENTRY.name
 
     def __init__(self, setup: Setup, around: RunCallbacks) -> None:
         assert isinstance(setup.plan, MalPlan)
-        self._setup, self._around, self._plan = setup, around, setup.plan
-        self._listing = listing(setup.plan)
+        super().__init__(setup, around, listing(setup.plan))
+        self._plan = setup.plan
         self._early: list[AnyEvent] = []
         self._begun = False
         self._machine: PerfectMotors | WiredBus = PerfectMotors()
@@ -125,19 +115,10 @@ class RunningMal(RunningSystem):
         else:
             self._early.append(event)
 
-    def _poll(self) -> None:
-        if self._around.halt():
-            raise Halted
-
     # -- going on -------------------------------------------------------------------------------------
 
     def begin(self) -> Sequence[AnyEvent]:
-        plan = self._plan
-        started = RunStarted(
-            system=ENTRY.name, time=0.0, program=plan.name, steps=len(self._listing.steps),
-            plan=written_digest(encode(plan)), arm="", arm_digest="", world=self._setup.world,
-            camera=Renderer(method="none"), versions=versions(), task=self._setup.task,
-        )  # fmt: skip
+        started = self._started(encode(self._plan))
         self.vm.begin()
         self._stand()
         self._call()
@@ -145,13 +126,7 @@ class RunningMal(RunningSystem):
         return [started, *self._early]
 
     def step(self) -> None:
-        state = self._state
-        assert state.at is not None
-        number, step = state.at, self._listing.steps[state.at]
-        if state.stage is None:
-            state.stage = 0
-            self._around.emit(StageStarted(time=self.time, stage=self._plan.name))
-        self._poll()
+        number, step = self._enter()
         self._around.emit(StepStarted(time=self.time, step=number, line=step.line, text=step.text))
         self.vm.statement()
         self.vm.settle()
@@ -173,18 +148,10 @@ class RunningMal(RunningSystem):
 
     def _call(self) -> None:
         """Call the operator if the program has stopped."""
-        state, fault = self._state, self.vm.memory.fault
-        if fault is None:
-            return
-        more = f"; `type {fault.task} 5` in the stepper gives 5" if fault.kind == "input" else ""
-        state.stopped = OperatorCalled(time=self.time, message=printable(f"{fault.told}{more}"))
-        state.at, state.onward = None, self.vm.program.line_at[fault.address]
-        self._emit(state.stopped)
-
-    def _close(self, status: str) -> None:
-        if self._state.stage is not None:
-            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status=status))  # type: ignore[arg-type]
-            self._state.stage = None
+        fault = self.vm.memory.fault
+        if fault is not None:
+            more = f"; `type {fault.task} 5` in the stepper gives 5" if fault.kind == "input" else ""
+            self._stop(f"{fault.told}{more}", self.vm.program.line_at[fault.address])
 
     def answer(self, choice: Choice) -> None:
         """Follow the operator's answer: continue after the statement at which the program has stopped, repeat
@@ -205,9 +172,6 @@ class RunningMal(RunningSystem):
         self._stand()
         self._call()
 
-    def reverse(self, undoing: ReversalOrder) -> None:
-        raise refusal(ENTRY.name, "undo")
-
     def type_line(self, text: str, task: str) -> None:
         """Give the typed number to the task that waits for one."""
         self.vm.type_number(text, task)
@@ -219,20 +183,10 @@ class RunningMal(RunningSystem):
         self._call()
 
     def finish(self) -> bool:
-        completed = not self.vm.memory.tasks and self.vm.memory.fault is None
-        if not completed and self._state.stage is not None:  # which stays: results name it
-            self._around.emit(StageFinished(time=self.time, stage=self._plan.name, status="stopped"))
-        self._around.emit(RunFinished(time=self.time, completed=completed))
-        return completed
+        return self._finish(completed=not self.vm.memory.tasks and self.vm.memory.fault is None)
 
     def restore(self, state: SystemState) -> None:
-        lines = len(self._listing.steps)
-        if (
-            not isinstance(state, MalState)
-            or not self.vm.fits(state.memory)
-            or any(number is not None and number >= lines for number in (state.at, state.onward, state.stage))
-            or any(not 0 <= place.step < lines for place in state.standing)
-        ):
+        if not isinstance(state, MalState) or not self.vm.fits(state.memory) or not self._fits(state):
             raise BadFile("the state of the run does not fit this program")
         machine = state.bus if isinstance(self._machine, WiredBus) else state.machine
         if machine is None:
@@ -292,18 +246,15 @@ class RunningMal(RunningSystem):
             ),
         }  # fmt: skip
 
-    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        settable = self.settables().get(what)
-        if settable is None or name not in settable.names or len(value) != 1:
-            raise Refused(f"{what} {name} cannot be set")
+    def _set(self, what: str, name: str, number: float) -> None:
         memory = self.vm.memory
         if what == "variable":
-            memory.variables[name] = value[0]
-        elif value[0] in (0.0, 1.0):
+            memory.variables[name] = number
+        elif number in (0.0, 1.0):
             flags = {*memory.flags} - {name}
-            memory.flags = tuple(sorted(flags | {name} if value[0] else flags))
+            memory.flags = tuple(sorted(flags | {name} if number else flags))
         else:
-            raise Refused(f"a flag is set by 1 and cleared by 0, not by {value[0]:g}")
+            raise Refused(f"a flag is set by 1 and cleared by 0, not by {number:g}")
 
 
 def _gantries(setup: Setup) -> "tuple[WiredBus, Gantries, Witness[Any] | None]":

@@ -6,12 +6,13 @@ from typing import Final
 from handeye.core.resources import plans
 from handeye.core.source import read_source
 from handeye.program.events import Choice
+from handeye.program.numbered import encode
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, RunCallbacks, StepperWords, System
 from handeye.systems.sigma import ENTRY
-from handeye.systems.sigma.run.jobs import PROGRAMS, job_plan
-from handeye.systems.sigma.run.plan import MalPlan, decode, encode, listing, sound
+from handeye.systems.sigma.run.jobs import PROGRAMS, job_plan, job_task
+from handeye.systems.sigma.run.plan import MalPlan, decode, listing, sound
 from handeye.systems.sigma.run.running import RunningMal
 from handeye.systems.sigma.run.state import MalState
 from handeye.tasks import any_task
@@ -65,7 +66,7 @@ class SigmaSystem(System):
     def own_plan(self, task: str) -> MalPlan:
         for job in PROGRAMS:
             if task == job:
-                return job_plan(job, few_pieces(job))
+                return job_plan(job, job_task(job).few)
         text = read_source(plans() / OWN).text
         return MalPlan(name=OWN, text=text, arm="gantries" if task == "gantries" else "none")
 
@@ -75,15 +76,6 @@ class SigmaSystem(System):
             "retry": "retry: execute this statement again",
             "skip": "skip: end the program here",
         }
-
-
-def few_pieces(job: str) -> int:
-    """Return the number of pieces for a short run of a job."""
-    from handeye.systems.sigma.gantries.job import JobTask
-
-    task = any_task(job)
-    assert isinstance(task, JobTask)
-    return task.few
 
 
 SIGMA: Final = SigmaSystem()
