@@ -42,7 +42,7 @@ REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
 tachometer reads zero.
 
-Two steps are for the noise at the high level, the others for an arm that creeps.
+Two steps allow for the noise at the high level, the others for an arm that creeps.
 """
 
 

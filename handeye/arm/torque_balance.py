@@ -31,8 +31,8 @@ DAMPING: Final = 0.6  # of viscous friction
 COULOMB: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
 BEARS: Final = 4.0  # times its friction: the least weight that a joint must bear to be looked at; chosen
 LIMIT: Final = 5.0
-"""Limit of the remainder of a joint, in multiples of its uncertainty: one sigma, for errors of twice their stated
-size.
+"""Limit of the remainder of a joint, in multiples of its uncertainty. The uncertainty is one sigma, for errors of
+twice their stated size.
 
 A pump takes about 350 motions, in which two joints are checked. A limit of 4 would stop one sound pump in 20; a
 limit of 5 stops one in 2,500.

@@ -50,7 +50,7 @@ trace export csv = exports:csv: Write tables of a run as CSV, with a README that
 trace export parquet = exports:parquet: Write tables of a run as Parquet, with a README that describes the columns; needs the extra `export` (pyarrow).
 world = worlds:world: List every quantity that varies between worlds: its value in this world, unit, spread and source.
 render = worlds:render: Render a picture of the work cell.
-faults = fault_matrix:faults: Assemble once with each fault of a matrix, at its usual size, and report which faults the program noticed.
+faults = fault_matrix:faults: Assemble once with each fault of a standard set, at its usual size, and report which faults the program noticed.
 trials: Repeat a task in many worlds and count successes.
 trials assembly = batches:assembly_trials: Assemble in many worlds: success rate with its confidence interval, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, have the arm take each pump apart again, and count how often every part is back in place.

@@ -40,7 +40,7 @@ TaskWords = Annotated[
     Parameter(
         name="--task",
         help="The task: its name, or MODULE:NAME for your own, in a module on the path or in this folder. "
-        "Default: the task of the plan, program or run, else the water pump.",
+        "Default: the task of the plan, program or run, or else the water pump.",
     ),
 ]
 CameraKind = Literal["auto", "gl", "ray"]

@@ -28,7 +28,7 @@ def faults(
         Parameter(help="Try only this fault or group of faults; may be repeated.", consume_multiple=False),
     ] = None,
     every: Annotated[
-        bool, Parameter(name="--all", help="Try all faults, not only the faults of the matrix.")
+        bool, Parameter(name="--all", help="Try all faults, not only the standard set (the matrix).")
     ] = False,
     listed: Annotated[
         bool, Parameter(name="--list", help="List the faults and the expected outcome of each; run nothing.")
@@ -60,7 +60,8 @@ def faults(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble once with each fault of a matrix, at its usual size, and report which faults the program noticed.
+    """Assemble once with each fault of a standard set, at its usual size, and report which faults the program
+    noticed.
 
     Good outcomes: the program `recovered`, or it `stopped` in the right stage, with the brakes on, and named the
     fault. Less good: it stopped but named another fault (`misnamed`). Bad outcomes, counted as undetected: the program

@@ -37,7 +37,8 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
     _check_faults(path, begun, plan)
     if begun.task != plan.task:
         raise BadArgument(
-            f"the run in {path} belongs to the task {quoted(begun.task)}, but the plan to {quoted(plan.task)}"
+            f"the run in {path} belongs to the task {quoted(begun.task)}, but the plan belongs to the task "
+            f"{quoted(plan.task)}"
         )
     camera = _CAMERAS.get(begun.camera.method, "auto")
     return Setup(plan=plan, world=begun.world, camera=camera, judged=judged)

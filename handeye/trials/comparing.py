@@ -20,7 +20,7 @@ class Difference(Record, frozen=True, kw_only=True):
     pairs: int
     more: float  # Median of the value in this batch minus the value in the first
     p: float
-    """Two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least so one-sided if
+    """Two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least this one-sided if
     neither batch is better.
     """
 

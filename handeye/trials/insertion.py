@@ -107,7 +107,7 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     error: tuple[float, float] = (0.0, 0.0)  # Position of the hole, x and y relative to the pin's end, mm
     outcome: Literal["seated", "told", "silent"] = "told"
     """`seated`: the pin is in its hole, and the program says so; `told`: the program called the operator; `silent`:
-    the program reported success wrongly.
+    the program reported success, but the pin is not in its hole.
     """
     places: int = 0
     peak: float = 0.0  # Greatest force between pin and plate, N, by the truth of each physics step

@@ -57,7 +57,7 @@ def test_a_guard_that_was_not_met_has_no_trip(motions: tuple[GuardedMotion, ...]
 
 def test_the_page_says_of_each_what_came_of_it(run: RecordedRun) -> None:
     said = [figure.all("span")[-1].text for figure in tree(page_of(run)).one("felt").all("figure")]
-    assert said[0].endswith("guard 11.1 N (40 oz)")
+    assert said[0].endswith("limit 11.1 N (40 oz)")
     assert said[1].startswith("not stopped: ")
 
 

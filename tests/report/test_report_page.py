@@ -135,7 +135,7 @@ def test_a_guarded_motion_has_a_figure_with_its_line_and_its_trip(page: Node) ->
     figures = list(page.one("felt").all("figure"))
     dots = [node for node in page.one("felt").all("circle") if node.attributes.get("class") == "trip"]
     assert (len(figures), len(dots)) == (9, 9)
-    assert figures[0].text.endswith("9.0 N; guard 8.0 N (28.78 oz)")
+    assert figures[0].text.endswith("9.0 N; limit 8.0 N (28.78 oz)")
 
 
 def test_a_picture_is_there_with_what_was_found_over_it(page: Node) -> None:

@@ -27,8 +27,8 @@ def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array 
     """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if
     there are none. The search begins at the solutions `starts`.
 
-    The search also begins a little beside these solutions: where joint axes are in line, some neighbouring poses
-    cannot be reached by any first step.
+    The search also begins a little beside these solutions, because no first step reaches some of the poses near a
+    configuration in which joint axes are in line.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]

@@ -51,7 +51,7 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; if it is not defined, teach it, as absolute or relative like the previous move's",
+        help="move to a position; if it is not defined, teach it as absolute or relative, like the previous position",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
