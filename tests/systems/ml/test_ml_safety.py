@@ -156,7 +156,12 @@ def test_a_word_of_do_switches_a_tool_at_the_next_cycle() -> None:
     }
     arm.right.write("DO", 1, 1, 2)
     arm.pass_cycles(2)
-    assert arm.arms["right"].memory.outputs == {"screwdriver": 0.0, "vacuum": 1.0, "feeder": 0.0}
+    assert arm.arms["right"].memory.outputs == {
+        "screwdriver": 0.0,
+        "vacuum": 1.0,
+        "feeder": 0.0,
+        "reverse": 0.0,
+    }
     assert [(event.tool, event.on) for event in arm.seen(ToolSwitched)] == [
         ("screwdriver", True), ("screwdriver", False), ("vacuum", True)
     ]  # fmt: skip

@@ -11,7 +11,7 @@ ROOT: Final = Path(__file__).parents[3]
 MAL: Final = ROOT / "handeye/systems/sigma/mal"
 ALLOWED: Final = (
     "handeye.core.", "handeye.ports.microbus", "handeye.systems.sigma.mal.", "handeye.systems.sigma.protocol",
-    "handeye.program.events", "handeye.program.language", "handeye.systems.sigma.ENTRY",
+    "handeye.program.events", "handeye.program.language", "handeye.program.mistakes", "handeye.systems.sigma.ENTRY",
 )  # fmt: skip
 
 
