@@ -35,8 +35,8 @@ Chosen.
 
 
 SINGULAR: Final = 0.05
-"""Directions in which the joints move the hand by less than this fraction of the largest movement do not show a blow.
-Chosen.
+"""A direction in which the joints move the hand by less than this fraction of the largest movement cannot show a
+blow. Chosen.
 """
 REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the

@@ -27,7 +27,9 @@ class CalibrationLook:
     lens: float  # focal length, m
     at: Vector3  # aim
     sharp: Vector3
-    """The point in focus. Neighbouring looks share it, because refocusing takes three times as long as aiming."""
+    """The point in focus. Neighbouring looks share this point, because refocusing takes three times as long as
+    aiming.
+    """
     places: tuple[Vector3, ...]
     hand_angle: float  # angle O of the hand, pointing down, rad
 

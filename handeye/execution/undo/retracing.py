@@ -99,11 +99,11 @@ class ReturnPath:
 def retracing(
     arm: ArmModel, q: Array, gap: float, way: RecordedPath, *, slowly: bool, feeling: bool = False
 ) -> ReturnPath:
-    """Make the reverse path from the present position of the arm and the fingers. If `slowly` is True, it is at
-    most as fast as guarded motions.
+    """Make the reverse path from the present position of the arm and the fingers. If `slowly` is True, the motion
+    is at most as fast as guarded motions.
 
     If `feeling` is True, the fingers close at most at the speed of centring. Faster fingers would push a loose
-    object ahead, with their switches open at most readings.
+    object ahead, and their switches would be open at most readings.
     """
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)
