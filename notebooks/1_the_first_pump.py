@@ -26,9 +26,9 @@ import handeye
 # %% [markdown]
 # ## A script becomes a plan
 #
-# The script is a text in the arm language of 1973. *Planning* compiles it and computes every motion in advance. It
-# uses no arm, no clock and no random numbers, so the plan is the same each time. In a notebook, a plan shows its
-# stages, and for each stage how long the arm's motions take if no step is repeated.
+# The script is a text in the arm language of 1973. *Planning* compiles the script and computes every motion in
+# advance. Planning uses no arm, no clock and no random numbers, so the plan is the same each time. In a notebook, a
+# plan shows its stages, and for each stage how long the arm's motions take if no step is repeated.
 
 # %%
 plan = handeye.plan(handeye.scripts / "water_pump.al")
@@ -69,9 +69,9 @@ run
 # The table in the middle compares the times with those printed in 1973. *Manipulation* is the motion of the arm.
 # During the rest of the working phase, the arm waits for the television camera, whose lens turret, pan, tilt and
 # focus have slow motors. As the paper of 1973 suggests, today's program lets these motors work while the arm moves,
-# where possible. So the camera takes less time than in 1973. In all, the run takes minutes longer than in 1973, all
-# of them for manipulation: the arm is slower than that of 1973, and the program measures more by touch. The last
-# stage, which inspects the pump, was not in the program of 1973.
+# where possible. So the camera takes less time than in 1973. Manipulation, however, takes minutes longer than in
+# 1973, and so does the whole run: the arm is slower than that of 1973, and the program measures more by touch. The
+# last stage, which inspects the pump, was not in the program of 1973.
 #
 # ## Look at it
 #

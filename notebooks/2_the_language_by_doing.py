@@ -74,8 +74,8 @@ run.until()
 
 # %% [markdown]
 # The program called the operator, because the fingers met nothing. `CLOSE .1` requires at least a tenth of an inch
-# between them, so the program does not continue with an empty hand. The program was right: there is no pin at y =
-# 32, because we taught the position wrong.
+# between the fingers, so the program does not continue with an empty hand. The program was right: there is no pin at
+# y = 32, because we taught the position wrong.
 #
 # ## Repair the run
 #
@@ -95,8 +95,8 @@ run.until()
 print(f"{run.state.gap / 0.0254:.2f} in; by a person: {run.result.interventions}")
 
 # %% [markdown]
-# A result always shows whether a person has changed the run. So that the next run needs no change, we would also
-# correct the taught file: `PIN` is at y = 35.
+# A result always shows whether a person has changed the run. To make the next run succeed without a change, we would
+# also correct the taught file: `PIN` is at y = 35.
 #
 # ## Expect errors
 #
@@ -164,9 +164,9 @@ print(
 print("new places:", sorted({*after.record.program.positions} - {*before.record.program.positions}))
 
 # %% [markdown]
-# `world = handeye.World(set={"pump.screws": 7})` has a pump with seven holes. `handeye.assemble(world=world,
-# script=after)` assembles this pump in a minute of processor time, and the referee finds seven screws in their
-# threads. With `before`, the referee finds six screws, and rejects the pump. The
+# `world = handeye.World(set={"pump.screws": 7})` makes a world whose pump has seven holes.
+# `handeye.assemble(world=world, script=after)` assembles this pump in a minute of processor time, and the referee
+# finds seven screws in their threads. With `before`, the referee finds six screws, and rejects the pump. The
 # [exercise](../docs/language/seventh-screw.md) does the same with a text editor, without Python.
 #
 # [One page](../docs/language/README.md) describes the whole language. In the next notebook, [3. Beams, blobs and

@@ -76,8 +76,9 @@ print(
 # ## A blob
 #
 # In the wide picture, the base is a bright blob on the dark belt. The *localiser* sends beams inwards from the
-# border of a window until one meets a brighter area. There it begins a box around the blob, and moves each side of
-# the box outwards as long as a line just outside this side crosses the blob. Red marks all pixels that it has read.
+# border of a window until one meets a brighter area. There the localiser begins a box around the blob, and moves
+# each side of the box outwards as long as a line just outside this side crosses the blob. Red marks all pixels that
+# were read.
 
 # %%
 wide = pictures["WIDE"]
@@ -151,7 +152,7 @@ print(f"in truth ({world['base.x']:.2f}, {world['base.y']:.2f}) in, turned {worl
 # A dark gasket on a bright casting, seen from the side, with shadows and pins, is hard to describe. So the program
 # uses no description. It takes one picture before the gasket is put on and one after, and analyses their
 # *difference*, in which everything unchanged disappears. In the difference, the gasket is one blob with two holes.
-# Beams find the borders of these holes, and their places show whether the gasket is in place.
+# Beams find the borders of these holes, and the places of the holes show whether the gasket is in place.
 
 # %%
 before, after = pictures["BEFORE"], pictures["AFTER"]

@@ -98,7 +98,7 @@ told
 # ## What cannot be undone
 #
 # Undo reverses recorded actions, and assumes that the world has not changed since then. So the arm must verify this
-# by touch. The next cell runs the program, and takes the blocks away before undoing it:
+# assumption by touch. The next cell runs the program, and takes the blocks away before undoing it:
 
 # %%
 session.type("RUN\n* CLEAR\nRUN -1000")

@@ -11,8 +11,8 @@
 # %% [markdown]
 # # 7. A reflex
 #
-# At the end you will know why a robot of 1981 had one wire that its central computer could not touch, what this
-# wire saves, and what it does not save.
+# At the end you will know why a robot of 1981 had one wire that bypassed its central computer, and what this wire
+# saves in a collision.
 #
 # SUPERSIGMA, built in Milan, has two arms over one board. A central computer runs your program in
 # [MAL](../docs/mal.md). Each motor has a microcomputer of its own, and a bus carries commands to them. A wire leads
@@ -50,7 +50,7 @@ axis.imshow(picture)
 axis.set_axis_off()
 
 # %% [markdown]
-# The same program runs again, with the wires cut. Nothing stops it, so it prints that it has arrived.
+# Now the same program runs with the wires cut. Nothing stops the arm, and the program prints that it has arrived.
 
 # %%
 cut = handeye.Mal(collide, arm="gantries", faults=["no-reflex"])
@@ -82,9 +82,9 @@ cut.believed["X1"], round(float(cut.history["place"][-1, 0]), 2)
 # ## What the reflex does not save
 #
 # At full speed, a motor has little force to spare. The reflex still stops the arm, but both arms have lost steps by
-# then. Arm 2 was standing, so its motor took no notice, and its status says that all is well. The interpreter of
-# MAL therefore asks both wrists for the greatest force that they have felt, and doubts the count of each axis that
-# may have slipped.
+# then. Arm 2 was standing, so its motor took no notice, and its status says that all is well. The interpreter of MAL
+# therefore asks both wrists for the greatest force that they have felt, and marks the count of each axis that may
+# have slipped as doubtful.
 
 # %%
 fast = handeye.Mal(collide.replace(" SLOW 50", ""), arm="gantries")
@@ -95,10 +95,10 @@ fast.stopped
 fast.status("X2"), fast.doubtful, fast.believed["X2"], round(float(fast.history["place"][-1, 3]), 2)
 
 # %% [markdown]
-# `ORIGIN` ends the doubt: it moves an axis to the switch at the end of its rail, and counts from there. It also
-# finds steps that no wrist has felt. In the next program, the hand of arm 1 is lower, so the column of arm 1 hits
-# the hand of arm 2. The column has no force sensor. No reflex acts, and the program believes everything, until
-# `ORIGIN` looks.
+# `ORIGIN` ends the doubt: it moves an axis to the switch at the end of its rail, and counts from there. `ORIGIN`
+# also finds lost steps of which no wrist felt the cause. In the next program, the hand of arm 1 is lower, so the
+# column of arm 1 hits the hand of arm 2. The column has no force sensor. No reflex acts, and the program does not
+# notice the collision until `ORIGIN` checks the counts.
 
 # %%
 column = handeye.Mal(
@@ -114,5 +114,5 @@ column = handeye.Mal(
 column.run(), column.stopped
 
 # %% [markdown]
-# [The safety study](../docs/safety_study.md) has fourteen collisions in a table. In some of them, the central
-# computer is in an endless loop: the reflex stops the arm nevertheless.
+# [The safety study](../docs/safety_study.md) has fourteen collisions in a table. In two of them, the central
+# computer hangs in an endless loop. Even then, the wired reflex stops the arm.

@@ -15,7 +15,7 @@
 # search try every order in which they could run.
 #
 # [MAL](../docs/mal.md), the language of SUPERSIGMA (Milan, 1981), looks like BASIC, but it has parallel tasks. The
-# lines after `TASK` belong to a task, and `START` starts it. The tasks take turns, one statement each.
+# lines after `TASK` belong to a task, and `START` starts the task. The tasks take turns, one statement each.
 #
 # You can read this notebook without running it. Running it takes a few seconds.
 
@@ -49,7 +49,8 @@ both.run()
 # ## A flag
 #
 # `SET` sets a flag. `TAKE` waits until the flag is set, and clears it in the same statement, so only one task can
-# take it. Here the flag FREE stands for a place that both arms use. RIGHT waits until LEFT has left the place.
+# take it. Here the flag FREE means that a place which both arms use is free. RIGHT waits until LEFT has moved away
+# from this place.
 
 # %%
 shared = handeye.Mal("""
@@ -75,7 +76,7 @@ shared.tasks
 
 # %% [markdown]
 # Does the flag keep the arms apart for any speed of the motors? One run shows one order of events. The search tries
-# all of them:
+# all orders:
 
 # %%
 shared.interleavings()
@@ -100,7 +101,7 @@ race = handeye.Mal("""
 race.interleavings()
 
 # %% [markdown]
-# On the gantries with physics, it happens:
+# On the gantries with physics, the hands collide:
 
 # %%
 crash = handeye.Mal(race.text, arm="gantries")
@@ -139,4 +140,4 @@ dead.interleavings()
 # %% [markdown]
 # If both tasks take the flags in the same order, the deadlock is gone. Try it: swap the two `TAKE` of RIGHT in
 # [dead.mal](../plans/dead.mal). [Handing pieces from arm to arm](../docs/handover.md) has a longer program, with a
-# race and a deadlock to be found.
+# race and a deadlock to find.
