@@ -15,9 +15,9 @@ PAGE: Final = "demo.html"
 
 
 def demo(
-    run: Annotated[
+    name: Annotated[
         str | None,
-        Parameter(help="The recorded run: `chess`, for example. Default: the assembly of the pump."),
+        Parameter(help="Name of a recorded run: `chess`, for example. Default: the assembly of the pump."),
     ] = None,
     /,
     *,
@@ -40,12 +40,12 @@ def demo(
     from handeye.core.files import check_place, write_over
     from handeye.report.page.document import REPORT
 
-    if run is not None and run not in resources.recorded():
-        hint = suggestion(run, resources.recorded())
-        raise NoSuchName(f"there is no recorded run {quoted(run)}" + (f"; {hint}" if hint else ""))
+    if name is not None and name not in resources.recorded():
+        hint = suggestion(name, resources.recorded())
+        raise NoSuchName(f"there is no recorded run {quoted(name)}" + (f"; {hint}" if hint else ""))
     check_place(output, REPORT)
     note("Writing the page of a recorded run; this takes a few seconds.")
-    page = page_of(resources.demo() / (run or ""))
+    page = page_of(resources.demo() / (name or ""))
     if not (output.exists() and output.read_bytes() == page):
         check_place(output, REPORT, overwrite=overwrite)
         write_over(output, page, REPORT)
