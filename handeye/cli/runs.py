@@ -378,8 +378,8 @@ def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str])
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
-    """The folder that is searched for checkpoints: the given folder, or the folder of checkpoints inside that of a
-    run.
+    """The folder that is searched for checkpoints: the given folder, or the folder of checkpoints in the folder of
+    a run.
     """
     from handeye.runs.folder import CHECKPOINTS
 

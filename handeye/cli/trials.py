@@ -96,7 +96,7 @@ def base_vision_trials(
     In every world the arm first moves its lamp through the camera's view, as in a run. This takes most of the time of
     a trial; with `--worlds`, several poses share a world and its calibration.
 
-    Exit code 0: no wrong pose was accepted; 3: one was.
+    Exit code 0: no wrong pose was accepted; 3: a wrong pose was accepted.
     """
     return attempts.carry_out("base", n, options)
 
@@ -112,7 +112,7 @@ def gasket_vision_trials(
     The camera cannot see a second gasket on top of the first, so two gaskets count as right here; in a run, the
     hand detects two gaskets by their height.
 
-    Exit code 0: no shifted or absent gasket was accepted; 3: one was.
+    Exit code 0: no shifted or absent gasket was accepted; 3: such a gasket was accepted.
     """
     return attempts.carry_out("gasket", n, options)
 
@@ -134,7 +134,7 @@ def disturbed_trials(
     The stop is in time if, before the stop, no part outside the hand moved by more than 2 mm in a step and the hand
     felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
 
-    Exit code 0: every trial was stopped in time; 3: one was not; 2: bad input; 130: interrupted.
+    Exit code 0: every trial was stopped in time; 3: a trial was not stopped in time; 2: bad input; 130: interrupted.
     """
     from handeye.trials.disturbing import DISTURBED, DisturbanceWork
     from handeye.trials.folder import head_of

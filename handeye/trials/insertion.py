@@ -42,8 +42,8 @@ TASK: Final = "insertion"
 TRIALS_A_WORLD: Final = 10  # Trials that share one fetched pin; fetching takes a second of a processor
 _WRITTEN_STEP: Final = "SEARCH  .07"
 _STEP_SHARE: Final = 0.92
-"""The search step as a fraction of the greatest step with which every hole is found. It gives .07 in for
-Factory's hole.
+"""The search step as a fraction of the greatest step with which every hole is found. This fraction gives .07 in for
+the hole of the Factory benchmark.
 """
 _PLACE: Final = 0.005  # in, to which it is rounded down
 
