@@ -5,9 +5,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from ml_bench import ROOT
 
 from handeye.core.errors import BadArgument
-from handeye.systems.ml.bench.touch import STIFFNESS, touch, worst
+from handeye.systems.ml.bench.touch import STIFFNESS, lines, touch, worst
 from handeye.systems.ml.bench.touches import touches_page
 from handeye.systems.ml.machine.spec import GRAM_FORCE
 
@@ -64,6 +65,14 @@ def test_the_command_prints_a_touch(command: Command) -> None:
     code, _, err = command("ml", "touch", "--page", "x.html", "--speed", "3")
     assert (code, Path("x.html").exists()) == (2, False)
     assert err.startswith("handeye: --page shows all periods")
+
+
+def test_the_figures_of_the_page_in_the_docs_are_those_of_the_physics() -> None:
+    text = (ROOT / "docs/ten_milliseconds.md").read_text(encoding="utf-8")
+    way, force = (row.split("|") for row in text.splitlines() if row.startswith("| 20 ms |"))
+    found = worst(20, 50, 100)
+    assert (way[6].strip(), force[6].strip()) == (f"{found.way:.2f}", f"{found.force:.1f}")
+    assert "\n".join(lines(touch())) in text
 
 
 def test_the_page_has_a_touch_for_each_choice() -> None:

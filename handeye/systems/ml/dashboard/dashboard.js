@@ -27,7 +27,7 @@ const tables = (() => {
 
   function changed(number, at) {
     const course = courses.get(number), index = course ? found(course, at) : -1;
-    return index > 0 && course.cycles[index] === at;
+    return index >= 0 && at > 0 && course.cycles[index] === at;
   }
 
   function set(at, number, word) {
@@ -89,7 +89,7 @@ const tables = (() => {
     const lines = new Set(Object.keys(segment.labels).map(Number)), labelled = lines.size > 0;
     for (const [number, course] of courses) {
       const line = Math.floor((number - segment.base) / segment.words) + 1;
-      if (line >= 1 && line <= segment.lines && (!labelled || course.cycles.length > 1)) lines.add(line);
+      if (line >= 1 && line <= segment.lines && (!labelled || course.cycles.at(-1) > 0)) lines.add(line);
     }
     return [...lines].sort((a, b) => a - b);
   }
@@ -160,10 +160,7 @@ const tables = (() => {
       if (segment.table === "ST") for (const [line, row] of panel.rows) mark(segment, line, row);
     }
     const lit = new Set();
-    for (const [number, course] of courses) {
-      const index = found(course, cycle);
-      if (index > 0 && course.cycles[index] === cycle) lit.add(tableOf(number));
-    }
+    for (const number of courses.keys()) if (changed(number, cycle)) lit.add(tableOf(number));
     for (const button of byId("tables-names").children) button.classList.toggle("lit", lit.has(button.value));
     stand();
     cursor();
@@ -316,7 +313,7 @@ const tables = (() => {
 
   /** Go to the next change of the picked word, or to the one before. */
   function change(way) {
-    const changes = (courses.get(picked)?.cycles ?? []).slice(1);
+    const changes = (courses.get(picked)?.cycles ?? []).filter((at) => at > 0);
     const next = way > 0 ? changes.find((at) => at > cycle) : changes.findLast((at) => at < cycle);
     if (next !== undefined) go(next);
   }
@@ -386,7 +383,7 @@ const tables = (() => {
     if (anew) { courses = new Map(); panels.clear(); }
     for (let n = 0; n < changes.length; n += 3) set(changes[n], changes[n + 1], changes[n + 2]);
     last = passed;
-    if (follows || anew) cycle = last + 1;
+    if (follows || anew) cycle = Math.max(last, ...changes.slice(-3, -2)); // the one in which a word has changed last
     drawing ??= requestAnimationFrame(() => {
       drawing = null;
       range();

@@ -42,9 +42,14 @@ class Course:
         return self.values[found - 1] if found else 0
 
     def changed(self, cycle: int) -> bool:
-        """Return True if the word was changed in a cycle."""
+        """Return True if the word was changed in a cycle. Its first contents, in cycle 0, are no change."""
         found = bisect_right(self.cycles, cycle)
-        return bool(found) and self.cycles[found - 1] == cycle
+        return found > 0 < cycle == self.cycles[found - 1]
+
+    @property
+    def changes(self) -> bool:
+        """True if the word has been changed in some cycle."""
+        return self.cycles[-1] > 0
 
 
 class History:
@@ -86,8 +91,7 @@ class History:
             | {
                 segment.line_word(number)[0]
                 for number, course in self.courses.items()
-                if segment.base <= number < segment.base + segment.size
-                and (not labels or len(course.cycles) > 1)
+                if segment.base <= number < segment.base + segment.size and (not labels or course.changes)
             }
         )
 

@@ -56,7 +56,7 @@ def dashboard(*more: Markup) -> Markup:
         class_="stand",
     )
     word = element(
-        "p",
+        "div",
         element("span", id="tables-picked"),
         element("output", id="tables-value"),
         element("button", "◀ change", id="tables-before", type="button"),

@@ -54,7 +54,7 @@ def _changing(done: History, segment: Segment, cycle: int | None = None) -> int:
         for number, course in done.courses.items()
         if segment.base <= number < segment.base + segment.size
     ]
-    return sum(len(each.cycles) > 1 if cycle is None else each.changed(cycle) for each in mine)
+    return sum(each.changes if cycle is None else each.changed(cycle) for each in mine)
 
 
 def overview(done: History, cycle: int) -> Iterator[str]:
