@@ -81,6 +81,7 @@ CHEAP = {
     "trials train": "trials train --n ✓",
     "trials support": "trials support --n ✓",
     "trials orient": "trials orient --n ✓",
+    "trials bin": "trials bin --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",

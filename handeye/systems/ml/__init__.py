@@ -20,6 +20,7 @@ trials blocks = handeye.systems.ml.cli.toys:blocks_trials: Stack three blocks by
 trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by touch in many worlds: success rate, errors of places.
 trials support = handeye.systems.ml.cli.support:support_trials: Assemble the rail support in many worlds: success rate, depths, forces.
 trials orient = handeye.systems.ml.cli.parts:orient_trials: Turn a bar into a known attitude by touch in many worlds: success rate, errors.
+trials bin = handeye.systems.ml.cli.parts:bin_trials: Take parts out of a bin and judge them by touch in many worlds: success rate.
 """,  # noqa: E501 - a command a line
     tasks={
         "ml": "handeye.systems.ml.run.task:ML_TASK",
@@ -29,6 +30,7 @@ trials orient = handeye.systems.ml.cli.parts:orient_trials: Turn a bar into a kn
         "train": "handeye.systems.ml.train.task:TRAIN",
         "support": "handeye.systems.ml.support.task:SUPPORT",
         "orient": "handeye.systems.ml.orient.task:ORIENT",
+        "bin": "handeye.systems.ml.bin.task:BIN",
     },
     languages={
         ".ml": "handeye.systems.ml.language.language:LANGUAGE",
@@ -40,6 +42,7 @@ trials orient = handeye.systems.ml.cli.parts:orient_trials: Turn a bar into a kn
         "train": "handeye.systems.ml.run.job_trials:TRAIN_TRIALS",
         "support": "handeye.systems.ml.run.job_trials:SUPPORT_TRIALS",
         "orient": "handeye.systems.ml.run.job_trials:ORIENT_TRIALS",
+        "bin": "handeye.systems.ml.run.job_trials:BIN_TRIALS",
     },
     events="handeye.systems.ml.happenings:EVENTS",
     files=("tables.gz", "follow.json"),

@@ -1,4 +1,4 @@
-"""The job that orients a bar: its program in worlds drawn from seeds, and its referee."""
+"""The jobs that orient a bar and take parts out of a bin: their programs and referees."""
 
 import json
 from collections.abc import Callable
@@ -17,6 +17,8 @@ from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.ml.bench.bars import after, off_attitude, turned
+from handeye.systems.ml.bin.hopper import BOXES
+from handeye.systems.ml.bin.task import BIN, Poured
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.systems.ml.orient.task import ASKED, ORIENT
 from handeye.systems.ml.run.jobs import job_plan, job_setup
@@ -25,8 +27,8 @@ Command = Callable[..., tuple[int, str, str]]
 Y, Z = np.eye(3)[1:]
 
 
-def begun(job: str, seed: int = 7, text: str = "") -> Runner:
-    plan = job_plan(job)
+def begun(job: str, seed: int = 7, text: str = "", variant: str = "") -> Runner:
+    plan = job_plan(job, variant)
     return Runner(Checkpoint(setup=job_setup(replace(plan, text=text or plan.text), WorldSpec(seed=seed))))
 
 
@@ -88,3 +90,51 @@ def test_an_empty_cradle_and_a_missing_stop_are_reported() -> None:
 def test_trials_are_counted(command: Command) -> None:
     code, out, _ = command("trials", "orient", "--n", "1", "--seed", "7", "--jobs", "1", "--json")
     assert (code, json.loads(out)["right"]) == (0, 1)
+
+
+@pytest.mark.slow
+def test_three_parts_of_a_bin_are_taken_one_at_a_time_and_judged() -> None:
+    result = done(begun("bin", 2, variant="3"))
+    assert (result.exit_code, result.completed) == (0, True)
+    assert all(check.ok for check in result.referee.values())
+    assert {name: (result.figures or {})[name] for name in ("told_good", "told_bad")} == {
+        "told_good": 2,
+        "told_bad": 1,
+    }
+
+
+def test_the_referee_of_the_bin_sees_a_wrong_part_passed_a_part_left_and_a_part_lost() -> None:
+    station = BIN.hardware(job_plan("bin"), WorldSpec(seed=7), lambda _: None)
+    poured = station.cell.truth.states["poured"]
+    assert isinstance(poured, Poured)
+    kinds = ["good" if quality == "good" else "bad" for quality in poured.qualities]
+    assert {*kinds} == {"good", "bad"}
+
+    def put(part: int, x: float) -> None:
+        station.cell.truth.data.joint(f"part_{part + 1}").qpos[:] = (x, 0, 0.02 * part, 1, 0, 0, 0)
+
+    def wrong() -> list[str]:
+        station.cell.restore(station.cell.capture())
+        return [name for name, found in BIN.judge(station.cell.truth).items() if not found.ok]
+
+    for part, kind in enumerate(kinds):
+        put(part, BOXES[kind] * LINEAR)
+    station.hear(f"0 {kinds.count('good')} {kinds.count('bad')}")
+    assert wrong() == []
+    bad = kinds.index("bad")
+    put(bad, BOXES["good"] * LINEAR)
+    assert wrong() == ["passed", "told"]
+    put(bad, 0.0)
+    assert wrong() == ["left", "told"]
+    put(bad, 0.35)
+    assert wrong() == ["lost", "told"]
+    put(bad, BOXES["bad"] * LINEAR)
+    put(kinds.index("good"), BOXES["bad"] * LINEAR)
+    assert wrong() == ["rejected", "told"]
+
+
+@pytest.mark.slow
+def test_a_bin_holds_one_to_twelve_parts(command: Command) -> None:
+    for parts in ("0", "13"):
+        code, _, said = command("ml", "bin", "--parts", parts, "--no-keep")
+        assert (code, said.count("there are from 1 to 12 parts in the bin")) == (2, 1)

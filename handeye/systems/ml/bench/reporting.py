@@ -75,4 +75,8 @@ class ReportingHardware(StationHardware):
         trouble, _, count = lines[-1].partition(" ") if lines else ("0", "", "")
         if trouble not in self._troubles:
             return None
-        return Ending(done=False, text=f"{self._troubles[trouble]} (done before: {count.strip() or 0})")
+        return Ending(done=False, text=f"{self._troubles[trouble]} ({self.counted(count.strip() or '0')})")
+
+    def counted(self, count: str) -> str:
+        """Word the numbers that the program prints after that of a trouble."""
+        return f"done before: {count}"

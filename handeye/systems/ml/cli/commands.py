@@ -15,7 +15,7 @@ from handeye.core.errors import BadArgument
 from handeye.core.files import check_new, write_whole
 from handeye.core.source import Source, read_source
 from handeye.systems.ml.cli.follow import follow
-from handeye.systems.ml.cli.parts import orient
+from handeye.systems.ml.cli.parts import orient, take_from_bin
 from handeye.systems.ml.cli.support import support
 from handeye.systems.ml.cli.tables import tables
 from handeye.systems.ml.cli.touch import touch
@@ -214,4 +214,5 @@ _COMMANDS: Final = (run, check, assemble, words, tables, view, touch, follow, bl
 ml.default(console)
 for _command in _COMMANDS:
     ml.command(_command)
+ml.command(take_from_bin, name="bin")
 ml.command(try_program, name="try")

@@ -1,5 +1,10 @@
 """The commands of the jobs with bars, for one world and for many worlds."""
 
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import WholeNumber
 from handeye.cli.judged_jobs import ANY_RUN, JobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
@@ -9,6 +14,8 @@ from handeye.systems.ml.cli.jobs import (
     carry_out,
     carry_out_trials,
 )
+
+Parts = Annotated[WholeNumber, Parameter(help="Number of parts in the bin, from 1 to 12.")]
 
 
 def orient(
@@ -50,3 +57,54 @@ def orient_trials(
     return carry_out_trials(
         ORIENT_TRIALS, job_plan("orient"), n, seed, errors, options, title="a bar oriented"
     )
+
+
+def take_from_bin(
+    *,
+    parts: Parts = 8,
+    seed: JobSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: JobOptions = ANY_RUN,
+) -> int:
+    """Take like parts out of a bin, one at a time, and judge each by its width and weight.
+
+    `plans/bin.ml` finds the highest parts by range, grasps by guarded moves, and feels by the separation of the fingers
+    and by their strain whether it holds one good part, a wrong one, or none or several. It puts the parts into two
+    boxes, until the range finder shows that the bin is empty. A referee then looks: each part has to be in the right
+    box, and none may be left in the bin or lie elsewhere.
+
+    Exit code 0: right; 1: the program has stopped because it does not get a part, or has lost one; 3: it has ended, and
+    the referee disagrees; 2: bad input; 130: interrupted.
+    """
+    from handeye.systems.ml.bin.task import parts_of
+    from handeye.systems.ml.run.jobs import job_plan
+
+    parts_of(plan := job_plan("bin", str(parts)))
+    return carry_out(plan, seed, errors, options)
+
+
+def bin_trials(
+    *,
+    n: NumberOfWorlds = 10,
+    seed: FirstSeed = 0,
+    parts: Parts = 8,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Take parts out of a bin in many worlds: how often all are taken and judged right, and why not.
+
+    Each trial is that of `handeye ml bin`. Ctrl-C ends the batch and prints what has finished; with --out it can be
+    continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
+    disagrees.
+    """
+    from handeye.systems.ml.bin.task import parts_of
+    from handeye.systems.ml.run.job_trials import BIN_TRIALS
+    from handeye.systems.ml.run.jobs import job_plan
+
+    parts_of(plan := job_plan("bin", str(parts)))
+    return carry_out_trials(
+        BIN_TRIALS, plan, n, seed, errors, options, title=f"a bin of {parts} parts",
+        again=f"--parts {parts}",
+    )  # fmt: skip

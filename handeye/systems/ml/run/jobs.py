@@ -16,9 +16,10 @@ PROGRAMS: Final = {
     "train": "train.ml",
     "support": "support.sym",
     "orient": "orient.ml",
+    "bin": "bin.ml",
 }
 SYMBOLIC: Final = ".sym"  # ending of programs that the symbolic assembler translates off line
-USUAL: Final = {"follow": "square"}  # variant of a job where none is named
+USUAL: Final = {"follow": "square", "bin": "8"}  # variant of a job where none is named
 
 
 def job_plan(job: str, variant: str = "") -> MlPlan:

@@ -1,0 +1,59 @@
+"""A smooth hopper with a flat middle, and two boxes beside it, for bars."""
+
+from math import cos, radians, sin, tan
+from typing import Final
+
+import mujoco
+
+from handeye.systems.ml.bench.bars import turned
+from handeye.systems.ml.machine.spec import LINEAR
+
+FLOOR: Final = 0.002  # m, the flat middle of the hopper over the table
+HALF: Final = 0.048  # m, half of the side of its flat middle
+SLOPE: Final = radians(25)  # of its four sides
+RIM: Final = 0.090  # m from its middle to its rim
+BOXES: Final = {"good": -6500, "bad": 6500}  # x of the slides
+BOX: Final = 0.050  # m, half of the inner side of a box
+_HIGH: Final = 0.030  # m, walls of a box, and the rim of the hopper over the table
+_THIN: Final = 0.002  # m, half of the thickness of walls
+_ENAMEL: Final = [0.45, 0.33, 0.24, 1]
+_COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
+
+
+def add_hopper(spec: mujoco.MjSpec, friction: float) -> None:
+    """Add the hopper, at x = y = 0 of the slides. Its friction replaces that of what lies in it."""
+    hopper = spec.worldbody.add_body(name="hopper")
+
+    def plate(size: list[float], pos: list[float], quat: list[float]) -> None:
+        hopper.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=pos, quat=quat, friction=[friction, 0.003, 0.0001],
+            priority=1, rgba=_ENAMEL, group=1,
+        )  # fmt: skip
+
+    plate([HALF, HALF, FLOOR / 2], [0, 0, FLOOR / 2], [1, 0, 0, 0])
+    run = RIM - HALF
+    middle, high = HALF + run / 2, FLOOR + run / 2 * tan(SLOPE)
+    sunk = middle + _THIN * sin(SLOPE), high - _THIN * cos(SLOPE)  # so that the upper side is the slope
+    for way in (-1, 1):
+        plate(
+            [run / 2 / cos(SLOPE), RIM, _THIN],
+            [way * sunk[0], 0, sunk[1]],
+            turned("y", -way * SLOPE).tolist(),
+        )
+        plate(
+            [RIM, run / 2 / cos(SLOPE), _THIN], [0, way * sunk[0], sunk[1]], turned("x", way * SLOPE).tolist()
+        )
+        plate([_THIN, RIM, _HIGH / 2], [way * (RIM + _THIN), 0, _HIGH / 2], [1, 0, 0, 0])
+        plate([RIM, _THIN, _HIGH / 2], [0, way * (RIM + _THIN), _HIGH / 2], [1, 0, 0, 0])
+
+
+def add_boxes(spec: mujoco.MjSpec) -> None:
+    """Add the boxes for good and for bad parts."""
+    for name, x in BOXES.items():
+        box = spec.worldbody.add_body(name=f"{name}_box", pos=[x * LINEAR, 0, 0])
+        for way in (-1, 1):
+            for size, pos in (
+                ([_THIN, BOX, _HIGH / 2], [way * (BOX + _THIN), 0, _HIGH / 2]),
+                ([BOX, _THIN, _HIGH / 2], [0, way * (BOX + _THIN), _HIGH / 2]),
+            ):
+                box.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=pos, rgba=_COLOURS[name], group=1)

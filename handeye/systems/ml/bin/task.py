@@ -1,0 +1,200 @@
+"""Defines the job `bin`, its worlds and its referee."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import product
+from typing import TYPE_CHECKING, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.mechanism import Mechanism
+from handeye.core.diagnostics import quoted
+from handeye.core.distributions import Fixed, Noise, Range
+from handeye.core.errors import BadFile, NoSuchName
+from handeye.core.record import Record
+from handeye.core.variation import Variation, WorldSpec
+from handeye.judge.finding import Findings, at_most
+from handeye.systems.ml.bench.bars import DENSITY, WIDE, add_bar
+from handeye.systems.ml.bench.hardware import ArmTask
+from handeye.systems.ml.bench.reporting import Printed, ReportingHardware
+from handeye.systems.ml.bench.station import Station, scene
+from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
+from handeye.systems.ml.bin.hopper import BOX, BOXES, RIM, add_boxes, add_hopper
+from handeye.systems.ml.machine.spec import LINEAR
+from handeye.systems.ml.run.hardware import Hardware, Tell
+from handeye.tasks.interface import Words
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.truth import Truth
+    from handeye.core.pose import Array
+    from handeye.systems.ml.run.plan import MlPlan
+
+Quality = Literal["good", "narrow", "light"]
+POURED = "poured"
+USUAL: Final = 8  # parts
+MOST: Final = 12
+NARROW: Final = 0.001  # m by which a narrow part is narrower
+LIGHT: Final = 0.5  # weight of a light part, as a share of a good one's
+_ASIDE: Final = 0.028  # m of the parts from the middle along x and y, as they are poured
+_LAYER: Final = 0.055  # m from one layer of four parts to the next
+_LOWEST: Final = 0.045  # m, the lowest layer over the table
+_WRONG, _SIZE, _FRICTION, _SMOOTH = "parts.wrong", "parts.size", "parts.friction", "hopper.friction"
+TROUBLES: Final = {
+    "1": "parts are left that the hand does not get out of the bin",
+    "2": "the hand has lost a part on its way",
+}  # by the number that the program prints
+VARIATION: Final = Variation(
+    *ARM,
+    quantity(
+        _WRONG,
+        "",
+        Fixed(0.25),
+        1.0,
+        "Probability that a part is wrong: 1 mm too narrow, or half as heavy. No source: our choice.",
+    ),
+    quantity(_SIZE, "mm", Noise(0.05), 0.2, "Standard deviation of a part's width. No source: our choice."),
+    quantity(
+        _FRICTION, "", Range(0.3, 0.4), 2.0, "Friction of parts on each other. No source: our choice.", 0.35
+    ),
+    quantity(
+        _SMOOTH,
+        "",
+        Range(0.10, 0.18),
+        2.0,
+        "Friction of parts in the hopper. No source: our choice, "
+        "for a polished lining; from .22 on, they would stay on its slopes.",
+        0.14,
+    ),
+)
+
+
+class Poured(Record, frozen=True, kw_only=True):
+    """The parts before the program begins."""
+
+    qualities: tuple[Quality, ...]
+
+
+class Pile(Mechanism[Poured]):
+    """The witness of the parts, for the referee only."""
+
+    name, kind = POURED, Poured
+
+    def __init__(self, poured: Poured) -> None:
+        self.poured = poured
+
+    def state(self) -> Poured:
+        return self.poured
+
+    def check(self, state: Poured) -> None:
+        if state != self.poured:
+            raise BadFile("different parts lay in its bin")
+
+    def restore(self, state: Poured) -> None:
+        self.poured = state
+
+
+class Sorter(ReportingHardware):
+    """A station whose program counts good and bad parts."""
+
+    def counted(self, count: str) -> str:
+        good, bad = told(count)
+        return f"in the boxes: {good} good and {bad} bad"
+
+    @property
+    def figures(self) -> Mapping[str, float]:
+        lines = self.heard
+        good, bad = told(lines[-1].partition(" ")[2] if lines else "")
+        return {"told_good": good, "told_bad": bad}
+
+
+class Bin(ArmTask):
+    """Take parts out of a bin, and judge them."""
+
+    name = "bin"
+    words = Words(product="the sorted parts", done="The bin is empty, and each part is in its box.")
+
+    def variation(self) -> Variation:
+        return VARIATION
+
+    def station(self, parts: int, world: ArmWorld) -> Station:
+        """Return the station with a hopper, into which the parts fall as time begins, and two boxes."""
+        spec = scene(world, wand=False)
+        add_hopper(spec, world.value(_SMOOTH))
+        add_boxes(spec)
+        qualities = tuple(_quality(world, number) for number in range(1, parts + 1))
+        places = product((_LOWEST + n * _LAYER for n in range(3)), (-1, 1), (-1, 1))
+        for number, (quality, (z, x, y)) in enumerate(zip(qualities, places, strict=False), 1):
+            wide = WIDE + world.normal(f"part_{number}.size", _SIZE) - NARROW * (quality == "narrow")
+            turn = world.numbers(f"part_{number}.turned").standard_normal(4)
+            at = np.array([x * _ASIDE, y * _ASIDE, z])
+            add_bar(
+                spec, f"part_{number}", at, turn / np.linalg.norm(turn), world.value(_FRICTION), wide=wide,
+                density=DENSITY * (LIGHT if quality == "light" else 1.0),
+            )  # fmt: skip
+        return Station(spec, world, at={4: BOXES["good"]}, others=(Pile(Poured(qualities=qualities)),))
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return self.station(USUAL, self.world(spec)).bench.model
+
+    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
+        from handeye.systems.ml.run.plan import decode
+
+        return self.station(parts_of(decode(plan, "the plan of the run")), self.world(spec)).bench.model
+
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        return Sorter(self.station(parts_of(plan), self.world(world)), tell, TROUBLES)
+
+    def judge(self, truth: Truth) -> Findings:
+        poured, heard = truth.states[POURED], truth.states["heard"]
+        assert isinstance(poured, Poured)
+        assert isinstance(heard, Printed)
+        places = np.array([truth.data.body(f"part_{n}").xpos for n in range(1, len(poured.qualities) + 1)])
+        good = np.array([quality == "good" for quality in poured.qualities])
+        boxed = {name: _inside(places, x * LINEAR, BOX) for name, x in BOXES.items()}
+        left = _inside(places, 0.0, RIM)
+        out = ~(left | boxed["good"] | boxed["bad"])
+        counted = told(heard.lines[-1].partition(" ")[2] if heard.lines else "")
+        here = int(boxed["good"].sum()), int(boxed["bad"].sum())
+        return {
+            "passed": at_most(int((boxed["good"] & ~good).sum()), 0, "parts", "wrong parts among the good ones"),
+            "rejected": at_most(int((boxed["bad"] & good).sum()), 0, "parts", "good parts among the wrong ones"),
+            "left": at_most(int(left.sum()), 0, "parts", "parts that are left in the bin"),
+            "lost": at_most(int(out.sum()), 0, "parts", "parts that lie elsewhere"),
+            "told": at_most(
+                max(abs(one - other) for one, other in zip(counted, here, strict=True)), 0, "parts",
+                "difference between a number that the program has told and that of the parts in the box",
+            ),
+        }  # fmt: skip
+
+
+def told(count: str) -> tuple[int, int]:
+    """Return the numbers of good and of bad parts that a program prints; numbers that are missing are 0."""
+    good, bad, *_ = *map(int, count.split()), 0, 0
+    return good, bad
+
+
+def parts_of(plan: MlPlan) -> int:
+    """Return the number of parts of a plan. Raises NoSuchName if it is not between 1 and the greatest number."""
+    if plan.variant.isdecimal() and 1 <= int(plan.variant) <= MOST:
+        return int(plan.variant)
+    raise NoSuchName(f"there are from 1 to {MOST} parts in the bin, not {quoted(plan.variant)}")
+
+
+def _quality(world: ArmWorld, number: int) -> Quality:
+    drawn = world.numbers(f"part_{number}.quality").uniform()
+    if drawn >= world.value(_WRONG):
+        return "good"
+    return "narrow" if drawn < world.value(_WRONG) / 2 else "light"
+
+
+def _inside(places: Array, x: float, half: float) -> NDArray[np.bool_]:
+    """Return which places are inside a square at x."""
+    off = np.abs(places[:, :2] - [x, 0.0]).max(axis=1)
+    return np.asarray(off < half, dtype=np.bool_)
+
+
+BIN: Final = Bin()
