@@ -49,11 +49,11 @@ def follow_trials(
 ) -> int:
     """Follow an outline in many worlds: how often the circuit is closed and right, and the errors of the touches.
 
-    Each trial is that of `handeye ml follow`. Ctrl-C ends the batch and prints what has finished; with --out it can be
-    continued.
+    Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the circuit is closed, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the circuit is closed but
+    the referee disagrees.
     """
     from handeye.systems.ml.run.job_trials import FOLLOW_TRIALS
     from handeye.systems.ml.run.jobs import job_plan

@@ -25,7 +25,7 @@ def orient(
 
     `plans/orient.ml` takes the bar out of a cradle, in which it is pitched by up to 50 degrees and turned by up to 25.
     It puts the bar down by a guarded move, lets it fall flat, grasps it again, feels its end at a stop, and grasps it
-    in its middle. A referee then looks: the bar has to be in the fingers, within 3 degrees of the attitude and 1 mm of
+    in its middle. A referee then checks that the bar is in the fingers, within 3 degrees of the attitude and 1 mm of
     the place that were asked for.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
@@ -45,11 +45,11 @@ def orient_trials(
 ) -> int:
     """Orient a bar in many worlds: how often it is in its attitude and place, and its errors.
 
-    Each trial is that of `handeye ml orient`. Ctrl-C ends the batch and prints what has finished; with --out it can be
-    continued.
+    Each trial does what `handeye ml orient` does. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+    the referee disagrees.
     """
     from handeye.systems.ml.run.job_trials import ORIENT_TRIALS
     from handeye.systems.ml.run.jobs import job_plan
@@ -93,11 +93,11 @@ def bin_trials(
 ) -> int:
     """Take parts out of a bin in many worlds: how often all are taken and judged right, and why not.
 
-    Each trial is that of `handeye ml bin`. Ctrl-C ends the batch and prints what has finished; with --out it can be
-    continued.
+    Each trial does what `handeye ml bin` does. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+    the referee disagrees.
     """
     from handeye.systems.ml.bin.task import parts_of
     from handeye.systems.ml.run.job_trials import BIN_TRIALS

@@ -33,11 +33,11 @@ def support_trials(
 ) -> int:
     """Assemble the rail support in many worlds: how often all 22 parts are right, and their errors.
 
-    Each trial is that of `handeye ml support`. Ctrl-C ends the batch and prints what has finished; with --out it can be
-    continued.
+    Each trial does what `handeye ml support` does. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+    the referee disagrees.
     """
     from handeye.systems.ml.run.job_trials import SUPPORT_TRIALS
     from handeye.systems.ml.run.jobs import job_plan

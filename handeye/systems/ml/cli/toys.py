@@ -17,8 +17,8 @@ def blocks(
     """Stack three toy blocks by touch.
 
     `plans/blocks.ml` grasps each block along x and then along y, so that it lies in the middle of the hand, and puts it
-    down by a guarded move. A referee then looks: each block has to stand on the one below within 2 mm, and no block may
-    lean by more than 2 degrees.
+    down by a guarded move. A referee then checks that each block stands on the one below within 2 mm, and no block
+    leans by more than 2 degrees.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
     input; 130: interrupted.
@@ -35,7 +35,7 @@ def train(
 
     `plans/train.ml` grasps each vehicle along y and then along x, so that it lies in the middle of the hand, and lowers
     the peg of each wagon into the hole of the vehicle ahead; where it does not go in, it tries beside. Then it pulls
-    the engine by 50 mm. A referee looks whether both wagons have followed.
+    the engine by 50 mm. A referee checks that both wagons have followed.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
     input; 130: interrupted.
@@ -54,11 +54,11 @@ def blocks_trials(
 ) -> int:
     """Stack three blocks in many worlds: how often the stack is right, and its errors.
 
-    Each trial is that of `handeye ml blocks`. Ctrl-C ends the batch and prints what has finished; with --out it can be
-    continued.
+    Each trial does what `handeye ml blocks` does. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+    the referee disagrees.
     """
     from handeye.systems.ml.run.job_trials import BLOCKS_TRIALS
     from handeye.systems.ml.run.jobs import job_plan
@@ -75,11 +75,11 @@ def train_trials(
 ) -> int:
     """Couple a train in many worlds: how often both wagons follow the engine, and its errors.
 
-    Each trial is that of `handeye ml train`. Ctrl-C ends the batch and prints what has finished; with --out it can be
-    continued.
+    Each trial does what `handeye ml train` does. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
 
-    Exit code 0: no silent failure; 1: no trial finished; 3: in some trial the program has ended, and the referee
-    disagrees.
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+    the referee disagrees.
     """
     from handeye.systems.ml.run.job_trials import TRAIN_TRIALS
     from handeye.systems.ml.run.jobs import job_plan

@@ -378,12 +378,12 @@ const tables = (() => {
     chosen(picked);
   }
 
-  /** Hear of changes: triples of a cycle, the number of a word, and its value. With `anew`, they are all that there are. */
-  function feed(changes, passed, anew) {
-    if (anew) { courses = new Map(); panels.clear(); }
+  /** Hear of changes: triples of a cycle, the number of a word, and its value. With `restarted`, they are all that there are. */
+  function feed(changes, passed, restarted) {
+    if (restarted) { courses = new Map(); panels.clear(); }
     for (let n = 0; n < changes.length; n += 3) set(changes[n], changes[n + 1], changes[n + 2]);
     last = passed;
-    if (follows || anew) cycle = Math.max(last, ...changes.slice(-3, -2)); // the one in which a word has changed last
+    if (follows || restarted) cycle = Math.max(last, ...changes.slice(-3, -2)); // the one in which a word has changed last
     drawing ??= requestAnimationFrame(() => {
       drawing = null;
       range();

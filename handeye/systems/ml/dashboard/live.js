@@ -15,5 +15,5 @@
     live.say(`type ${side} FILE ${table} ${line} ${word} ${byId("tables-word").value}`);
     byId("tables-word").value = "";
   });
-  live.hear({ tables: (changes, { passed, anew }) => tables.feed(changes, passed, anew) });
+  live.hear({ tables: (changes, { passed, restarted }) => tables.feed(changes, passed, restarted) });
 })();

@@ -60,5 +60,5 @@ class LiveTables(LiveNews):
             return None
         new = log[told if known is log else 0 : count]
         changes = np.concatenate([*new, np.empty((0, 3), dtype=np.int32)]).ravel().tolist()
-        message = {"tables": changes, "passed": self._machine.now - 1, "anew": known is not log}
+        message = {"tables": changes, "passed": self._machine.now - 1, "restarted": known is not log}
         return (log, count), msgspec.json.encode(message).decode()

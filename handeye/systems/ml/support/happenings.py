@@ -23,7 +23,7 @@ _ENDS: Final[dict[Found, str]] = {
     "lost": "is no longer on the bit",
     "not taken": "turns, and no thread takes it",
     "loose": "is deep, but not tight yet",
-    "beside": "stands beside its hole",
+    "beside": "is next to its hole",
     "tightened": "is tightened again",
 }
 
