@@ -244,7 +244,7 @@ def test_a_live_page_gets_all_changes_then_the_new_ones_and_after_going_back_all
         news = live.since(mark)
         assert news is not None
         mark, message = news[0], json.loads(news[1])
-        assert message["anew"] is (steps == 3)
+        assert message["restarted"] is (steps == 3)
         for cycle, number, value in zip(*(message["tables"][n::3] for n in range(3)), strict=True):
             seen.setdefault(number, []).append((cycle, value))
     done = tables(runner)
@@ -255,7 +255,7 @@ def test_a_live_page_gets_all_changes_then_the_new_ones_and_after_going_back_all
     runner.back_to(2)
     news = live.since(mark)
     assert news is not None
-    assert json.loads(news[1])["anew"] is True
+    assert json.loads(news[1])["restarted"] is True
 
 
 def test_the_page_of_a_program_on_perfect_motors_has_its_statements_and_its_tables() -> None:
