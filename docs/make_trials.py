@@ -179,12 +179,20 @@ def _rows(batches: Sequence[Batch], kinds: Mapping[BatchKind, None]) -> str:
     ]
     for kind in kinds:
         mine = [batch for batch in batches if batch.kind == kind]
-        lines += [
-            _row(batch.trials, kind, f"`{batch.facts['command']}`", batch.facts["commit"]) for batch in mine
-        ]
+        lines += [_row(batch.trials, kind, _linked(batch), batch.facts["commit"]) for batch in mine]
         if len(mine) > 1:
             lines.append(_row([trial for batch in mine for trial in batch.trials], kind, "together", ""))
     return "\n".join(lines) + "\n"
+
+
+def _linked(batch: Batch) -> str:
+    """The command of a batch; if it lists many seeds, the first with a link to the file that has all."""
+    command = batch.facts["command"]
+    head, word, seeds = command.partition("--seeds ")
+    listed, rest = seeds.partition(" ")[::2]
+    if listed.count(",") < 20:
+        return f"`{command}`"
+    return f"`{head}{word}{listed.partition(',')[0]},...{' ' * bool(rest)}{rest}` ([seeds](trials/{batch.name}.csv))"
 
 
 def _row(trials: Sequence[Mapping[str, str]], kind: BatchKind, command: str, commit: str) -> str:
