@@ -23,6 +23,7 @@ NEVER_ONE = {
     ("handeye/al/macros.py", "len(line.text)"),  # beyond a limit, as the next
     ("handeye/al/parser.py", "line.end - line.start"),
     ("handeye/cell/exposures.py", "self.exposures"),
+    ("handeye/systems/ml/cli/commands.py", "each.category"),  # a name
     ("handeye/systems/trig/language/place.py", "len(word)"),
     ("handeye/video/formats.py", "frames"),
     ("handeye/al/operand_help.py", "len(operand.units)"),  # components of a vector: three or two, as the next

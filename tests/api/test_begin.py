@@ -53,7 +53,7 @@ def test_a_stage_is_begun_with_from_the_checkpoint_in_a_folder(folder: Path) -> 
 def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
     assert "seed 3" in repr(handeye.begin(folder))
     assert handeye.begin(folder, 3, world=None).result.seed == 3
-    with pytest.raises(InvalidInput, match=r"uses the world of seed 3, not that of seed 4$"):
+    with pytest.raises(InvalidInput, match=r"uses the world of seed 3, not the world of seed 4$"):
         handeye.begin(folder, 4)
 
 

@@ -19,7 +19,7 @@ OFF = (0.33, -0.25)
 @pytest.mark.parametrize("seed", [1, 2, 3])  # in world 0 the hand searches for four minutes before it calls
 def test_without_vision_the_base_is_not_grasped_and_the_operator_is_called(seed: int) -> None:
     run = bench(FEEL, world=PumpWorld.sample(seed)).go()
-    assert run.called.error is not None
+    assert run.called.error is not None or run.called.message.startswith("THE BASE IS NOT WHERE IT WAS SEEN")
     assert run.place("base")[2] < 1.01
 
 

@@ -8,6 +8,7 @@ from handeye.cli.common import WholeNumber
 from handeye.cli.judged_jobs import ANY_RUN, JobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+from handeye.core.plain_text import counted
 from handeye.systems.ml.cli.jobs import (
     JobSeed,
     NumberOfWorlds,
@@ -105,6 +106,6 @@ def bin_trials(
 
     parts_of(plan := job_plan("bin", str(parts)))
     return carry_out_trials(
-        BIN_TRIALS, plan, n, seed, errors, options, title=f"a bin of {parts} parts",
+        BIN_TRIALS, plan, n, seed, errors, options, title=f"a bin of {counted(parts, 'part')}",
         again=f"--parts {parts}",
     )  # fmt: skip
