@@ -9,14 +9,11 @@ from handeye.core import errors
 from handeye.core.pose import translated
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault
-from handeye.program.diagnosis.causes import (
-    Cause,
+from handeye.program.diagnosis.causes import Cause, GapTooLarge, GapTooSmall, NothingBetween
+from handeye.program.diagnosis.sense_causes import (
     GapAstray,
     GapStill,
-    GapTooLarge,
-    GapTooSmall,
     GapUnlike,
-    NothingBetween,
     SwitchesClosed,
     SwitchesCrossed,
     SwitchesHard,

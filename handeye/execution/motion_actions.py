@@ -27,18 +27,20 @@ from handeye.planning.motions import (
     turn_samples,
 )
 from handeye.program.diagnosis.causes import (
-    CurrentShort,
-    CurrentSilent,
-    CurrentUnlike,
     GuardsUnmet,
     HandAstray,
     HeightOutside,
     HeightUnknown,
     JointBehind,
+    TravelOutside,
+)
+from handeye.program.diagnosis.sense_causes import (
+    CurrentShort,
+    CurrentSilent,
+    CurrentUnlike,
     MotorFast,
     MotorSlow,
     ScrewHard,
-    TravelOutside,
 )
 from handeye.program.events import Adjusted, GuardFaint, GuardTripped, Restored
 from handeye.program.guards import GuardKind, Guards, Torque, unmet

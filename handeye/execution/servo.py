@@ -23,7 +23,7 @@ from handeye.core.record import Record
 from handeye.execution.state import DriveState
 from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
-from handeye.program.diagnosis.causes import GapJumped
+from handeye.program.diagnosis.sense_causes import GapJumped
 from handeye.touch.guards import ActiveGuard, Reading
 from handeye.touch.senses import FAST_PERIODS, PLATEAU, kept_apart, leapt
 

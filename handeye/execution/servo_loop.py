@@ -25,15 +25,12 @@ from handeye.core import errors
 from handeye.core.pose import Array, Pose, displaced, translated
 from handeye.execution.compliance import Course
 from handeye.execution.servo import Motion, Servo
-from handeye.program.diagnosis.causes import (
-    Cause,
+from handeye.program.diagnosis.cause_record import JointName
+from handeye.program.diagnosis.causes import Cause, HandAstray, HandStuck, JointBehind
+from handeye.program.diagnosis.sense_causes import (
     DrivesUnlike,
     ForceInAir,
-    HandAstray,
-    HandStuck,
     JointAlone,
-    JointBehind,
-    JointName,
     JointSensesApart,
     RateScatters,
 )

@@ -18,7 +18,8 @@ from handeye.core.record import Record
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
-from handeye.program.diagnosis.causes import Cause, GapJumped
+from handeye.program.diagnosis.causes import Cause
+from handeye.program.diagnosis.sense_causes import GapJumped
 from handeye.program.events import AskedBy
 from handeye.program.guards import GuardKind
 from handeye.program.system_state import Natural, SystemState

@@ -10,14 +10,8 @@ from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Shot, VisionResult
 from handeye.planning.grasp_state import first_grasp
 from handeye.ports.camera import DIGITISE, Picture, TvCamera
-from handeye.program.diagnosis.causes import (
-    NoGeneral,
-    NoPicture,
-    PictureBlank,
-    PictureNoisy,
-    PictureRepeated,
-    SenseCause,
-)
+from handeye.program.diagnosis.causes import NoGeneral, NoPicture
+from handeye.program.diagnosis.sense_causes import PictureBlank, PictureNoisy, PictureRepeated, SenseCause
 from handeye.program.events import (
     CameraBusy,
     CameraStarted,

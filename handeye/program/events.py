@@ -13,7 +13,8 @@ from handeye.core.source import line_name
 from handeye.core.units import Measures
 from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
-from handeye.program.diagnosis.causes import Cause, InspectionCause, JointName
+from handeye.program.diagnosis.cause_record import JointName
+from handeye.program.diagnosis.causes import Cause, InspectionCause
 from handeye.program.guards import GuardKind
 
 AskedBy = Literal["person", "program", "job"]  # a job orders a reversal when its program has ended

@@ -19,7 +19,8 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.servo import Halted
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import DriveState
-from handeye.program.diagnosis.causes import HandAstray, JointAlone, JointBehind
+from handeye.program.diagnosis.causes import HandAstray, JointBehind
+from handeye.program.diagnosis.sense_causes import JointAlone
 from handeye.program.guards import Force
 from handeye.touch.guards import monitor
 

@@ -9,6 +9,8 @@ import pytest
 from handeye.core import errors
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis import causes as c
+from handeye.program.diagnosis import sense_causes as s
+from handeye.program.diagnosis.cause_record import JointName
 from handeye.program.diagnosis.cause_text import (
     call_sentence,
     cause_sentence,
@@ -20,7 +22,7 @@ from handeye.program.guards import GuardKind
 
 ARM = c.ArmNames(
     name="toy",
-    joints=(c.JointName(name="rail", kind="prismatic"), c.JointName(name="wrist", kind="revolute")),
+    joints=(JointName(name="rail", kind="prismatic"), JointName(name="wrist", kind="revolute")),
 )
 WORDS: list[tuple[c.Cause, str]] = [
     (
@@ -41,7 +43,7 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.HandAstray(distance=0.2 * INCH, joint="boom", of="BASE"),
         "the hand is 0.20 in from its set-point; boom lags most",
     ),
-    (c.PictureNoisy(picture="A", noise=2.23, most=1.6), "picture A has noise of 2.2 levels; allowed: 1.6"),
+    (s.PictureNoisy(picture="A", noise=2.23, most=1.6), "picture A has noise of 2.2 levels; allowed: 1.6"),
     (c.HandStuck(moved=0.5 * INCH), "the hand stopped after 0.50 in"),
     (c.GuardsUnmet(guards=(GuardKind.FORCE,)), ""),
     (c.GuardsUnmet(guards=(GuardKind.FORCE, GuardKind.MOMENT)), "or the moment"),
@@ -62,120 +64,120 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "gap 0.40 in, maximum 0.30 in"),
     (c.NothingBetween(gap=0.1 * INCH), "at most one finger touches; the gap is 0.10 in"),
     (
-        c.SwitchesClosed(fingers=(True, False)),
+        s.SwitchesClosed(fingers=(True, False)),
         "the switch of the +y finger is closed although the fingers are open",
     ),
     (
-        c.SwitchesOpen(fingers=(True, True), gap=0.3 * INCH, fits=True),
+        s.SwitchesOpen(fingers=(True, True), gap=0.3 * INCH, fits=True),
         "the switches of both fingers are open although something 0.30 in thick holds the fingers apart: the "
         "switches have failed, or the fingers' motor is weak",
     ),
     (
-        c.SwitchesOpen(fingers=(True, False), gap=0.3 * INCH),
+        s.SwitchesOpen(fingers=(True, False), gap=0.3 * INCH),
         "the switch of the +y finger is open although something 0.30 in thick holds the fingers apart: the switch "
         "has failed, or something stands between the fingers beside their tips",
     ),
     (
-        c.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
+        s.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
         "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still, allowed: 0.6 "
         "degrees/s; or its drive, or something outside, shakes the arm",
     ),
     (
-        c.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
+        s.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
         "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still, allowed: 0.25 in/s; or "
         "its drive, or something outside, shakes the arm",
     ),
     (
-        c.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
+        s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
         "the switch of the +y finger is still closed after the hand moved 0.06 in towards it, away from the "
         "part: the two switches are swapped, or the switch of the other finger stays open",
     ),
     (
-        c.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
+        s.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
         "the switches of both fingers are open although the fingers are pressed together with 10 oz: the "
         "switches have failed, or the fingers' motor is weak",
     ),
     (
-        c.GapJumped(gap=2.3 * INCH, before=2.0 * INCH, held=False),
+        s.GapJumped(gap=2.3 * INCH, before=2.0 * INCH, held=False),
         "the gap reading jumped from 2.00 in to 2.30 in: no finger can move so fast",
     ),
     (
-        c.GapJumped(gap=1.29 * INCH, before=1.39 * INCH, held=True),
+        s.GapJumped(gap=1.29 * INCH, before=1.39 * INCH, held=True),
         "the gap reading jumped from 1.39 in to 1.29 in: the held part has slipped, or the gap's potentiometer fails",
     ),
     (
-        c.GapJumped(gap=1.32 * INCH, before=1.0 * INCH, held=True),
+        s.GapJumped(gap=1.32 * INCH, before=1.0 * INCH, held=True),
         "the gap reading jumped from 1.00 in to 1.32 in: the held part has been pushed and has forced the "
         "fingers apart, or the gap's potentiometer fails",
     ),
     (
-        c.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
+        s.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
         "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in while the motor is stalled: the current "
         "sensor reads no higher, or the motor is weak",
     ),
     (
-        c.MotorFast(times=1.5),
+        s.MotorFast(times=1.5),
         "the motor had not started after 1.5 times its usual time: the motor turns too fast",
     ),
     (
-        c.ScrewHard(torque=38 * OUNCE_INCH, limit=12.6 * OUNCE_INCH),
+        s.ScrewHard(torque=38 * OUNCE_INCH, limit=12.6 * OUNCE_INCH),
         "the sensor shows 38.0 oz-in while the screw advances, allowed: 12.6 oz-in: its thread is hard to turn, or "
         "the current sensor fails",
     ),
     (
-        c.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
+        s.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
         "the gap reads 1.15 in on PIN, which is 1.00 in thick there: 1.15 times the thickness",
     ),
     (
-        c.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
+        s.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
         "the sensor shows 3.5 oz-in, but the motor takes 7.0 oz-in: 0.5 times as much",
     ),
     (
-        c.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
+        s.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
         "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque than "
         "commanded (the drive of the wrist 1.30 times as much), or the arm no longer stands upright",
     ),
-    (c.MotorSlow(share=0.4), "the motor had started after 0.4 of the usual time: the motor turns too slowly"),
+    (s.MotorSlow(share=0.4), "the motor had started after 0.4 of the usual time: the motor turns too slowly"),
     (
-        c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
+        s.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",
     ),
     (
-        c.GapStill(gap=1.0 * INCH, driven=0.7 * INCH),
+        s.GapStill(gap=1.0 * INCH, driven=0.7 * INCH),
         "the gap still reads 1.00 in; the fingers were driven together by 0.70 in",
     ),
     (
-        c.ForceInAir(force=(0.0, -1.0 * OUNCE_FORCE, 70.0 * OUNCE_FORCE), limit=25 * OUNCE_FORCE, load=0.0),
+        s.ForceInAir(force=(0.0, -1.0 * OUNCE_FORCE, 70.0 * OUNCE_FORCE), limit=25 * OUNCE_FORCE, load=0.0),
         "0 oz in x, -1 oz in y, 70 oz in z; allowed: 25 oz; declared load: 0 oz",
     ),
     (
-        c.JointSensesApart(joint=ARM.joints[0], potentiometer=1.0 * INCH, tachometer=0.0),
+        s.JointSensesApart(joint=ARM.joints[0], potentiometer=1.0 * INCH, tachometer=0.0),
         "rail has moved 1.00 in by its potentiometer and 0.00 in by its tachometer",
     ),
     (
-        c.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=-1 * DEGREE),
+        s.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=-1 * DEGREE),
         "wrist has moved 2.0 degrees by its potentiometer and -1.0 degrees by its tachometer",
     ),
     (
-        c.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=0.0, braked=True),
+        s.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=0.0, braked=True),
         "wrist has moved 2.0 degrees by its potentiometer and 0.0 degrees by its tachometer, although its brake "
         "is set; or the brake slips",
     ),
     (
-        c.JointAlone(joint=ARM.joints[1], torque=150 * OUNCE_INCH, friction=30 * OUNCE_INCH),
+        s.JointAlone(joint=ARM.joints[1], torque=150 * OUNCE_INCH, friction=30 * OUNCE_INCH),
         "wrist takes 150 oz-in to move; at the start it took 30 oz-in",
     ),
     (
-        c.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
+        s.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
         "wrist takes 9 oz-in to move; at the start it took 3 oz-in; or the arm no longer stands upright",
     ),
-    (c.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail does not move with 80 oz"),
-    (c.CurrentSilent(torque=0.0), "the sensor showed at most 0.0 oz-in, less than the motor needs to start"),
+    (s.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail does not move with 80 oz"),
+    (s.CurrentSilent(torque=0.0), "the sensor showed at most 0.0 oz-in, less than the motor needs to start"),
     (
-        c.PictureRepeated(picture="AFTER", earlier="BEFORE"),
+        s.PictureRepeated(picture="AFTER", earlier="BEFORE"),
         "picture AFTER is the same as BEFORE, pixel by pixel",
     ),
-    (c.PictureBlank(picture="WIDE"), "picture WIDE has the same intensity everywhere"),
+    (s.PictureBlank(picture="WIDE"), "picture WIDE has the same intensity everywhere"),
     (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
     (c.NoGeneral(), "no earlier GENERAL found the part"),
     (c.NoOutline(), "nothing of the part's size is visible against the background where it should be"),

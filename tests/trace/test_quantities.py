@@ -2,7 +2,7 @@
 
 import pytest
 
-from handeye.program.diagnosis.causes import JointName
+from handeye.program.diagnosis.cause_record import JointName
 from handeye.program.events import (
     FrictionMeasured,
     GuardTripped,

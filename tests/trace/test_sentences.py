@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from handeye.core.variation import LARGEST_SEED, Overrides, WorldSpec
 from handeye.ports.camera import Renderer
 from handeye.program import events as happened
-from handeye.program.diagnosis.causes import ArmNames, BeyondArm, JointName
+from handeye.program.diagnosis.cause_record import JointName
+from handeye.program.diagnosis.causes import ArmNames, BeyondArm
 from handeye.program.diagnosis.reach import BelowTable, HeldJoint, JointLimit
 from handeye.program.events import CommonEvent, Event
 from handeye.trace.sentences import LEVELS, inches, sentence

@@ -3,25 +3,16 @@
 from typing import Literal
 
 from handeye.core.plain_text import counted
-from handeye.core.record import Record, Vector3
+from handeye.core.record import Record
+from handeye.program.diagnosis.cause_record import CauseRecord, JointName
 from handeye.program.diagnosis.reach import NamedArm, ReachFailure
+from handeye.program.diagnosis.sense_causes import SenseCause
 from handeye.program.guards import GuardKind
 
 LargeHole = Literal["largest", "second"]  # holes that vision locates a part by
 
 
-class CauseRecord(Record, frozen=True, kw_only=True, tag_field="cause", tag=True):
-    """Base of all causes."""
-
-
 # -- the arm ----------------------------------------------------------------------------------------
-
-
-class JointName(Record, frozen=True, kw_only=True):
-    """Name and kind of a joint."""
-
-    name: str
-    kind: str
 
 
 class ArmNames(Record, frozen=True, kw_only=True):
@@ -133,193 +124,6 @@ class NothingBetween(CauseRecord, frozen=True, kw_only=True):
     """Centring ended before both fingers touched."""
 
     gap: float
-
-
-# -- senses -----------------------------------------------------------------------------------------
-
-
-class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` are closed although the fingers have been opened. The order is that of
-    `Sensed.touch`.
-    """
-
-    fingers: tuple[bool, bool]
-
-
-class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` are open although an object holds the driven fingers apart at `gap` (m).
-
-    `fits` is True if the gap fits the object that should be held. If the gap does not fit, or if the thickness of
-    the object is unknown, another object may stand between the fingers where no switch feels it.
-    """
-
-    fingers: tuple[bool, bool]
-    gap: float
-    fits: bool = False
-
-
-class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` stay closed although the hand has moved by `moved` (m) to the side of that finger."""
-
-    fingers: tuple[bool, bool]
-    moved: float
-
-
-class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` are open although the fingers press together with `force` (N)."""
-
-    fingers: tuple[bool, bool]
-    force: float
-
-
-class GapJumped(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) has changed faster than the fingers can move. `held` is True if the fingers touched an object or
-    an object kept them apart.
-    """
-
-    gap: float
-    before: float
-    held: bool = False
-
-
-class GapUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) does not fit an object of known thickness (m). `held` is the name of the object in the taught
-    file.
-    """
-
-    gap: float
-    thickness: float
-    held: str
-
-
-class GapAstray(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) differs from the goal to which the fingers were driven."""
-
-    gap: float
-    goal: float
-
-
-class GapStill(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) reads the same as before, although the fingers were driven together by `driven` (m)."""
-
-    gap: float
-    driven: float
-
-
-class ForceInAir(CauseRecord, frozen=True, kw_only=True):
-    """The hand senses a force (N, table axes, before taring) where it should touch nothing. `load` is the declared
-    weight (N).
-    """
-
-    force: Vector3
-    limit: float
-    load: float
-
-
-class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
-    """The two sensors of a joint disagree on its displacement in a motion. If `braked` is True, they disagree while
-    the brakes are set, and the brakes may have slipped.
-    """
-
-    joint: JointName
-    potentiometer: float
-    tachometer: float
-    braked: bool = False
-
-
-class RateScatters(CauseRecord, frozen=True, kw_only=True):
-    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound one scatters by at most
-    `limit`. Both are median deviations from the median, rad/s or m/s.
-    """
-
-    joint: JointName
-    scatter: float
-    limit: float
-
-
-class JointAlone(CauseRecord, frozen=True, kw_only=True):
-    """A joint takes a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
-    that was measured first; None if the joint does not move at all. `one_way` is True if the joint moved in only
-    one direction, so that a weight would have the same effect.
-    """
-
-    joint: JointName
-    torque: float
-    friction: float | None = None
-    one_way: bool = False
-
-
-class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The drives of these joints give these multiples of the commanded torque, or an external force acts on the
-    hand.
-    """
-
-    joints: tuple[JointName, ...]
-    factors: tuple[float, ...]
-
-
-class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The motor of the screwdriver showed the torque `torque` (N m) at a moment when the torque should be `known`
-    (N m).
-    """
-
-    torque: float
-    known: float
-
-
-class CurrentShort(CauseRecord, frozen=True, kw_only=True):
-    """The motor was held fast. For a second it showed the torque `torque` (N m), which is less than the requested
-    torque `asked` (N m).
-    """
-
-    torque: float
-    asked: float
-
-
-class MotorSlow(CauseRecord, frozen=True, kw_only=True):
-    """The motor started in this fraction of its usual time."""
-
-    share: float
-
-
-class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor ran free, and had not started after this multiple of its usual time."""
-
-    times: float
-
-
-class ScrewHard(CauseRecord, frozen=True, kw_only=True):
-    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw takes at most `limit`."""
-
-    torque: float
-    limit: float
-
-
-class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
-    """The screwdriver ran, but the current of its motor showed at most this torque (N m)."""
-
-    torque: float
-
-
-class PictureRepeated(CauseRecord, frozen=True, kw_only=True):
-    """A picture is equal to an earlier picture, point by point."""
-
-    picture: str
-    earlier: str
-
-
-class PictureBlank(CauseRecord, frozen=True, kw_only=True):
-    """All points of a picture have the same intensity."""
-
-    picture: str
-
-
-class PictureNoisy(CauseRecord, frozen=True, kw_only=True):
-    """A picture has more noise (standard deviation, in levels) than `most`, the greatest noise of a sound camera."""
-
-    picture: str
-    noise: float
-    most: float
 
 
 # -- vision -----------------------------------------------------------------------------------------
@@ -458,11 +262,6 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
-SenseCause = (
-    SwitchesClosed | SwitchesOpen | SwitchesCrossed | SwitchesHard | GapAstray | GapStill | GapJumped | GapUnlike
-    | CurrentUnlike | CurrentShort | MotorSlow | MotorFast | ScrewHard | DrivesUnlike | ForceInAir
-    | JointSensesApart | RateScatters | JointAlone | CurrentSilent | PictureRepeated | PictureBlank | PictureNoisy
-)  # fmt: skip
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong
 Cause = (

@@ -1,0 +1,14 @@
+"""The base of all causes, and the joint that a cause names."""
+
+from handeye.core.record import Record
+
+
+class CauseRecord(Record, frozen=True, kw_only=True, tag_field="cause", tag=True):
+    """Base of all causes."""
+
+
+class JointName(Record, frozen=True, kw_only=True):
+    """Name and kind of a joint."""
+
+    name: str
+    kind: str
