@@ -1,14 +1,24 @@
 """Programs that print a number and a count at their end: 0 if all went well, or the number of a trouble."""
 
+from __future__ import annotations
+
+from abc import abstractmethod
 from collections.abc import Mapping
-from typing import Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from handeye.cell.mechanism import Mechanism
 from handeye.core.errors import BadFile
 from handeye.core.record import Record
-from handeye.systems.ml.bench.hardware import StationHardware
+from handeye.core.variation import Variation, WorldSpec
+from handeye.systems.ml.bench.hardware import ArmTask, StationHardware
 from handeye.systems.ml.bench.station import Station
-from handeye.systems.ml.run.hardware import Ending, Tell
+from handeye.systems.ml.bench.world import ArmWorld
+from handeye.systems.ml.run.hardware import Ending, Hardware, Tell
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.systems.ml.run.plan import MlPlan
 
 _MOST: Final = 200  # lines
 
@@ -80,3 +90,24 @@ class ReportingHardware(StationHardware):
     def counted(self, count: str) -> str:
         """Word the numbers that the program prints after that of a trouble."""
         return f"done before: {count}"
+
+
+class ReportingTask(ArmTask):
+    """A job whose program reports troubles by their numbers."""
+
+    quantities: ClassVar[Variation]
+    troubles: ClassVar[Mapping[str, str]]
+    """Sentences, by the numbers that the program prints."""
+
+    def variation(self) -> Variation:
+        return self.quantities
+
+    @abstractmethod
+    def station(self, world: ArmWorld) -> Station:
+        """Return the station with the parts of the job."""
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return self.station(self.world(spec)).bench.model
+
+    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
+        return ReportingHardware(self.station(self.world(world)), tell, self.troubles)

@@ -11,22 +11,19 @@ import numpy as np
 from handeye.core.distributions import Noise, Range
 from handeye.core.pose import Array
 from handeye.core.units import MILLIMETRE
-from handeye.core.variation import Variation, WorldSpec
+from handeye.core.variation import Variation
 from handeye.judge.finding import Findings, at_most
 from handeye.judge.measured import tilt
-from handeye.systems.ml.bench.hardware import ArmTask
-from handeye.systems.ml.bench.reporting import ReportingHardware
+from handeye.systems.ml.bench.reporting import ReportingTask
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.machine.spec import LINEAR
-from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.tasks.interface import Words
 
 if TYPE_CHECKING:
     import mujoco
 
     from handeye.cell.truth import Truth
-    from handeye.systems.ml.run.plan import MlPlan
 
 SIDE: Final = 0.03  # m
 EXPECTED: Final = (
@@ -65,14 +62,13 @@ VARIATION: Final = Variation(
 )
 
 
-class Blocks(ArmTask):
+class Blocks(ReportingTask):
     """Stack three blocks."""
 
     name = "blocks"
     words = Words(product="the stack", done="The three blocks are stacked.")
-
-    def variation(self) -> Variation:
-        return VARIATION
+    quantities = VARIATION
+    troubles = TROUBLES
 
     def station(self, world: ArmWorld) -> Station:
         """Return the station with its blocks."""
@@ -84,12 +80,6 @@ class Blocks(ArmTask):
             _lay(spec, name, half, (x * LINEAR + off[0], y * LINEAR + off[1]), world.normal(f"{name}.turned", _TURNED),
                  world.value(_FRICTION))  # fmt: skip
         return Station(spec, world)
-
-    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        return self.station(self.world(spec)).bench.model
-
-    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
-        return ReportingHardware(self.station(self.world(world)), tell, TROUBLES)
 
     def judge(self, truth: Truth) -> Findings:
         bodies = [truth.data.body(f"block_{number}") for number in range(1, len(EXPECTED) + 1)]

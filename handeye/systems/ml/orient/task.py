@@ -8,15 +8,13 @@ import numpy as np
 
 from handeye.core.distributions import Noise, Range
 from handeye.core.units import MILLIMETRE
-from handeye.core.variation import Variation, WorldSpec
+from handeye.core.variation import Variation
 from handeye.judge.finding import Findings, at_least, at_most
 from handeye.systems.ml.bench.bars import LONG, WIDE, add_bar, after, off_attitude, turned
-from handeye.systems.ml.bench.hardware import ArmTask
-from handeye.systems.ml.bench.reporting import ReportingHardware
+from handeye.systems.ml.bench.reporting import ReportingTask
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.machine.spec import LINEAR
-from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.tasks.interface import Words
 
 if TYPE_CHECKING:
@@ -26,7 +24,6 @@ if TYPE_CHECKING:
 
     from handeye.cell.truth import Truth
     from handeye.core.pose import Array
-    from handeye.systems.ml.run.plan import MlPlan
 
 CRADLE: Final = (0, 3000)  # x and y of the slides, where the program expects the bar
 STOP: Final = (-4000, -1500)  # the axis of the stop against which it feels the end of the bar
@@ -82,14 +79,13 @@ VARIATION: Final = Variation(
 )
 
 
-class Orient(ArmTask):
+class Orient(ReportingTask):
     """Turn a bar into a known attitude."""
 
     name = "orient"
     words = Words(product="the bar", done="The bar is in the attitude and at the place that were asked for.")
-
-    def variation(self) -> Variation:
-        return VARIATION
+    quantities = VARIATION
+    troubles = TROUBLES
 
     def station(self, world: ArmWorld) -> Station:
         """Return the station with the cradle and its bar, and with the stop."""
@@ -104,12 +100,6 @@ class Orient(ArmTask):
         stop = np.array(STOP) * LINEAR + [world.normal("stop.x", _STOP), world.normal("stop.y", _STOP)]
         _add_stop(spec, stop)
         return Station(spec, world)
-
-    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        return self.station(self.world(spec)).bench.model
-
-    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
-        return ReportingHardware(self.station(self.world(world)), tell, TROUBLES)
 
     def judge(self, truth: Truth) -> Findings:
         bar = truth.data.body("bar")

@@ -9,23 +9,18 @@ import numpy as np
 
 from handeye.core.distributions import Noise, Range
 from handeye.core.units import MILLIMETRE
-from handeye.core.variation import Variation, WorldSpec
+from handeye.core.variation import Variation
 from handeye.judge.finding import Findings, at_most
 from handeye.judge.measured import tilt
-from handeye.systems.ml.bench.hardware import ArmTask
-from handeye.systems.ml.bench.reporting import ReportingHardware
+from handeye.systems.ml.bench.reporting import ReportingTask
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.machine.spec import LINEAR
-from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.systems.ml.train.vehicles import CLEARANCE, REACH, add_vehicle
 from handeye.tasks.interface import Words
 
 if TYPE_CHECKING:
-    import mujoco
-
     from handeye.cell.truth import Truth
-    from handeye.systems.ml.run.plan import MlPlan
 
 EXPECTED: Final = {"engine": (0, -3500), "wagon_1": (-5000, 2500), "wagon_2": (5000, 2500)}
 """Places at which the program expects the vehicles, x and y of the slides."""
@@ -66,14 +61,13 @@ VARIATION: Final = Variation(
 )
 
 
-class Train(ArmTask):
+class Train(ReportingTask):
     """Couple an engine and two wagons, and pull them."""
 
     name = "train"
     words = Words(product="the train", done="Both wagons are coupled, and have followed the engine.")
-
-    def variation(self) -> Variation:
-        return VARIATION
+    quantities = VARIATION
+    troubles = TROUBLES
 
     def station(self, world: ArmWorld) -> Station:
         """Return the station with its vehicles."""
@@ -86,12 +80,6 @@ class Train(ArmTask):
             turned = world.normal(f"{name}.turned", _TURNED)
             add_vehicle(spec, name, at, turned, world.value(_FRICTION), world.value(_CLEARANCE))
         return Station(spec, world)
-
-    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        return self.station(self.world(spec)).bench.model
-
-    def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
-        return ReportingHardware(self.station(self.world(world)), tell, TROUBLES)
 
     def judge(self, truth: Truth) -> Findings:
         bodies = [truth.data.body(name) for name in EXPECTED]
