@@ -1,7 +1,7 @@
 """A run of a program of numbered lines: the events and checks that the systems of such languages share."""
 
 from abc import abstractmethod
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from handeye.core.entries import refusal
 from handeye.core.errors import Refused
@@ -66,10 +66,10 @@ class NumberedRun(RunningSystem):
         state.at, state.onward = None, step
         self._emit(state.stopped)
 
-    def _close(self, status: str) -> None:
+    def _close(self, status: Literal["done", "skipped"]) -> None:
         """End the stage, if it has begun."""
         if self.state.stage is not None:
-            self._around.emit(StageFinished(time=self.time, stage=self._listing.name, status=status))  # type: ignore[arg-type]
+            self._around.emit(StageFinished(time=self.time, stage=self._listing.name, status=status))
             self.state.stage = None
 
     def _finish(self, *, completed: bool) -> bool:

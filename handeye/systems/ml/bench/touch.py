@@ -42,7 +42,7 @@ _MS: Final = 0.001  # s, the step of the physics
 
 
 class Touch(Record, frozen=True, kw_only=True):
-    """A guarded touch, and what it came to."""
+    """A guarded touch and its result."""
 
     period: int  # ms
     bandwidth: float  # Hz

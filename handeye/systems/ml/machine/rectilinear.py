@@ -21,18 +21,20 @@ from handeye.systems.ml.machine.spec import (
 )
 
 _SLIDE: Final = {"lower": -10_039, "upper": 10_039, "peak": 7874}  # 51 cm, 20 cm/s
-_TURN: Final = {"unit": ROTARY, "peak": 9000}  # 90 deg/s
+_TURNING: Final = 9000  # 90 deg/s
 
 _MOTORS: Final = (
-    MotorSpec(number=1, axis="base", lower=-16_500, upper=16_500, **_TURN, detent=250, output=-16),  # type: ignore[arg-type]
+    MotorSpec(
+        number=1, axis="base", lower=-16_500, upper=16_500, unit=ROTARY, peak=_TURNING, detent=250, output=-16
+    ),
     MotorSpec(number=2, axis="z", **_SLIDE, output=1),
     MotorSpec(number=3, axis="y", **_SLIDE, output=2),
     MotorSpec(number=4, axis="x", **_SLIDE, output=3),
-    MotorSpec(number=8, axis="roll", lower=-17_500, upper=17_500, **_TURN, output=4),  # type: ignore[arg-type]
-    MotorSpec(number=9, axis="yaw", lower=-10_000, upper=10_000, **_TURN, output=5),  # type: ignore[arg-type]
-    MotorSpec(number=10, axis="pitch", lower=-10_000, upper=10_000, **_TURN, output=6),  # type: ignore[arg-type]
+    MotorSpec(number=8, axis="roll", lower=-17_500, upper=17_500, unit=ROTARY, peak=_TURNING, output=4),
+    MotorSpec(number=9, axis="yaw", lower=-10_000, upper=10_000, unit=ROTARY, peak=_TURNING, output=5),
+    MotorSpec(number=10, axis="pitch", lower=-10_000, upper=10_000, unit=ROTARY, peak=_TURNING, output=6),
     MotorSpec(number=11, axis="separation", lower=0, upper=4000, peak=7874, output=7),
-    MotorSpec(number=12, axis="angle", lower=-2500, upper=2500, **_TURN, output=8),  # type: ignore[arg-type]
+    MotorSpec(number=12, axis="angle", lower=-2500, upper=2500, unit=ROTARY, peak=_TURNING, output=8),
 )
 """The eight analog outputs of the System/7 suffice for all motors but the base, whose detents a digital word sets."""
 
