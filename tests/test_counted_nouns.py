@@ -34,10 +34,7 @@ NEVER_ONE = {
     ("handeye/planfile/soundness.py", "' and '.join(map(str, plan.joint_counts))"),
     ("handeye/program/stage_names.py", "len(found)"),  # several, as the next; one has a sentence of its own
     ("handeye/program/diagnosis/cause_text.py", "cause.blobs"),
-    (
-        "handeye/program/diagnosis/cause_text.py",
-        "noise",
-    ),  # text with as many decimals as tell it from the limit
+    ("handeye/program/diagnosis/sense_text.py", "noise"),  # as many decimals as tell it from the limit
     ("handeye/report/page/seen.py", "rows"),  # of a picture, as the next
     ("handeye/report/page/seen.py", "columns"),
     ("handeye/vision/scan.py", "self.columns"),
