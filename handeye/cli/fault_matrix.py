@@ -94,8 +94,10 @@ def faults(
         return _list(catalogue, kinds, json=options.json)
     options.check()
     if own:
-        if stage is not None or checkpoints is not None or camera != "auto":
-            raise BadArgument("--stage, --checkpoints and --camera are for programs of the Stanford arm")
+        foreign = {"--stage": stage, "--checkpoints": checkpoints, "--camera": camera}
+        option = next((name for name, value in foreign.items() if value not in (None, "auto")), None)
+        if option is not None:
+            raise BadArgument(f"{option} is for programs of the Stanford arm; leave it out for this task")
         sweep, work = loaded(own)(world.work.name, spec)
         return carry_out_sweep(
             sweep,

@@ -78,7 +78,15 @@ class Mal:
 
         Returns:
             The lines that were printed.
+
+        Raises:
+            NoSuchName: the program has no line of that number.
         """
+        if until is not None and until not in (numbers := [line.number for line in self._program.lines]):
+            near = ", ".join(
+                str(number) for number in sorted(numbers, key=lambda each: abs(each - until))[:3]
+            )
+            raise NoSuchName(f"the program has no line {until}; the nearest are {near}")
         first, begun = len(self._events), self.time
         while self._vm.turn and (self.line != until or len(self._events) == first):
             if self.time - begun > _LONGEST:
@@ -148,7 +156,12 @@ class Mal:
 
         Args:
             most: number of states after which the search ends.
+
+        Raises:
+            BadArgument: `most` is less than 1.
         """
+        if most < 1:
+            raise BadArgument(f"the number of states must be at least 1, not {most}")
         return [*told_orders("the program", self._program, interleavings(self._program, most))]
 
     @property

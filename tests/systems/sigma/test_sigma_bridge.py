@@ -11,6 +11,7 @@ import pytest
 from mal_bench import ROOT, carried_out, mal
 
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.errors import Refused
 from handeye.core.source import Source
 from handeye.planfile.store import read_plan
 from handeye.planning.planner import plan_program
@@ -19,9 +20,11 @@ from handeye.program.guards import Against
 from handeye.program.motion_operations import Change, Close, Move, Open
 from handeye.program.program import Program
 from handeye.program.taught import Taught
-from handeye.systems.sigma.bridge.borrowed_run import SAID
+from handeye.systems.sigma.bridge.borrowed_run import SAID, run_borrowed
 from handeye.systems.sigma.bridge.language import bridge
 from handeye.systems.sigma.bridge.translation import AT, translated
+from handeye.systems.sigma.machine.perfect import PerfectMotors
+from handeye.systems.sigma.mal.compiler import program_of
 from handeye.systems.sigma.protocol import STEP_MM
 
 Command = Callable[..., tuple[int, str, str]]
@@ -152,6 +155,7 @@ def test_the_command_writes_a_plan_and_says_that_there_is_no_bus(command: Comman
     file.write_text(mal("handover"), encoding="utf-8")
     code, _, err = command("sigma", "bridge", str(file))
     assert (code, "line 40 cannot become a motion" in err, "Traceback" in err) == (2, True, False)
+    assert err.count("a plan can have only MOVE") == 1
     assert command("sigma", "bridge", str(tmp_path / "none.mal"))[0] == 2
     assert AT == (350.0, 550.0)
 
@@ -203,6 +207,36 @@ def test_what_the_stanford_arm_lacks_is_refused_by_line(
     file.write_text(f"10 ORIGIN X1\n20 {line}\n", encoding="utf-8")
     code, _, err = command("sigma", "borrow", str(file))
     assert (code, f"line 20 {why}; the Stanford arm takes the place of arm 1 only" in err) == (2, True)
+
+
+@pytest.mark.parametrize("job", ["bridge", "borrow"])
+@pytest.mark.parametrize("at", ["nan", "inf", "1e300"])
+def test_a_board_that_lies_nowhere_is_refused(job: str, at: str, command: Command, tmp_path: Path) -> None:
+    file = tmp_path / "touch.mal"
+    file.write_text(TOUCH, encoding="utf-8")
+    code, _, err = command("sigma", job, str(file), "--at", "350", at)
+    assert (code, "--at must be between -10000 and 10000 mm" in err) == (2, True)
+
+
+class Lame(PerfectMotors):
+    """Cannot move beyond 100 mm."""
+
+    most, error = 0.0, 0.0
+
+    def wait(self, until: int) -> int:
+        far = any((motor.place + motor.steps) * STEP_MM > 100 for motor in self._memory.motors.values())
+        if far and until > self.now + 9000:  # not while the computer works
+            raise Refused("the arm does not reach X1 = 300 mm")
+        return super().wait(until)
+
+
+def test_a_motion_that_the_borrowed_arm_cannot_make_stops_the_program_at_its_line() -> None:
+    program = program_of("far.mal", "10 ORIGIN X1\n20 MOVE X1 TO 90\n30 MOVE X1 TO 300\n40 MOVE X1 TO 20\n")
+    found = run_borrowed(program, Lame())  # type: ignore[arg-type]
+    assert (found.completed, found.message) == (
+        False,
+        "the task MAIN, line 30: the arm does not reach X1 = 300 mm",
+    )
 
 
 def test_the_programs_of_the_page_are_those_of_the_tests() -> None:

@@ -318,7 +318,11 @@ def test_a_study_that_loses_steps_has_exit_code_1(command: Command) -> None:
         ("--curve 9", "there is no curve 9; the curves are 0 to 4"),
         ("--slow 900", "a constant speed must be between 1 and 562.5 mm/s, not 900"),
         ("--load nan", "a load must be 0 N or more"),
-        ("--stop-after 5000", "the stop must be within that time, not after 5 s"),
+        (
+            "--stop-after 5000",
+            "the move takes 803.7 ms; the stop must be within that time, not after 5000 ms",
+        ),
+        ("--cut", "--cut applies only to an emergency stop: give --stop-after too"),
     ],
 )
 def test_a_study_of_nothing_is_refused_in_a_sentence(words: str, why: str, command: Command) -> None:

@@ -125,6 +125,8 @@ def test_a_drawing_of_a_whole_run_has_every_command_and_a_row_a_receiver(command
         (f"{PLANS}/handover.mal --out a.svg --begin 3 --end 2", "a diagram must begin at 0 s or later"),
         (f"{PLANS}/handover.mal --out a.svg --begin nan", "a diagram must begin at 0 s or later"),
         (f"{PLANS}/handover.mal --out a.svg --end 1e9", "a diagram must begin at 0 s or later"),
+        (f"{PLANS}/handover.mal --begin 3", "apply only to the diagram: give --out too"),
+        (f"{PLANS}/handover.mal --all-lines", "apply only to the diagram: give --out too"),
         (f"{PLANS}/handover.mal --fault dead:77", "there is no microcomputer 77"),
     ],
 )

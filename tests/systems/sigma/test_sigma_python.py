@@ -29,6 +29,14 @@ def test_a_deadlock_is_named_by_a_run_and_by_the_search() -> None:
     assert program.interleavings()[0].startswith("deadlock")
 
 
+def test_a_line_that_is_not_there_and_a_search_of_no_states_are_refused() -> None:
+    program = handeye.Mal("10 ORIGIN X1\n20 MOVE X1 TO 50\n")
+    with pytest.raises(InvalidInput, match="the program has no line 25; the nearest are 20, 10"):
+        program.run(until=25)
+    with pytest.raises(InvalidInput, match="must be at least 1, not 0"):
+        program.interleavings(0)
+
+
 @pytest.mark.slow
 def test_gantries_have_a_history_and_faults_and_perfect_motors_have_none() -> None:
     stopped, cut = (

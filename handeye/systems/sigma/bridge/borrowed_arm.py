@@ -13,6 +13,7 @@ import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.compiled_arm import CompiledArm
+from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec
 from handeye.execution.drive import ArmDrive
@@ -86,9 +87,19 @@ class BorrowedArm(PerfectMotors):
 
     def _period(self) -> bool:
         """Drive the arm for a servo period. Returns True if a force has stopped a motor."""
-        self._axes.put(self._goal())
-        self._drive.cell.clock.advance(self._axes.period)
+        self._drive_to(self._goal())
         return self._feel()
+
+    def _drive_to(self, goal: Array) -> None:
+        """Drive the tool towards a goal for a servo period. Raises Refused if the arm cannot go there."""
+        try:
+            self._axes.put(goal)
+        except Refused as refused:
+            places = zip(COMPONENTS, (self._place(number) for number in _AXES), strict=False)
+            told = ", ".join(f"{component}1 = {place:.4g}" for component, place in places)
+            why = str(refused).partition(": ")[2]
+            raise Refused(f"the Stanford arm does not reach {told} mm: {why}") from None
+        self._drive.cell.clock.advance(self._axes.period)
 
     def _feel(self) -> bool:
         told = self._axes.read().channels
@@ -141,8 +152,7 @@ class BorrowedArm(PerfectMotors):
         here, goal = self._axes.read().q, self._goal()
         steps = math.ceil(float(np.abs(goal - here)[:3].max()) / _START_SPEED / self._axes.period)
         for share in [*np.linspace(0, 1, steps + 1)[1:], *np.ones(20)]:
-            self._axes.put(here + share * (goal - here))
-            self._drive.cell.clock.advance(self._axes.period)
+            self._drive_to(here + share * (goal - here))
         self._axes.read()
 
     # -- commands --------------------------------------------------------------------------------------------
@@ -184,14 +194,16 @@ class BorrowedArm(PerfectMotors):
             motor.until = motor.begun + round(taken * 1e6)
 
 
-def borrowed(seed: int, at: tuple[float, float], poll: Callable[[], None] = lambda: None) -> BorrowedArm:
-    """Return the Stanford arm over the table of a world of the water pump. It has measured the friction of its joints.
+def borrowed(
+    spec: WorldSpec, at: tuple[float, float], poll: Callable[[], None] = lambda: None
+) -> BorrowedArm:
+    """Return the Stanford arm over the table of a world of the water pump, with the friction of its joints measured.
 
     Args:
         at: place of the board's corner X1 = 0, Y1 = 0 on the table, mm.
         poll: called again and again; may raise an exception.
     """
-    cell = build_cell(PumpWorld.draw(WorldSpec(seed=seed)), camera="ray").devices
+    cell = build_cell(PumpWorld.draw(spec), camera="ray").devices
     state = DriveState.holding(cell.sense(), STANFORD)
 
     def halt() -> bool:

@@ -3,9 +3,10 @@
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
-from handeye.core.errors import BadFile
+from handeye.core.errors import BadFile, Refused
 from handeye.core.plain_text import counted
 from handeye.core.record import Record
+from handeye.ports.microbus import Status
 from handeye.program.events import SystemEvent
 from handeye.systems.sigma.mal.check import expressions, parts, within
 from handeye.systems.sigma.mal.compiler import MalProgram
@@ -13,7 +14,7 @@ from handeye.systems.sigma.mal.scanner import Token
 from handeye.systems.sigma.mal.syntax import Call, Line
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.mal.words import MAL_DEVICES
-from handeye.systems.sigma.protocol import AXES
+from handeye.systems.sigma.protocol import AXES, LINE_NUMBERS
 
 if TYPE_CHECKING:
     from handeye.systems.sigma.bridge.borrowed_arm import BorrowedArm
@@ -69,20 +70,32 @@ def run_borrowed(
 ) -> BorrowedRun:
     """Execute a program on an arm."""
     vm = VirtualMachine(program, arm, tell, poll=poll)
-    vm.begin()
-    while vm.turn and vm.memory.fault is None and arm.now < _LONGEST_US:
-        poll()
-        vm.statement()
-        vm.settle()
+    message = ""
+    try:
+        vm.begin()
+        while vm.turn and vm.memory.fault is None and arm.now < _LONGEST_US:
+            poll()
+            vm.statement()
+            vm.settle()
+    except Refused as refused:
+        message = f"{_whose(vm, arm)}{refused}"
     fault = vm.memory.fault
     return BorrowedRun(
-        completed=fault is None and not vm.memory.tasks,
-        message="" if fault is None else fault.told,
+        completed=fault is None and not message and not vm.memory.tasks,
+        message=message if fault is None else fault.told,
         seconds=round(vm.time, 3),
         commands=vm.memory.commands,
         most_n=round(arm.most, 2),
         error_mm=round(arm.error, 2),
     )
+
+
+def _whose(vm: VirtualMachine, arm: "BorrowedArm") -> str:
+    """Name the task and the line of a motion under way."""
+    for axis, owner in vm.memory.owners.items():
+        if arm.status(LINE_NUMBERS[axis]) is Status.BUSY:
+            return f"the task {owner.task}, line {vm.program.line_of(owner.address).number}: "
+    return ""
 
 
 def lines(found: BorrowedRun) -> list[str]:

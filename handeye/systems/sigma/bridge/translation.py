@@ -9,6 +9,7 @@ no guard, because an arm that is not balanced feels several newtons of its own i
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from math import pi
 from pathlib import PurePath
@@ -99,10 +100,10 @@ def translated(source: Source, taught: Taught, at: tuple[float, float] = AT) -> 
     tests, untested = _force_tests(lines)
     wrong = [*_words(lines), *_arms(lines), *untested]
     if wrong:
-        return None, arranged(wrong)
+        return None, _with_one_cure(wrong)
     made = _Translation(source, lines, tests, at)
     if made.found:
-        return None, arranged(made.found)
+        return None, _with_one_cure(made.found)
     program = Program(
         name=PurePath(source.name).stem, language=LANGUAGE, source=source.text, stages=(PurePath(source.name).stem,),
         steps=tuple(made.steps), positions=made.positions, parts={}, fixtures=dict(taught.fixtures),
@@ -112,7 +113,13 @@ def translated(source: Source, taught: Taught, at: tuple[float, float] = AT) -> 
 
 def _refused(line: Line, why: str, *labels: Label) -> Diagnostic:
     told = f"line {line.number} cannot become a motion of a plan: {why}"
-    return problem("no-motion", told, line.statement.span, *labels, help=_CURE, own="error")
+    return problem("no-motion", told, line.statement.span, *labels, own="error")
+
+
+def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """Arrange refusals; only the last says what a plan can have, because this is the same for all of them."""
+    *others, last = arranged(found)
+    return [*others, replace(last, help=_CURE)]
 
 
 def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:

@@ -5,6 +5,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import Json, WholeNumber, say, screen
+from handeye.core.errors import BadArgument
 from handeye.systems.sigma.cli.bus import NO_DRAWING, DrawingOptions
 from handeye.systems.sigma.cli.studies import put_study
 
@@ -41,6 +42,8 @@ def axis(
     from handeye.systems.sigma.motors.drawing import as_svg, as_text
     from handeye.systems.sigma.motors.study import lines, study, verdict
 
+    if cut and stop_after is None:
+        raise BadArgument("--cut applies only to an emergency stop: give --stop-after too")
     drawing.check()
     found = study(
         mass=mass,

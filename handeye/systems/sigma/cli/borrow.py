@@ -6,6 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import Json, WholeNumber, note, say
+from handeye.systems.sigma.cli.bridge import BoardCorner, board_corner
 
 MalFile = Annotated[Path, Parameter(help="A program in MAL for arm 1, `.mal`.")]
 
@@ -14,12 +15,7 @@ def borrow(
     file: MalFile,
     /,
     *,
-    at: Annotated[
-        tuple[float, float] | None,
-        Parameter(
-            help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres. Default: 350 550."
-        ),
-    ] = None,
+    at: BoardCorner = None,
     seed: Annotated[
         WholeNumber, Parameter(help="Seed of the world: it determines the errors of the arm.")
     ] = 0,
@@ -36,15 +32,16 @@ def borrow(
     """
     from handeye.cli.panic_button import PanicButton
     from handeye.core.source import read_source
+    from handeye.core.variation import WorldSpec
     from handeye.execution.servo import Halted
     from handeye.systems.sigma.bridge.borrowed_arm import borrowed
     from handeye.systems.sigma.bridge.borrowed_run import SAID, check_program, lines, run_borrowed
-    from handeye.systems.sigma.bridge.translation import AT
     from handeye.systems.sigma.cli.commands import Printer, reported
     from handeye.systems.sigma.cli.studies import put_study
     from handeye.systems.sigma.mal.check import checked
     from handeye.systems.sigma.run.plan import MalPlan, sound
 
+    spec, corner = WorldSpec(seed=seed), board_corner(at)
     source = read_source(file)
     if not reported(source):
         return 2
@@ -61,7 +58,7 @@ def borrow(
                 raise Halted
 
         try:
-            found = run_borrowed(plan.program, borrowed(seed, at or AT, poll), printer.event, poll)
+            found = run_borrowed(plan.program, borrowed(spec, corner, poll), printer.event, poll)
         except Halted:
             raise KeyboardInterrupt from None
     if json:

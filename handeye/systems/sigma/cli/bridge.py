@@ -1,25 +1,38 @@
 """The command of the bridge: a MAL program as a plan for another arm."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 from cyclopts import Parameter
 
 from handeye.cli.common import Overwrite, TaskWords, say, show
+from handeye.core.errors import BadArgument
 
 MalFile = Annotated[Path, Parameter(help="A program in MAL with a single task, `.mal`.")]
+BoardCorner = Annotated[
+    tuple[float, float] | None,
+    Parameter(
+        help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres. Default: 350 550."
+    ),
+]
+_FARTHEST: Final = 10_000.0  # mm
+
+
+def board_corner(at: tuple[float, float] | None) -> tuple[float, float]:
+    """Return the place of the board's corner (mm). Raises BadArgument if a coordinate is not a number near the arm."""
+    from handeye.systems.sigma.bridge.translation import AT
+
+    for each in at or ():
+        if not abs(each) <= _FARTHEST:
+            raise BadArgument(f"--at must be between -{_FARTHEST:g} and {_FARTHEST:g} mm, not {each:g}")
+    return at or AT
 
 
 def bridge(
     file: MalFile,
     /,
     *,
-    at: Annotated[
-        tuple[float, float] | None,
-        Parameter(
-            help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres. Default: 350 550."
-        ),
-    ] = None,
+    at: BoardCorner = None,
     task: TaskWords = None,
     output: Annotated[Path | None, Parameter(name=["--out", "-o"])] = None,
     overwrite: Overwrite = False,
@@ -46,11 +59,11 @@ def bridge(
     from handeye.program.taught import Taught
     from handeye.runs.scripts import planned
     from handeye.systems.sigma.bridge import language
-    from handeye.systems.sigma.bridge.translation import AT
 
+    corner = board_corner(at)
     source = read_source(file)
     work = tasks.task() if task is None else tasks.planned(tasks.named(task))
-    made = planned(source, Taught(), work, language.bridge(at or AT))
+    made = planned(source, Taught(), work, language.bridge(corner))
     show(made.diagnostics, source, json=False)
     if made.plan is None or has_errors(made.diagnostics):
         return 2

@@ -118,8 +118,9 @@ def run(
     *,
     fault: BusFaults = None,
     begin: Annotated[
-        float, Parameter(help="Time at which the diagram begins, in seconds since power-on.")
-    ] = 0.0,
+        float | None,
+        Parameter(help="Time at which the diagram begins, in seconds since power-on. Default: 0."),
+    ] = None,
     end: Annotated[
         float | None,
         Parameter(
@@ -152,7 +153,10 @@ def run(
     from handeye.systems.sigma.run.over_wires import ENDED, lines, over_wires
     from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, MalPlan
 
+    if drawing.out is None and (begin is not None or end is not None or all_lines):
+        raise BadArgument("--begin, --end and --all-lines apply only to the diagram: give --out too")
     drawing.check()
+    _microseconds(begin, _LONGEST_DIAGRAM if end is None else end)
     if not 0 <= statement_us <= LONGEST_STATEMENT_US:
         raise BadArgument(f"--statement-us must be between 0 and {LONGEST_STATEMENT_US}, not {statement_us}")
     program = MalPlan(name=file.name, text=read_source(file).text).program
@@ -168,13 +172,7 @@ def run(
         except Halted:
             raise KeyboardInterrupt from None
     if drawing.out is not None:
-        last = wired.now / 1e6 if end is None else end
-        if not 0 <= begin < last <= _LONGEST_DIAGRAM:
-            raise BadArgument(
-                f"a diagram must begin at 0 s or later and end after its beginning, not go from {begin:g} to "
-                f"{last:g} s"
-            )
-        span = round(begin * 1e6), round(last * 1e6)
+        span = _microseconds(begin, wired.now / 1e6 if end is None else end)
         drawn = diagram(file.name, log, *span, wired.timing, all_lines=all_lines)
         drawing.write(as_svg(drawn))
     if json:
@@ -185,6 +183,16 @@ def run(
         for line in lines(found, log):
             say(line)
     return 0 if found.completed else 1
+
+
+def _microseconds(begin: float | None, end: float) -> tuple[int, int]:
+    """Return the times at which a diagram begins and ends. Raises BadArgument if there can be no such diagram."""
+    first = begin or 0.0
+    if not 0 <= first < end <= _LONGEST_DIAGRAM:
+        raise BadArgument(
+            f"a diagram must begin at 0 s or later and end after its beginning, not go from {first:g} to {end:g} s"
+        )
+    return round(first * 1e6), round(end * 1e6)
 
 
 def errors(

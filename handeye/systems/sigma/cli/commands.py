@@ -116,8 +116,12 @@ def check(
         ),
     ] = False,
     most: Annotated[
-        WholeNumber, Parameter(help="Stop after visiting this number of different states of the program.")
-    ] = 50_000,
+        WholeNumber | None,
+        Parameter(
+            help="With --interleavings: stop after visiting this number of different states of the program. "
+            "Default: 50000."
+        ),
+    ] = None,
     json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
     """Check a program as `handeye check` does, and try the orders of its tasks.
@@ -129,10 +133,13 @@ def check(
     input, or a program with errors.
     """
     from handeye.systems.sigma.mal.compiler import program_of
+    from handeye.systems.sigma.mal.interleavings import MOST_STATES, told_orders
     from handeye.systems.sigma.mal.interleavings import interleavings as tried
-    from handeye.systems.sigma.mal.interleavings import told_orders
 
-    positive(most, "state")
+    if most is not None:
+        positive(most, "state")
+        if not interleavings:
+            raise BadArgument("--most applies only to --interleavings")
     source = read_source(file)
     if not interleavings:
         return show_check(file, checked(source)[1], source, json=json)
@@ -141,7 +148,7 @@ def check(
     program = program_of(file.name, source.text, line=True)
     if not program.lines:
         raise BadArgument(f"{file} has no line that can be executed")
-    result = tried(program, most)
+    result = tried(program, most or MOST_STATES)
     answer(result, told_orders(str(file), program, result), json=json)
     return 1 if result.findings else 0
 

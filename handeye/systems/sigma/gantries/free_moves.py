@@ -61,11 +61,12 @@ def lines(found: Sequence[FreeMoves]) -> list[str]:
     out = []
     for compensated in (True, False):
         these = [each for each in found if each.compensated is compensated]
-        forces = [each.force for each in these]
+        forces = [f"{force:.1f}" for force in sorted(each.force for each in these)]
+        span = forces[0] if forces[0] == forces[-1] else f"{forces[0]} to {forces[-1]}"
         moves, tripped = sum(each.moves for each in these), sum(each.tripped for each in these)
         worlds = counted(len(these), "world")
         out.append(
             f"{'with' if compensated else 'without'} accelerometers: the reflex stopped {tripped} of {moves} moves in "
-            f"{worlds}; the greatest force in a world was {min(forces):.1f} to {max(forces):.1f} N"
+            f"{worlds}; the greatest force in a world was {span} N"
         )
     return out

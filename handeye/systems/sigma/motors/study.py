@@ -83,12 +83,13 @@ def study(
     if stop_after is not None:
         if not 0 < stop_after < pulses.seconds:
             raise BadArgument(
-                f"the move takes {pulses.seconds:.3f} s; the stop must be within that time, not after {stop_after:g} s"
+                f"the move takes {1000 * pulses.seconds:.1f} ms; the stop must be within that time, not after "
+                f"{1000 * stop_after:g} ms"
             )
         pulses = stopped(train, shape, round(stop_after * CLOCK_HZ), cut=cut)
         interrupted = "cut" if cut else "stop"
         if not len(pulses):
-            raise BadArgument(f"no pulse is sent within {stop_after:g} s")
+            raise BadArgument(f"no pulse is sent within {1000 * stop_after:g} ms")
     drive = Drive(mass=mass, load=load)
     sine, balance = by_sine(pulses, drive), by_balance(pulses, drive)
     return AxisStudy(
