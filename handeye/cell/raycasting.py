@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
+from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer
 from handeye.cell.vidicon import Luminance
 from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
@@ -14,37 +14,53 @@ from handeye.vision.camera_model import View
 
 SKY: Final = 0.1
 """Luminance of the background, where no object is visible. Placeholder."""
+_SMOOTH: Final = 1 / 64
+"""Difference of luminance between neighbouring points up to which one sample will do: a quarter of a grey level."""
+_SAMPLES: Final = (np.indices((FINE, FINE)).reshape(2, -1).T[:, ::-1] + 0.5) / FINE - 0.5
+"""Offsets of the samples of a picture point (u, v) from its middle."""
 
 
 class RayRenderer(SceneRenderer):
     """Casts a ray for every sample, and from the point it hits a ray to every light, for the shadows. Needs no
     OpenGL.
+
+    A picture point has one sample, and four where the picture changes: at edges of solids and of shadows (adaptive
+    sampling after T. Whitted, "An improved illumination model for shaded display", 1980).
     """
 
     identity = Renderer(method="rays")
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self._model = model
-        v, u = np.mgrid[0 : ROWS * FINE, 0 : COLUMNS * FINE]
-        self._samples = (np.column_stack([u.ravel(), v.ravel()]) + 0.5) / FINE - 0.5
+        v, u = np.mgrid[0:ROWS, 0:COLUMNS]
+        self._points = np.column_stack([u.ravel(), v.ravel()]).astype(np.float64)
 
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
+        middle, geom = self._sampled(data, view, self._points)
+        result = middle.reshape(ROWS, COLUMNS)
+        rough = _edges(geom.reshape(ROWS, COLUMNS), result)
+        points = (self._points[rough.ravel(), None] + _SAMPLES).reshape(-1, 2)
+        result[rough] = self._sampled(data, view, points)[0].reshape(-1, len(_SAMPLES)).mean(axis=1)
+        return result.astype(np.float32)
+
+    def _sampled(self, data: mujoco.MjData, view: View, points: Array) -> tuple[Array, NDArray[np.int32]]:
+        """Return luminance and geom (-1: none) at picture points (u, v), shape (n, 2); both of shape (n,)."""
         model = self._model
         albedo, glow = _reflectance(model)  # again: the lamp may have been switched on
         eye = view.X_WC[:3, 3]
-        rays = view.rays(self._samples)
+        rays = view.rays(points)
         rays /= np.linalg.norm(rays, axis=1, keepdims=True)
         geom, distance, normal = cast(model, data, eye, rays)
         hit = geom >= 0
-        points = eye + rays[hit] * distance[hit, None]
+        surface = eye + rays[hit] * distance[hit, None]
         normals = normal[hit] * -np.sign(np.sum(normal[hit] * rays[hit], axis=1, keepdims=True))
-        light = np.full(len(points), ambient(model))
+        light = np.full(len(surface), ambient(model))
         for index in range(model.nlight):
             if model.light_active[index]:
-                light += self._light(data, index, points, normals)
-        result = np.full(len(rays), SKY)
-        result[hit] = np.clip(albedo[geom[hit]] * light + glow[geom[hit]], 0, 1)
-        return averaged(result.reshape(ROWS * FINE, COLUMNS * FINE))
+                light += self._light(data, index, surface, normals)
+        luminance = np.full(len(rays), SKY)
+        luminance[hit] = np.clip(albedo[geom[hit]] * light + glow[geom[hit]], 0, 1)
+        return luminance, geom
 
     def _light(self, data: mujoco.MjData, index: int, points: Array, normals: Array) -> Array:
         """Return the light of one lamp on surface points, shape (n,)."""
@@ -92,6 +108,21 @@ def cast(
             cutoff=1e3,
         )
     return geom, distance, normal.reshape(-1, 3)
+
+
+def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
+    """Return where a picture changes, shape as given: True for both points of a pair of neighbours whose geoms or
+    luminances differ.
+    """
+    rough = np.zeros(geom.shape, dtype=bool)
+    for a, b in (
+        ((slice(1, None), slice(None)), (slice(-1), slice(None))),
+        ((slice(None), slice(1, None)), (slice(None), slice(-1))),
+    ):
+        differ = (geom[a] != geom[b]) | (np.abs(luminance[a] - luminance[b]) > _SMOOTH)
+        rough[a] |= differ
+        rough[b] |= differ
+    return rough
 
 
 def ambient(model: mujoco.MjModel) -> float:

@@ -264,6 +264,17 @@ def test_both_renderers_give_nearly_the_same_light():
 
 
 @pytest.mark.render
+@pytest.mark.render
+def test_one_ray_is_enough_for_a_point_without_an_edge(monkeypatch: pytest.MonkeyPatch) -> None:
+    data, view = scene(), DRAWING.view(0.050, *DRAWING.aim(BLOCK, 0.050))
+    adaptive = make_renderer("ray", data.model).render(data, view)
+    monkeypatch.setattr(
+        "handeye.cell.raycasting._SMOOTH", -1.0
+    )  # an edge everywhere: four samples in each point
+    whole = make_renderer("ray", data.model).render(data, view)
+    assert np.abs(adaptive - whole).max() < 1 / 64  # a quarter of a grey level
+
+
 def test_collision_shapes_are_not_in_the_picture():
     data = scene()
     view = DRAWING.view(0.050, *DRAWING.aim(BLOCK, 0.050))
