@@ -231,7 +231,7 @@ def _above_table() -> str:
                 if axis.axis in found.origin
                 else "no"
                 if found.origin
-                else "the program has stopped before"
+                else "the program had already stopped"
             )
             cells = (
                 *what, axis.axis, f"{axis.force:.1f} N", axis.status, str(axis.lost),
