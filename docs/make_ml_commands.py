@@ -1,4 +1,4 @@
-"""Write docs/ml_commands.md from the tables of ML's commands, tables and mistakes."""
+"""Write docs/ml_commands.md from what handeye knows of ML's commands, tables and mistakes."""
 
 from pathlib import Path
 from typing import Final
@@ -17,15 +17,16 @@ HEAD: Final = """# The commands of ML
 
 A line consists of a sequence number from 1 to 5000, a command, and 0 to 15 parameters. A line with a sequence number
 is stored; a line without a number is executed immediately. A parameter is a number from -32768 to 32767, or a
-reference: `&17` is the value of variable 17, `&&17` the value of the variable whose number it holds, and `-&17` the
-opposite value. There are 256 variables, and up to six `&`. A line that begins with `*` is a remark.
+reference: `&17` is the value of variable 17, `-&17` is the negative of this value, and `&&17` is the value of the
+variable whose number is in variable 17. There are 256 variables, and up to six `&` are allowed. A line that begins
+with `*` is a remark.
 
 In the forms below, you may leave out what is in `[ ]`, and `...` repeats the parameter before it. `n` is the number
 of a statement, `v` and `w` are numbers of variables, `m` is a motor, `s` a sensor, `t` a table; `x` and `y` are
 values. Positions of motors 2, 3, 4 and 11 are in .001 inch, those of motors 1, 8, 9, 10 and 12 in .01 degree.
 
 [ML](ml.md) is the tutorial; `handeye ml words MOVE` explains a command in a terminal. `docs/make_ml_commands.py`
-writes this page from the tables that parser and interpreter read.
+writes this page from the tables that the parser and the interpreter use.
 """
 
 
@@ -39,9 +40,9 @@ def page() -> str:
         out.append("")
     out += [
         "## Tables\n",
-        "The name of a table is a command that shows it: `MT` all lines that are not zero, `MT 3` a line with the "
-        "names of its words, `MT 3 1` a word. GET and QUERY read a word, PUT and FILE write one. The real-time level "
-        "uses internal tables; external tables are on the disk, and are paged into frames.\n",
+        "The name of a table is a command that shows it: `MT` shows all lines that are not zero, `MT 3` shows a line "
+        "with the names of its words, and `MT 3 1` shows a word. GET and QUERY read a word, PUT and FILE write one. "
+        "The real-time level uses internal tables; external tables are on the disk, and are paged into frames.\n",
         "| table | contents | lines | words | |",
         "|---|---|---|---|---|",
     ]
@@ -62,8 +63,8 @@ def page() -> str:
     out += [f"| `{code}` | {each.severity}: {each.meaning} | {each.cure} |" for code, each in known.items()]
     out += [
         "",
-        "These errors stop a running program. Like every error in a running program, they are an emergency: all motors "
-        "freeze, and the pump is switched off.\n",
+        "The errors below stop a running program. Like every error in a running program, each of them is an "
+        "emergency: all motors freeze, and the pump is switched off.\n",
         "| code | |",
         "|---|---|",
     ]

@@ -1,4 +1,4 @@
-"""Write the figures of docs/ten_milliseconds.md, and its picture: the page of `handeye ml touch --page`.
+"""Write the figures of docs/ten_milliseconds.md, and its picture, which shows the page of `handeye ml touch --page`.
 
 python docs/make_ten_milliseconds.py [--figures]
 

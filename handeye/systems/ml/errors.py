@@ -17,7 +17,7 @@ MEANINGS: Final[dict[str, str]] = {
     "M10": "a goal is outside the travel of its motor",
     "M11": "a table, or a line or word of a table, does not exist",
     "M12": "an arm is not installed",
-    "M13": "the end of a loop, or a RETURN, without its beginning",
+    "M13": "a loop ends, or a subroutine returns, without having begun",
     "M14": "an emergency has stopped the arm",
     "M15": "the pump is off although it must be on, or on although it must be off",
     "M16": "there is no host",

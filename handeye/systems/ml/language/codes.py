@@ -51,7 +51,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="`QUERY` shows a table; `handeye ml words` lists all tables",
     ),
     "M13": Mistake(
-        meaning="the end of a loop, or a RETURN, without its beginning", example="10 NEXTI",
+        meaning="a loop ends, or a subroutine returns, without having begun", example="10 NEXTI",
         cure="write LOOPI before NEXTI, LOOPJ before NEXTJ, and call the subroutine with GOSUB",
     ),
     "bad-parameter": Mistake(
@@ -59,7 +59,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="write a number such as `-100`, or a reference such as `&17` or `-&17`",
     ),
     "flag-left-on": Mistake(
-        meaning="a motion follows a branch on a flag that no SENSOR has cleared, so it moves nothing",
+        meaning="a motion follows a branch on a flag that no SENSOR has cleared, so the motion moves nothing",
         example="10 SENSOR 5 -178 450\n20 DMOTOR 2 100\n30 BRANCH 40 50 5\n40 DMOTOR 2 -100\n50 STOP",
         cure="clear the flag with SENSOR before the motion", severity="warning",
     ),

@@ -1,5 +1,5 @@
-"""The table of the 106 commands of ML: 76 commands, and the names of 30 tables. Parser, checks, completion,
-`explain` and the page of commands are derived from it.
+"""The table of the 106 commands of ML: 76 commands, and the names of 30 tables. The parser, the checks, the completion,
+`explain` and the page of commands are derived from this table.
 """
 
 import re
@@ -20,8 +20,8 @@ _KINDS: Final[dict[str, Kind]] = {
 
 
 class Command(Record, frozen=True, kw_only=True):
-    """A command. `usage` gives its parameters: those in `[ ]` may be left out, and `...` repeats the
-    one before."""
+    """A command. `usage` gives its parameters: those in `[ ]` may be left out, and `...` repeats the parameter
+    before it."""
 
     code: str
     category: Category
@@ -72,15 +72,15 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("LEFT", "", "The commands that follow are for the left arm.", "LEFT"),
         ("RIGHT", "", "The commands that follow are for the right arm, as at the start.", "RIGHT"),
         ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
-        ("RUN", "[n]", "Run the stored program from a statement, or from the first statement.", "RUN 100"),
+        ("RUN", "[n]", "Run the stored program from statement n, or from its first statement.", "RUN 100"),
         ("TRY", "[n]", "Run the stored program one statement at a time: each statement waits for a key.", "TRY"),
         ("TRACE", "[x]", "Print each statement with its values before it runs; `TRACE 0` ends this.", "TRACE"),
     ),
     "flow": (
-        ("BAL", "v n", "Put the number of the next statement into a variable and go to a statement; "
+        ("BAL", "v n", "Put the number of the next statement into variable v, and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
-        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. With n2, go to n1 if the flag of any of the sensors is on, otherwise "
-                                      "to n2; -s means that the flag is off; no sensors mean all sensors.",
+        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. With n2, go to n1 only if the flag of any sensor s is on, otherwise "
+                                      "to n2; -s asks whether the flag of s is off. Without s, ask for all sensors.",
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or to the next statement.",
          "40 BRCOMP 100"),
@@ -107,7 +107,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("GOPOINT", "n [x]", "Go to the positions of a POINT. With x = 1, do not wait for the end of the motion.",
          "280 GOPOINT 5"),
         ("HAND", "x11 [x12]", "Move the fingers only: their separation and the angle between them.", "30 HAND 650 900"),
-        ("JOY", "n", "Guide the arm by the joystick, and store its positions in a POINT by the record key.", "JOY 5"),
+        ("JOY", "n", "Let the joystick guide the arm; the record key stores the positions of all motors in POINT n.",
+         "JOY 5"),
         ("MOTOR", "m x", "Move one motor to a position.", "288 MOTOR 3 4000"),
         ("MOVE", "x1 ... x12", "Move each motor to a position. Motors that are left out keep their goals.",
          "285 MOVE 0 0 2000 0 0 0 0 0 4000 -9000 650 1900"),
@@ -116,33 +117,35 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("CALIB", "[s ...]", "Take the mean of the last eight readings as the new zero of these sensors, or of all "
                              "analog sensors.", "20 CALIB 5 6 7"),
         ("SENSOR", "[s [lo hi]]", "Expect the readings of a sensor to be above lo and below hi, and clear its flag. "
-                                  "Without limits, expect any reading; without s, do so for all sensors.",
+                                  "Without limits, expect any reading; without s, do this for all sensors.",
          "200 SENSOR 5 -178 450"),
-        ("WAND", "[s]", "Assign the wand to a sensor, or to sensor 1, and expect no contact.", "10 WAND"),
+        ("WAND", "[s]", "Assign the wand to sensor s (sensor 1 if s is left out), and expect no contact.", "10 WAND"),
     ),
     "data": (
         ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. The statement does "
                       "nothing when it is executed.", "5 POINT"),
     ),
     "arithmetic": (
-        ("ADD", "v x", "Add to a variable.", "50 ADD 1 -1"),
+        ("ADD", "v x", "Add x to variable v.", "50 ADD 1 -1"),
         ("COMPOFF", "", "Set the comparison indicator off.", "10 COMPOFF"),
         ("COMPON", "", "Set the comparison indicator on.", "10 COMPON"),
-        ("DADD", "v x [y]", "Add to a pair of variables, v high and v+1 low: x, or the pair x y.", "20 DADD 1 500"),
-        ("DIVD", "v x [w]", "Divide a variable and round toward zero; variable w gets the remainder.", "30 DIVD 1 "
-        "10 2"),
-        ("DLOAD", "v x [y]", "Set a pair of variables, v high and v+1 low, to x, or to x y.", "10 DLOAD 1 500"),
+        ("DADD", "v x [y]", "Add x, or the pair x y, to a pair of variables: v has the high word, v+1 the low word.",
+         "20 DADD 1 500"),
+        ("DIVD", "v x [w]", "Divide variable v by x, and round toward zero; variable w gets the remainder.",
+         "30 DIVD 1 10 2"),
+        ("DLOAD", "v x [y]", "Set a pair of variables to x, or to the pair x y: v gets the high word, v+1 the low "
+                             "word.", "10 DLOAD 1 500"),
         ("EQ?", "x y", "Set the comparison indicator on if x equals y, or else off.", "30 EQ? &1 0"),
         ("GE?", "x y", "Set the comparison indicator on if x is at least y, or else off.", "30 GE? &1 0"),
-        ("GET", "v t line word", "Set a variable to a word of a table.", "40 GET 1 MT 3 5"),
-        ("GETGOL", "v m", "Set a variable to the goal of a motor.", "40 GETGOL 1 3"),
-        ("GETPOS", "v m", "Set a variable to the position of a motor.", "40 GETPOS 1 3"),
-        ("GETSEN", "v s", "Set a variable to the reading of a sensor.", "40 GETSEN 1 8"),
+        ("GET", "v t line word", "Set variable v to a word of table t.", "40 GET 1 MT 3 5"),
+        ("GETGOL", "v m", "Set variable v to the goal of motor m.", "40 GETGOL 1 3"),
+        ("GETPOS", "v m", "Set variable v to the position of motor m.", "40 GETPOS 1 3"),
+        ("GETSEN", "v s", "Set variable v to the reading of sensor s.", "40 GETSEN 1 8"),
         ("GT?", "x y", "Set the comparison indicator on if x is greater than y, or else off.", "30 GT? &1 &2"),
         ("LE?", "x y", "Set the comparison indicator on if x is at most y, or else off.", "30 LE? &1 0"),
-        ("LOAD", "v x", "Set a variable.", "11 LOAD 1 -&3"),
+        ("LOAD", "v x", "Set variable v to x.", "11 LOAD 1 -&3"),
         ("LT?", "x y", "Set the comparison indicator on if x is less than y, or else off.", "30 LT? &1 0"),
-        ("MULT", "v x [w]", "Multiply a variable; variable w gets the high word of the product.", "20 MULT 1 25"),
+        ("MULT", "v x [w]", "Multiply variable v by x; variable w gets the high word of the product.", "20 MULT 1 25"),
         ("NE?", "x y", "Set the comparison indicator on if x differs from y, or else off.", "30 NE? &1 0"),
         ("OVFLOFF", "", "Set the overflow indicator off. No other statement of a running program does this.", "10 "
         "OVFLOFF"),
@@ -152,14 +155,14 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
          "50 PUT MT 2 8 10"),
     ),
     "edit": (
-        ("ERASE", "n1 [n2]", "Erase a statement, or all statements from n1 to n2.", "ERASE 500 550"),
+        ("ERASE", "n1 [n2]", "Erase statement n1, or all statements from n1 to n2.", "ERASE 500 550"),
         ("FILE", "t line word x ...", "Write consecutive words of a table.", "FILE MT 2 8 10"),
-        ("LIST", "[n1 [n2]]", "List the stored program, a statement, or all statements from n1 to n2.", "LIST 100 200"),
-        ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the last one first.", "QPOINT"),
+        ("LIST", "[n1 [n2]]", "List the stored program, statement n1, or all statements from n1 to n2.", "LIST 100 200"),
+        ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the latest first.", "QPOINT"),
         ("QUERY", "t [line [word]]", "Show a table, a line of it, or a word.", "QUERY ST 5"),
     ),
     "test": (
-        ("TESTAI", "x", "Print an analog input.", "TESTAI 3"),
+        ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
         ("TESTAO", "x y", "Set analog output x to y. No limit is checked, so the pump must be off.", "TESTAO 3 100"),
         ("TESTDO", "x y [mask]", "Set digital output word x to y, or only the bits of a mask. The pump must be off.",
          "TESTDO 1 1"),
@@ -210,7 +213,7 @@ MOTIONS: Final = frozenset(
 
 
 TABLE_NAMES: Final = {word_of(name): name for name in SHAPES}
-"""Tables by the words that stand for their names, of 8 bits a letter."""
+"""Tables by the 16-bit words that stand for their names: each letter has 8 bits."""
 
 
 def explained(word: str) -> str | None:
