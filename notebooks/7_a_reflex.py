@@ -15,9 +15,9 @@
 # saves in a collision.
 #
 # SUPERSIGMA, built in Milan, has two arms over one board. A central computer runs your program in
-# [MAL](../docs/mal.md). Each motor has a microcomputer of its own, and a bus carries commands to them. A wire leads
-# from the force sensor in each wrist directly to the motor's microcomputer. With this wire, a motor stops by itself
-# when the hand meets something: a reflex.
+# [MAL](../docs/mal.md). Each motor has a microcomputer of its own, and a bus carries commands to these microcomputers.
+# A wire leads from the force sensor in each wrist directly to the microcomputers of the arm. With this wire, a motor
+# stops by itself when the hand meets something: a reflex.
 #
 # You can read this notebook without running it. Running it takes a few seconds.
 
@@ -60,11 +60,11 @@ cut.run()
 # ## What was felt
 #
 # The left picture shows the force on the wrist of arm 1 along X. With the reflex, the motor stops within a
-# millimetre, at a force of 12 N. Without it, the motor pushes arm 2 with as much force as it has.
+# millimetre, at a force of 12 N. Without it, the motor pushes arm 2 with all the force that it has.
 #
 # The right picture shows the true place of X1. The motors have no position sensors. Without the reflex, the program
 # believes that X1 is at 200 mm (dashed), because it counts the steps that it has sent. The rotor has not followed
-# them.
+# these steps.
 
 # %%
 figure, (force, place) = plt.subplots(1, 2, figsize=(9, 3), dpi=80, layout="constrained")
@@ -82,9 +82,9 @@ cut.believed["X1"], round(float(cut.history["place"][-1, 0]), 2)
 # ## What the reflex does not save
 #
 # At full speed, a motor has little force to spare. The reflex still stops the arm, but both arms have lost steps by
-# then. Arm 2 was standing, so its motor took no notice, and its status says that all is well. The interpreter of MAL
-# therefore asks both wrists for the greatest force that they have felt, and marks the count of each axis that may
-# have slipped as doubtful.
+# then. Arm 2 was standing still, so its motor noticed nothing, and the status of X2 says that all is well. The
+# interpreter of MAL therefore asks both wrists for the greatest force that they have felt, and marks as doubtful the
+# count of each axis that may have slipped.
 
 # %%
 fast = handeye.Mal(collide.replace(" SLOW 50", ""), arm="gantries")
@@ -96,7 +96,7 @@ fast.status("X2"), fast.doubtful, fast.believed["X2"], round(float(fast.history[
 
 # %% [markdown]
 # `ORIGIN` ends the doubt: it moves an axis to the switch at the end of its rail, and counts from there. `ORIGIN`
-# also finds lost steps of which no wrist felt the cause. In the next program, the hand of arm 1 is lower, so the
+# also finds lost steps whose cause no wrist has felt. In the next program, the hand of arm 1 is lower, so the
 # column of arm 1 hits the hand of arm 2. The column has no force sensor. No reflex acts, and the program does not
 # notice the collision until `ORIGIN` checks the counts.
 

@@ -75,8 +75,8 @@ shared.run(until=130)
 shared.tasks
 
 # %% [markdown]
-# Does the flag keep the arms apart for any speed of the motors? One run shows one order of events. The search tries
-# all orders:
+# Does the flag keep the arms apart at any speed of the motors? A run shows only one order of events. The search
+# tries all orders:
 
 # %%
 shared.interleavings()
@@ -119,8 +119,8 @@ crash.doubtful
 # %% [markdown]
 # ## A deadlock
 #
-# Now two places are shared, the jig and the screwdriver, and each task needs both. LEFT takes the jig first, and
-# RIGHT takes the screwdriver first. Each waits for what the other one has.
+# Now the tasks share a jig and a screwdriver, and each task needs both. LEFT takes the jig first, and RIGHT takes the
+# screwdriver first. Each then waits for what the other one has.
 
 # %%
 dead = handeye.Mal((handeye.scripts / "dead.mal").read_text(encoding="utf-8"))
@@ -138,6 +138,6 @@ dead.stopped
 dead.interleavings()
 
 # %% [markdown]
-# If both tasks take the flags in the same order, the deadlock is gone. Try it: swap the two `TAKE` of RIGHT in
-# [dead.mal](../plans/dead.mal). [Handing pieces from arm to arm](../docs/handover.md) has a longer program, with a
+# If both tasks take the flags in the same order, the deadlock is gone. Try it: swap the two `TAKE` statements of RIGHT
+# in [dead.mal](../plans/dead.mal). [Handing pieces from arm to arm](../docs/handover.md) has a longer program, with a
 # race and a deadlock to find.
