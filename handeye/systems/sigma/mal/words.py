@@ -27,7 +27,9 @@ WORDS: Final[dict[str, Word]] = {
         "Go to a line, or execute a statement, if a condition holds.", "10 IF BEAM(1) = 0 THEN 110",
     ),
     "GOTO": Word("statement", "GOTO line", "Go to a line of the same task.", "10 GOTO 200"),
-    "GOSUB": Word("statement", "GOSUB line", "Go to a subroutine; its RETURN comes back here.", "10 GOSUB 500"),
+    "GOSUB": Word(
+        "statement", "GOSUB line", "Go to a subroutine; its RETURN goes back to the next line.", "10 GOSUB 500",
+    ),
     "RETURN": Word("statement", "RETURN", "Go back to the line after the last GOSUB.", "570 RETURN"),
     "FOR": Word(
         "statement", "FOR name = expression TO expression [STEP expression]",
@@ -36,8 +38,8 @@ WORDS: Final[dict[str, Word]] = {
     "NEXT": Word("statement", "NEXT name", "The end of the lines that FOR repeats.", "90 NEXT I"),
     "PRINT": Word(
         "statement", "PRINT [item {(,|;) item}]",
-        "Print texts and numbers. `,` moves to the next zone of 14 columns, `;` does not. At the end of the "
-        "statement, both keep the line open.",
+        "Print texts and numbers. `,` moves to the next zone of 14 columns, `;` does not. With either of them at the "
+        "end of the statement, the next PRINT continues the same line.",
         '60 PRINT "PIECES", PIECES',
     ),
     "INPUT": Word("statement", "INPUT name", "Wait for a number from the console.", "10 INPUT HEIGHT"),
@@ -69,14 +71,14 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "TAKE": Word(
         "statement", "TAKE flag",
-        "Wait until a flag is set, and clear it in the same statement, so that only one task takes it.",
+        "Wait until a flag is set, and clear the flag in the same statement, so that only one task takes it.",
         "160 TAKE PLACEFREE",
     ),
     "DELAY": Word("statement", "DELAY expression", "Wait for a time, in seconds.", "10 DELAY 0.5"),
     "MOVE": Word(
         "statement", "MOVE axis (TO|BY) expression {, axis (TO|BY) expression} [SLOW expression|LINE] [NOWAIT]",
-        "Move axes to places, or by distances, mm. Each axis gets one command, in the order of the text; the axes move "
-        "at the same time, each at its own speed. Then wait until all have stopped.",
+        "Move axes to positions, or by distances (both in mm). Each axis gets one command, in the order of the text; "
+        "the axes move at the same time, each at its own speed. Then wait until all have stopped.",
         "10 MOVE X1 TO 300, Y1 TO 150",
     ),
     "ORIGIN": Word(
@@ -85,17 +87,17 @@ WORDS: Final[dict[str, Word]] = {
         "steps since its last ORIGIN, the program stops.",
         "20 ORIGIN X1, Y1, Z1",
     ),
-    "SPEED": Word("statement", "SPEED axis, expression", "Limit the speed of an axis, mm/s; 0 means no limit.",
+    "SPEED": Word("statement", "SPEED axis, expression", "Limit the speed of an axis (in mm/s); 0 means no limit.",
                   "10 SPEED X1, 100"),
     "CURVE": Word(
         "statement", "CURVE axis, expression",
-        "Choose how an axis accelerates: 0 is the usual curve, 1 has a top speed of 562.5 mm/s, 2 accelerates half as "
-        "fast, 3 a quarter as fast, and 4 begins at half the start speed.",
+        "Choose how an axis accelerates: 0 is the usual curve, with a top speed of 500 mm/s; 1 has a top speed of "
+        "562.5 mm/s; 2 accelerates half as fast as 0, 3 a quarter as fast; 4 has half the start/stop speed.",
         "10 CURVE Z1, 2",
     ),
     "LIMIT": Word(
         "statement", "LIMIT axis, (expression|STANDARD)",
-        "Set the force, N, above which the axis stops; STANDARD sets the standard limit of the machine again.",
+        "Set the force (in N) above which the axis stops; STANDARD restores the machine's standard limit.",
         "10 LIMIT Z2, 25",
     ),
     "ACTUATE": Word(
@@ -105,21 +107,22 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "ON": Word(
         "statement", "ON ABORT [axis] GOTO line",
-        "If a motion of this task is aborted, on this axis or, if none is named, on any axis, go to a line.",
+        "Go to a line if a motion of this task is aborted: a motion of the named axis or, if none is named, of any "
+        "axis.",
         "10 ON ABORT GOTO 900",
     ),
     "RESUME": Word("statement", "RESUME", "Continue after the MOVE that was aborted.", "920 RESUME"),
     "THEN": Word("part", "THEN (line|statement)", "What to do if the condition of IF holds."),
     "ELSE": Word("part", "ELSE (line|statement)", "What to do if the condition of IF does not hold."),
-    "TO": Word("part", "axis TO expression", "In MOVE: the place, mm. In FOR: the last value."),
-    "BY": Word("part", "axis BY expression", "The distance, mm."),
+    "TO": Word("part", "axis TO expression", "In MOVE: the position (in mm). In FOR: the last value."),
+    "BY": Word("part", "axis BY expression", "The distance (in mm)."),
     "STEP": Word("part", "STEP expression", "In FOR: by how much the value grows; 1 if STEP is left out."),
     "SLOW": Word("part", "SLOW expression", "Move at this constant speed, 2 to 254 mm/s."),
     "LINE": Word(
         "part", "LINE",
         "Choose constant speeds with which all axes arrive together, so that the path is straight.",
     ),
-    "NOWAIT": Word("part", "NOWAIT", "Continue as soon as the commands are sent, without waiting for the motion."),
+    "NOWAIT": Word("part", "NOWAIT", "Continue as soon as the commands are sent; do not wait for the motion."),
     "STANDARD": Word("part", "STANDARD", "In LIMIT: the force limit that the machine has before any LIMIT."),
     "ABORT": Word("part", "ON ABORT", "A motor was stopped: at the end of its rail, or by a force."),
     "ABS": Word("function", "ABS(expression)", "The value without its sign."),
@@ -128,22 +131,22 @@ WORDS: Final[dict[str, Word]] = {
     "SQR": Word("function", "SQR(expression)", "The square root."),
     "POS": Word(
         "function", "POS(axis)",
-        "The place to which the axis was sent, mm. The computer knows this place from its own commands, without "
-        "asking the motor.",
+        "The position to which the axis was sent (in mm). The computer knows this position from its own commands, "
+        "without asking the motor.",
     ),
     "FORCE": Word(
         "function", "FORCE(axis)",
-        "The force on the wrist along the axis, N, as the force microcomputer answers.",
+        "The force on the wrist along the axis (in N), as reported by the force microcomputer.",
     ),
     "CRASHPOS": Word(
         "function", "CRASHPOS(axis)",
-        "The place, mm, at which the last motion of the axis was aborted, as reported by the motor.",
+        "The position (in mm) at which the last motion of the axis was aborted, as reported by the motor.",
     ),
     "STATUS": Word("function", "STATUS(axis)", "0 free, 1 busy, 2 stopped at the end of its rail, 3 stopped by a "
     "force."),
     "BEAM": Word(
         "function", "BEAM(arm)",
-        "The answer of the arm's hand: 1 if an object cuts the light beam of the hand, 0 if not.",
+        "The answer of the arm's hand: 1 if an object breaks the light beam of the hand, 0 if not.",
     ),
     "TIME": Word("function", "TIME", "Seconds since the program began."),
     "NOT": Word("operator", "NOT condition", "True if the condition does not hold."),
