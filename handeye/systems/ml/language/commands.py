@@ -80,7 +80,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("BAL", "v n", "Put the number of the next statement into variable v, and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
         ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. With n2, go to n1 only if the flag of any sensor s is on, otherwise "
-                                      "to n2; -s asks whether the flag of s is off. Without s, ask for all sensors.",
+                                      "to n2; -s asks whether the flag of s is off. Without s, any sensor counts.",
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or to the next statement.",
          "40 BRCOMP 100"),
