@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Set handeye up and run it, with nothing but Python 3.11 or newer.
+"""Set up handeye and run it. This needs only Python 3.11 or newer.
 
-python3 run.py demo             make .venv, install the locked packages and handeye, show a recorded run
-python3 run.py assemble         the same, then assemble the pump
-python3 run.py test             the same, with the test tools, then the test suite
-python3 run.py test browser     the same, then the checks of the pages in a browser, which needs Chromium
-python3 run.py WORD ...         the same as `handeye WORD ...`
+python3 run.py demo             set up .venv with the locked packages and handeye, then show a recorded run
+python3 run.py assemble         set up .venv, then assemble the pump
+python3 run.py test             set up .venv with the test tools, then run the test suite
+python3 run.py test browser     set up .venv likewise, then check the pages in a browser, which needs Chromium
+python3 run.py WORD ...         set up .venv, then run `handeye WORD ...`
 
-Afterwards `.venv/bin/handeye WORD ...` does without this file. Standard output has nothing but what handeye prints.
+Once .venv is set up, `.venv/bin/handeye WORD ...` works without this file. Only handeye writes to standard output.
 """
 
 import hashlib
@@ -27,27 +27,31 @@ VENV = ROOT / ".venv"
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 LOCK, TEST_LOCK = ROOT / "requirements.lock", ROOT / "requirements-dev.lock"
 STAMP = VENV / "set-up.stamp"
-"""Says what .venv was made from; written last."""
+"""Records what .venv was made from; written last."""
 UNFINISHED = VENV / "set-up.unfinished"
-"""Is there while .venv is being made or changed: where a start finds it, .venv is made again."""
+"""Exists while .venv is being made or changed. If it exists when run.py starts, .venv is made again."""
 TURNSTILE = VENV / "set-up.turnstile"
-"""Locked by the start that sets up; others wait for it."""
+"""Locked by the process that sets up .venv; other processes wait for the lock."""
 BROWSER = "HANDEYE_CHROMIUM"
-"""Names the browser for the checks of the pages."""
+"""Environment variable that gives the browser for the checks of the pages."""
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-"""Its default name."""
+"""Browsers to look for if the variable is not set."""
 
 
 CALLED = "HANDEYE_CALLED"
-"""Names this file to handeye, which then says `python3 run.py report` where it would say `handeye report`."""
+"""Environment variable that tells handeye the name of this file: its messages then show `python3 run.py report`
+instead of `handeye report`.
+"""
 
 
 class SetUpFailed(Exception):
-    """What is the matter, and what to do about it."""
+    """Raised when .venv cannot be set up; the message says why, and what to do about it."""
 
 
 class ProgressLine:
-    """One line that says how far the set-up is: on a terminal it changes in place, elsewhere it is written once."""
+    """A line that shows the progress of the set-up. On a terminal the line is updated in place; elsewhere one
+    message is written.
+    """
 
     def __init__(self, packages: int) -> None:
         self.packages = packages
@@ -72,11 +76,11 @@ class ProgressLine:
 
     @property
     def seconds(self) -> int:
-        """Since the set-up began."""
+        """Seconds since the set-up began."""
         return round(time.monotonic() - self._began)
 
     def heard(self, line: str) -> None:
-        """A line of pip's."""
+        """Note a line of pip's output."""
         self.collected += line.startswith("Collecting ")
 
     def _tell(self) -> None:
@@ -102,7 +106,7 @@ def main(words: list[str]) -> int:
         say(f"Setting up failed: {error.filename or VENV}: {error.strerror}.")
         return 2
     except KeyboardInterrupt:
-        say("\nSetting up was interrupted; the next start completes it.")
+        say("\nSetting up was interrupted; run the command again to complete it.")
         return 130
     if not testing:
         os.environ[CALLED] = f"{Path(sys.executable).name} {sys.argv[0]}"
@@ -115,12 +119,12 @@ def main(words: list[str]) -> int:
 
 
 def check_in_browser(words: list[str]) -> int:
-    """The checks that need a browser, which the test suite leaves out."""
+    """Run the checks that need a browser, which the test suite leaves out."""
     wanted = os.environ.get(BROWSER)
     found = next(filter(None, map(shutil.which, [wanted] if wanted else BROWSERS)), None)
     if found is None:
-        named = f"{BROWSER} names {wanted}, which is no program" if wanted else "There is no Chromium here"
-        say(f"{named}: on Debian, `apt install chromium` brings what the checks in a browser need.")
+        named = f"{BROWSER} names {wanted}, which is not a program" if wanted else "There is no Chromium here"
+        say(f"{named}: on Debian, `apt install chromium` installs what the checks in a browser need.")
         return 2
     os.environ[BROWSER] = found
     checks = sorted(str(check) for check in (ROOT / "tests" / "browser").glob("check_*.py"))
@@ -132,10 +136,10 @@ def say(sentence: str) -> None:
 
 
 def set_up(lock: Path) -> None:
-    """Make the environment hold handeye and what `lock` lists, unless the stamp says that it does already.
+    """Install handeye and the packages that `lock` lists in .venv, unless the stamp says that they are installed.
 
     Raises:
-        SetUpFailed: it cannot be made.
+        SetUpFailed: .venv cannot be set up.
     """
     if is_set_up(lock):
         return
@@ -157,30 +161,36 @@ def set_up(lock: Path) -> None:
 
 
 def is_set_up(lock: Path) -> bool:
-    """Whether .venv was made from this lock, or from that of the tests, which holds all of the other."""
+    """Return True if .venv was made from this lock file, or from the lock file of the tests, which lists all
+    packages of the other.
+    """
     if UNFINISHED.exists() or not (PYTHON.exists() and STAMP.exists()):
         return False
     return STAMP.read_text() in {digest(lock), digest(TEST_LOCK)}
 
 
 def digest(lock: Path) -> str:
-    """Of all that an environment is made from: packages, commands and version of handeye, Python, the place."""
+    """Compute a digest of everything that an environment is made from: the packages, handeye's commands and
+    version, the version of Python, and the folder.
+    """
     made_from = lock.read_bytes() + (ROOT / "pyproject.toml").read_bytes() + f"{sys.version}{ROOT}".encode()
     return hashlib.sha256(made_from).hexdigest()
 
 
 @contextmanager
 def alone(turnstile: IO[str]) -> Iterator[None]:
-    """Holds the lock of a file, which ends with this process however it ends."""
+    """Hold the lock of a file while the context is open. The lock ends with this process, however the process
+    ends.
+    """
     if not locked(turnstile, wait=False):
-        say(f"Another start is setting up {VENV.name}; waiting for it.")
+        say(f"Another process is setting up {VENV.name}; waiting for it to finish.")
         while not locked(turnstile, wait=True):
             pass
     yield
 
 
 def locked(file: IO[str], *, wait: bool) -> bool:
-    """Whether the lock of a file could be had."""
+    """Try to lock a file. Returns True if this succeeds."""
     try:
         if sys.platform == "win32":
             import msvcrt
@@ -198,16 +208,16 @@ def locked(file: IO[str], *, wait: bool) -> bool:
 
 
 def empty_environment() -> None:
-    """Take away whatever an interrupted start left."""
+    """Delete whatever an interrupted set-up left."""
     for left in set(VENV.iterdir()) - {TURNSTILE, UNFINISHED}:
         shutil.rmtree(left) if left.is_dir() and not left.is_symlink() else left.unlink()
 
 
 def make_environment() -> None:
-    """A virtual environment; without pip of its own where Debian's python3-venv is missing.
+    """Make a virtual environment. It has no pip of its own if Debian's python3-venv is missing.
 
     Raises:
-        SetUpFailed: Python cannot make one.
+        SetUpFailed: Python cannot make an environment.
     """
     make = [sys.executable, "-m", "venv", str(VENV)]
     if subprocess.run(make, capture_output=True).returncode == 0:
@@ -220,10 +230,10 @@ def make_environment() -> None:
 
 
 def install_packages(lock: Path, line: ProgressLine) -> None:
-    """Exactly what the lock lists, by hash.
+    """Install exactly what the lock file lists, checked by hash.
 
     Raises:
-        SetUpFailed: pip could not.
+        SetUpFailed: pip could not install them.
     """
     code, said = pip(
         "install",
@@ -236,17 +246,18 @@ def install_packages(lock: Path, line: ProgressLine) -> None:
     )
     if code != 0:
         raise SetUpFailed(
-            f"pip could not install what {lock.name} lists. "
-            f"With a connection and 1 GB of free disk, start again: the next start begins from scratch. pip "
+            f"pip could not install the packages that {lock.name} lists. Make sure that there is a network "
+            f"connection and 1 GB of free disk space, then run the command again; it begins from scratch. pip "
             f"said:\n{said}"
         )
 
 
 def install_handeye(line: ProgressLine) -> None:
-    """This folder, editable: the command, the lexer's entry point, the version. Needs no network.
+    """Install this folder as an editable package: its command, the lexer's entry point, and its version. This
+    needs no network.
 
     Raises:
-        SetUpFailed: pip could not.
+        SetUpFailed: pip could not install it.
     """
     how = ["--no-index", "--no-deps", "--no-build-isolation"]
     code, said = pip("install", *how, "--editable", str(ROOT), line=line)
@@ -255,17 +266,18 @@ def install_handeye(line: ProgressLine) -> None:
 
 
 def pip(*words: str, line: ProgressLine) -> tuple[int, str]:
-    """Run pip of the environment, or this Python's for it: its exit code, and all that it said.
+    """Run the environment's pip, or else this Python's pip, on the environment. Returns the exit code and all
+    output.
 
     Raises:
-        SetUpFailed: there is none.
+        SetUpFailed: there is no pip.
     """
     if has_pip(PYTHON):
         command = [str(PYTHON), "-m", "pip"]
     elif has_pip(sys.executable):
         command = [sys.executable, "-m", "pip", "--python", str(PYTHON)]
     else:
-        raise SetUpFailed(f"{sys.executable} has no pip; on Debian, `apt install python3-venv` brings it")
+        raise SetUpFailed(f"{sys.executable} has no pip; on Debian, `apt install python3-venv` installs it")
     command += ["--disable-pip-version-check", "--no-color"]
     said = []
     with subprocess.Popen(
@@ -282,7 +294,9 @@ def has_pip(python: str | Path) -> bool:
 
 
 def run(command: list[str]) -> int:
-    """Become the program: its exit code and its answer to Ctrl-C are those of this one."""
+    """Replace this process by a command of the environment's Python, so that exit code and Ctrl-C are those of the
+    command. On Windows, run the command and return its exit code.
+    """
     if os.name != "nt":
         os.execv(PYTHON, [str(PYTHON), *command])
     return subprocess.run([str(PYTHON), *command]).returncode

@@ -118,7 +118,7 @@ def test_an_interruption_says_what_comes_next(
 
     monkeypatch.setattr(start, "pip", interrupted)
     assert start.main(["check"]) == 130
-    assert capfd.readouterr().err.endswith("Setting up was interrupted; the next start completes it.\n")
+    assert capfd.readouterr().err.endswith("Setting up was interrupted; run the command again to complete it.\n")
 
 
 def test_the_checks_in_a_browser_say_what_they_need(
@@ -126,7 +126,7 @@ def test_the_checks_in_a_browser_say_what_they_need(
 ) -> None:
     monkeypatch.setenv(start.BROWSER, "nowhere/chromium")
     assert start.main(["test", "browser"]) == 2
-    assert "HANDEYE_CHROMIUM names nowhere/chromium, which is no program" in capfd.readouterr().err
+    assert "HANDEYE_CHROMIUM names nowhere/chromium, which is not a program" in capfd.readouterr().err
 
 
 def test_the_checks_in_a_browser_are_found_and_told_where_it_is(

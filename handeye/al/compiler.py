@@ -34,7 +34,8 @@ def check_form(source: Source) -> list[Diagnostic]:
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
-    """Compile a text. Returns the program, or None if a diagnostic is an error, and the diagnostics.
+    """Compile a text. Returns the program, which is None if one of the diagnostics is an error, and the
+    diagnostics.
 
     The required texts are in `source.required` (see `includes.sewn`). Spans are offsets in the combined text. The
     program contains the taught positions and parts, and those that the text adds. There are at most `LIMIT`
@@ -85,7 +86,9 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
 
 
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
-    """Drop unknown labels that follow from another mistake: a label without a colon, or a wrong operand."""
+    """Drop the diagnostics of unknown labels that only follow from another mistake: a label without a colon, or a
+    wrong operand.
+    """
     lost = [d for d in found if d.code == "unknown-label"]
     if not lost:
         return found

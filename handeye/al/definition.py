@@ -38,7 +38,7 @@ REV_PER_MIN = OperandUnit(name="rpm", si=units.RPM)
 
 
 class Refers(StrEnum):
-    """Kinds of names to which operands refer."""
+    """What the name in an operand refers to."""
 
     POSITION = "position"
     PART = "part"
@@ -73,12 +73,12 @@ class Operand(Record, frozen=True, kw_only=True):
 
     @property
     def is_vector(self) -> bool:
-        """True if the operand must be a vector, or the name of one."""
+        """True if the operand must be a vector or the name of a vector."""
         return bool(self.components)
 
     @property
     def plain(self) -> str:
-        """The operand, as a sentence calls it."""
+        """What a sentence calls the operand."""
         return f"vector {self.name}" if self.is_vector else self.name or f"word `{self.word}`"
 
     @property

@@ -61,8 +61,8 @@ def elsewhere(word: str) -> str | None:
 
 
 def with_digits(text: str) -> str | None:
-    """Return the number that was meant by a text with letters that look like digits, or None if the text is no such
-    number.
+    """Return the number that was meant by a text with letters in place of similar digits, such as `1O` for 10.
+    Returns None if the text is not such a number.
     """
     right = text.translate(LOOKALIKES)
     return right if right != text and _PLAIN.fullmatch(right) else None
@@ -109,8 +109,8 @@ def strange(text: str) -> str | None:
 
 
 _LENGTH, _ANGLE = "distances are in inches", "angles are in degrees"
-_FORCE = "forces and weights are in ounces, moments and torques in ounce-inches"
-_SPEED = "speeds are in inches per second, the speed of the screwdriver in revolutions per minute"
+_FORCE = "forces and weights are in ounces; moments and torques are in ounce-inches"
+_SPEED = "speeds are in inches per second; the speed of the screwdriver is in revolutions per minute"
 UNIT_WORDS: Final = {
     **dict.fromkeys(("in", "inch", "inches", "ft", "mm", "cm", "m"), _LENGTH),
     **dict.fromkeys(("oz", "ounce", "ounces", "lb", "lbs", "g", "kg", "n", "nm", "ozin"), _FORCE),

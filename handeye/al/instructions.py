@@ -50,7 +50,7 @@ _AXES = vector(x=ONE, y=ONE, z=ONE)
 _PICTURE = name_of("picture", Refers.PICTURE)
 _PART = name_of("part", Refers.PART)
 _VALUE = count("value", 0, MAX_COUNT, f"a counter can be set to a value from 0 to {MAX_COUNT}")
-_ZERO_WHY = "the meaning of other numbers in 1977 is lost; only 0, which changes nothing, is certain"
+_ZERO_WHY = "what other numbers meant in 1977 is unknown; only 0, which changes nothing, has a known meaning"
 _ZERO = Operand(name="0", takes=(Number,), units=(ONE,), low=0.0, high=0.0, why=_ZERO_WHY, optional=True)
 _FORCE = Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR)
 _STOP_FORCE = replace(
@@ -67,14 +67,13 @@ PLACES, TOOL, VISION, RUN = "Positions", "Tool and load", "Vision", "Order of th
 _MEANINGS: Final = {
     "MOVE": "go to a position: rise, move across and go down; with DIRECT, go straight to the position",
     "CHANGE": "move in a straight line from the present place, in this direction (in table coordinates), by this "
-    "distance (in), at this speed (in/s; 0 is the usual speed)",
+    "distance (inches), at this speed (in/s; 0 is the usual speed)",
     "PLACE": "lower the hand by at most 3 in, until it meets a force of 50 oz; error 23 if it does not meet this force",
     "PARK": "go to the position called PARK",
     "TURN": "move on a circle about the vertical line through a position, by this angle (degrees, counter-clockwise)",
     "STOP": "end the next motion when the hand presses along this vector with more ounces than the vector's length, or "
-    "exerts more than this moment (oz-in); a single number (an extension of handeye) limits the force against the "
-    "motion, in any "
-    "direction; error 23 if the motion is not stopped",
+    "exerts more than this moment (oz-in); a single number (an extension of handeye) limits the force that "
+    "opposes the motion, whatever its direction; error 23 if the motion is not stopped",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
     "stiff) for each axis, or the number of axes and their names: `2 X Y`",
@@ -86,25 +85,25 @@ _MEANINGS: Final = {
     "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if the torque is "
     "never reached",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
-    "OPEN": "open or close the fingers to this gap (in)",
-    "CLOSE": "close on a part; error 2 if there is no part or the part is thinner than the minimum (in), error 7 if "
-    "the part is thicker than the maximum (in)",
+    "OPEN": "open or close the fingers to this gap (inches)",
+    "CLOSE": "close on a part; error 2 if there is no part or the part is thinner than the minimum (inches), "
+    "error 7 if the part is thicker than the maximum (inches)",
     "CENTER": "close on a part without pushing it, because the arm moves instead; error 2 if there is no part or "
-    "the part is thinner than the minimum (in)",
+    "the part is thinner than the minimum (inches)",
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
-    "SEARCH": "start a search from the present place with this step (in): a spiral of three steps to each side, or, "
-    "with ALONG, a line in this direction (degrees from table x) of four steps to each side; STEPS gives another "
-    "number of steps",
+    "SEARCH": "start a search from the present place with this step (inches): a spiral that extends three steps "
+    "to each side, or, with ALONG, a line in this direction (degrees from the x axis of the table) that extends "
+    "four steps to each side; STEPS gives another number of steps",
     "AOJ": "go to the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
     "SOJG": "subtract one from a counter, and jump to the label while the counter is still positive",
     "JUMP": "continue at the label",
     "WAIT": "set the brakes and show the operator a text; without an operator the run ends here",
-    "UNDO": "have the arm undo this stage and start the stage again, once or the given number of times; after that, "
-    "continue",
-    "TRANS": "define a hand position by x, y, z (in) and the angles O, A, T (degrees), in table coordinates or in "
-    "those of a part",
+    "UNDO": "have the arm undo this stage and start the stage again; after one undo, or the given number of them, "
+    "UNDO has no effect",
+    "TRANS": "define a hand position by x, y, z (inches) and the angles O, A, T (degrees), in table coordinates "
+    "or in those of a part",
     "VECT": "define a vector for STOP, FORCE or CHANGE, in ounces, in ounce-inches or without a unit; "
     "X, Y and Z are predefined",
     "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER, save only its component along "
@@ -112,11 +111,11 @@ _MEANINGS: Final = {
     "HERE": "define a position as the present place of the hand; a taught position that belongs to a part stays "
     "relative to that part",
     "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
-    "TRAVEL": "check how far (in) the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance is "
-    "outside the range",
-    "HEIGHT": "check how much higher (in) the hand stopped in the last motion than in the motion before the SAVE of "
-    "this "
-    "name; error 9 if this height is outside the range",
+    "TRAVEL": "check how many inches the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance "
+    "is outside the range",
+    "HEIGHT": "compare the heights at which two motions stopped: the last motion, and the motion before the SAVE "
+    "of this name; error 9 if the difference (inches, positive if the last motion stopped higher) is outside the "
+    "range",
     "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, and 0 stops the screwdriver",
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",

@@ -51,8 +51,8 @@ def lower(
     *,
     inner: Mapping[str, Name] | None = None,
 ) -> Lowered:
-    """Convert an expanded program to stages and steps. They are valid if no error was reported. `inner` are the
-    labels inside macros.
+    """Convert an expanded program to stages and steps. The stages and steps are valid only if no error was
+    reported. `inner` are the labels inside macros.
     """
     lowering = _Lowerer(report=report, inner=inner or {})
     for item in placed:

@@ -131,7 +131,9 @@ def used(parameter: Span) -> Label:
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:
-    """Make a label at the parameter that an operand replaces. Returns none if the operand replaces no parameter."""
+    """Make a label at the parameter that an operand replaces. Returns no label if the operand replaces no
+    parameter.
+    """
     return () if operand.use is None else (used(operand.use),)
 
 

@@ -52,23 +52,23 @@ def begin(
             checkpoint, or the folder of a run to continue from its newest checkpoint.
         seed: seed from which the world is generated; 0 by default.
         at: the stage before which the run pauses: its name, a unique part of its name, or its number from 1.
-            Earlier stages are executed first; if `script` is the folder of a run, from the nearest earlier
-            checkpoint on.
+            Earlier stages are executed first; if `script` is the folder of a run, they are executed from the
+            nearest earlier checkpoint on.
         world: a world, instead of a seed.
         camera: renderer of the TV camera: `gl` (OpenGL), `ray` (ray casting, the same on every computer) or `auto`;
             or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
             renderer's method `render(data, view)` computes the light on the camera's target, shape (256, 333); 1 is
             a white surface in full light.
         search: a search pattern that replaces the square spiral of `SEARCH`: a function that takes the number of a
-            place, from 0, and returns its x and y in table coordinates, in search steps. It is called once for each
-            number. A resumed run calls the function again, and the function must then return the same values. The
-            search ends with error 6 when the function returns None or raises StopIteration, or when it has tried
-            the number of places that the `SEARCH` allows, 49 by default. A search `ALONG` a line does not use the
-            function. Each try is an event `SearchAdvanced`, and `run.state.memory.place` is the number of the
-            current place.
+            place, from 0, and returns the x and y of that place in table coordinates, as multiples of the search
+            step. It is called once for each number. A resumed run calls the function again, and the function must
+            then return the same values. The search ends with error 6 when the function returns None or raises
+            StopIteration, or when it has tried the number of places that the `SEARCH` allows, 49 by default. A
+            search `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
+            `run.state.memory.place` is the number of the current place.
         referee: a function that takes the true state of the cell and returns findings by name; or limits for
             findings of the task's referee, such as `{"screws_clamp": 60}`, each in the unit of the finding. To
-            judge a kept run again, use `handeye.begin(folder, referee=...).result`.
+            judge a saved run again, use `handeye.begin(folder, referee=...).result`.
         judge: whether the referee judges the run when it ends; by default True if a referee is given, or if the
             resumed run was started with one.
         taught: taught positions, as for `handeye.plan`.
@@ -79,7 +79,7 @@ def begin(
 
     Limits are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved; checkpoints, trace
     and result hold only the name of the function or class. `handeye resume` and `handeye trace verify` refuse such
-    a run; `handeye.begin` resumes it if it is given code of the same name.
+    a run; `handeye.begin` resumes it if you give it code with the same name.
 
     Raises:
         ScriptError: the script has errors.

@@ -36,7 +36,8 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
     else:
         if not callable(camera):
             raise BadArgument(
-                f"a camera must be `auto`, `gl`, `ray`, or a function that takes a scene, not {camera!r}"
+                f"a camera must be `auto`, `gl`, `ray` or a function that takes a scene; {camera!r} is none of "
+                "these"
             )
         name = name_of(camera)
         maker = _named(lambda model: ReplacedCamera(name, camera, model), camera)
@@ -58,7 +59,8 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
         return None
     if not callable(given):
         raise BadArgument(
-            f"a referee must be a function that takes the true state of a cell, or a table of limits, not {given!r}"
+            "a referee must be either a table of limits or a function that takes the true state of a cell, not "
+            f"{given!r}"
         )
     name = name_of(given)
     return _named(lambda truth: checked_findings(name, given(truth)), given)
@@ -67,7 +69,8 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
 def _checked_search(search: SearchPattern) -> SearchPattern:
     if not callable(search):
         raise BadArgument(
-            f"a search must be a function that takes the number of a place and returns the place, not {search!r}"
+            f"a search must be a function that takes the number of a place and returns the place; {search!r} is "
+            "not a function"
         )
 
     name = name_of(search)

@@ -228,7 +228,7 @@ def _for_task(made: Plan, task: str | None) -> Plan:
 def _check_untaught(made: object, taught: object) -> None:
     """Raises InvalidInput if taught positions are given together with a finished plan."""
     if taught is not None:
-        raise BadArgument(f"{made} is a plan, which already has its positions; leave out taught=...")
+        raise BadArgument(f"{made} is a plan, which already has its positions; omit `taught=...`")
 
 
 def _taught(given: FileName) -> Taught:

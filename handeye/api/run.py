@@ -143,8 +143,8 @@ class Run:
         there.
 
         `back` resets the simulator; `undo` moves the arm, as on a real machine. The undone steps stay in the
-        events. If a motion meets unexpected resistance, or if the hand does not hold the object that it held at
-        that step, the program calls the operator.
+        events. If a motion meets unexpected resistance, or if the hand no longer holds the object that it held
+        when the step was executed, the program calls the operator.
 
         Args:
             steps: how many executed steps to undo; or a stage (its name or a part of the name), to undo back to the
@@ -366,8 +366,8 @@ class Run:
         """Export the present state of the cell to other programs; the run may be open or closed.
 
         Args:
-            path: a folder, for a scene that plain MuJoCo can load; or a file that ends in .glb, for solids.
-            part: the solids to export: `cell` (the default) or `pump`.
+            path: a folder, to export a scene that plain MuJoCo can load; or a file name that ends in `.glb`, to
+            export the solids as a 3D model. part: which solids to export: `cell` (the default) or `pump`.
             overwrite: replace an existing export.
 
         Returns:

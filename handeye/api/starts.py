@@ -84,7 +84,7 @@ def start_of(
     """
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
-            raise Refused("a resumed run already has its positions; leave out taught=...")
+            raise Refused("a resumed run already has its positions; omit `taught=...`")
         if out is not None and stage is None and os.path.realpath(out) == os.path.realpath(script):
             return _again(script, wanted)
         return Start(state=_kept(script, stage, wanted))
@@ -132,7 +132,7 @@ def _again(given: FileName, wanted: RunRequest) -> Start:
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)
     if has_ended(path, start, judged=start.setup.judged):
-        raise Refused(f"the run in {path} has ended; leave out out=... to open it and go back")
+        raise Refused(f"the run in {path} has ended; omit `out=...` to open it and go back")
     _check_same(path, start.setup, wanted)
     if wanted.replaced or wanted.limits not in (None, start.setup.limits):
         raise Refused(
@@ -154,8 +154,8 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
-    """Return the checkpoint with the caller's search pattern, camera and referee from now on. Its setup and first
-    event name them.
+    """Return the checkpoint, which from now on uses the caller's search pattern, camera and referee. Its setup and
+    its first event name these parts.
     """
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start

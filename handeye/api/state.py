@@ -31,8 +31,8 @@ class Memory:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class State:
-    """The state in which a run is paused: its place in the program, and the arm as measured by its own sensors. Two
-    states are equal if all fields are equal.
+    """The state in which a run is paused: the place in the program, and the arm as measured by its own sensors.
+    Two states are equal if all fields are equal.
 
     >>> state = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray").step()
     >>> state

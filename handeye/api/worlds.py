@@ -59,8 +59,8 @@ class World:
                 number for `arm.friction` is in N m for revolute joints and in N for the prismatic joint.
             scale: factors by which errors are multiplied, in addition to the level, by the names of quantities or
                 groups; `unsourced` stands for all quantities whose size has no source.
-            faults: faults to inject, from the list that `handeye faults --list` prints: `NAME` or `NAME=VALUE`;
-                followed by `@N`, the fault begins at stage N of the program.
+            faults: faults to inject, from the list that `handeye faults --list` prints: `NAME` or `NAME=VALUE`.
+                With `@N` at the end, the fault begins at stage N of the program.
             task: name of the task.
 
         Raises:
@@ -140,8 +140,8 @@ class World:
         """Export the cell of this world, in its initial state, to other programs.
 
         Args:
-            path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
-            part: the solids to export: `cell` (the default) or `pump`.
+            path: a folder, to export a scene that plain MuJoCo can load; or a file name that ends in `.glb`, to
+            export the solids as a 3D model. part: which solids to export: `cell` (the default) or `pump`.
             overwrite: replace an existing export.
 
         Returns:

@@ -32,8 +32,8 @@ def torque(
 def felt_wrench(
     M: Array, bias: Array, J: Array, tau: Array, qd_before: Array, qd_after: Array, period: float
 ) -> Array:
-    """Estimate the external force and moment on the hand during a servo period (s) with torques `tau`, before
-    taring. For the method see `external_wrench`.
+    """Estimate the external force and moment on the hand during a servo period of length `period` (s), in which
+    the torques are `tau`. The estimate is not tared. For the method, see `external_wrench`.
     """
     acceleration = (qd_after - qd_before) / period
     return external_wrench(J, M @ acceleration + bias - tau)

@@ -35,8 +35,8 @@ margin.
 
 
 def unknown_friction(arm: ArmModel, friction: Array) -> Array:
-    """Return an upper bound of the friction of each joint that remains unknown after friction has been measured,
-    shape (n,), N m or N.
+    """Return, for each joint, an upper bound on the friction that is still unknown after friction has been
+    measured; shape (n,), N m or N.
     """
     return np.asarray(torque_step(arm) / 4 + UNKNOWN * friction)
 
@@ -59,8 +59,8 @@ def felt_in_air(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> 
 
 
 def faint(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> float | None:
-    """Return the greatest force (N) or moment (N m) sensed in free air if it exceeds `exerted`, because a guard at
-    `exerted` may then trip without contact. Returns None if it does not.
+    """Return the greatest force (N) or moment (N m) sensed in free air if it exceeds `exerted`; a guard at
+    `exerted` may then trip without contact. Returns None if it does not exceed `exerted`.
     """
     most = felt_in_air(arm, q, friction, exerted)
     return most if float(np.linalg.norm(np.array(exerted.vector))) < most else None

@@ -14,7 +14,8 @@ from handeye.core.record import Record
 MAX_TURN_GAP: Final = 0.0063
 MAX_SLIDE_GAP: Final = 0.0011
 """Difference between the two sensors of a joint (rad or m) that the waviness of a potentiometer can cause: twice
-its largest stated amplitude (.09 degrees, .011 in), at the high level of errors, which doubles this amplitude.
+its largest amplitude, where the amplitude itself is twice the stated one (.09 degrees, .011 in), as at the high
+level of errors.
 """
 READING_STEPS: Final = 1.5
 """Tolerance for two readings of one position, in converter steps: half a step for each, and their noise."""
@@ -48,7 +49,7 @@ Two steps allow for the noise at the high level, the others for an arm that cree
 
 UNEVEN: Final = 0.25
 """Change between two swings of a joint, as a fraction of its swing, above which its tachometer is looked at more
-closely. Chosen: of 278 measurements in three sound runs, two gave more.
+closely. Chosen: of 278 measurements in three runs without faults, two were above it.
 """
 STILL_STEPS: Final = 2.0
 """Tolerance, in converter steps, for the median deviation of the rate readings of a joint that is held still.
@@ -107,7 +108,7 @@ def scattered(arm: ArmModel, rates: Array) -> Scatter | None:
     """Find the joint whose rate readings, shape (N, n), scatter most while the arm holds still. Returns None if all
     scatter is tolerable.
 
-    The median leaves out a jerk, such as that of a held part that slips.
+    The median ignores a single jerk, as when a held part slips.
     """
     scatter = np.median(np.abs(rates - np.median(rates, axis=0)), axis=0)
     limit = STILL_STEPS * rate_step(arm)

@@ -31,14 +31,16 @@ MAX_DRAG_RATIO: Final = 2.0
 """Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in
 addition.
 
-Measured friction is right within a quarter of a step and 2 %, and so is the torque measured in a motion: at twice
-the stated errors, up to 1.08 times and half a step. The rest allows for weight that differs between the two
-directions. Sound joints of twelve worlds reach 1.4.
+Measured friction is accurate to a quarter of a step plus 2 %, and so is the torque measured in a motion. At twice
+the stated errors, a joint without fault can therefore seem to have 1.08 times its friction, plus half a step. The
+rest of the ratio allows for weight that differs between the two directions. In twelve worlds, joints without fault
+reached a ratio of 1.4.
 """
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
 """Possible relative error of weight and inertia torques if a joint moved in one direction only. It allows for
-errors of masses, mass centres and drives of three times twice their stated spreads.
+errors of masses, mass centres and drives up to six times their stated spreads: three times the spreads at the high
+level of errors, which are twice the stated ones.
 """
 AT_HAND: Final = 0.15
 """Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Chosen: beyond

@@ -34,8 +34,8 @@ LIMIT: Final = 5.0
 """Limit of the remainder of a joint, in multiples of its uncertainty. The uncertainty is one sigma, for errors of
 twice their stated size.
 
-A pump takes about 350 motions, in which two joints are checked. A limit of 4 would stop one sound pump in 20; a
-limit of 5 stops one in 2,500.
+Assembling a pump takes about 350 motions, in which two joints are checked. A limit of 4 would stop one assembly in
+20 although all drives work; a limit of 5 stops one in 2,500.
 """
 OFF: Final = 0.4  # of LIMIT: from there on other joints are reported beside the worst
 
@@ -82,8 +82,8 @@ def balanced(
 
 
 def _doubt(arm: ArmModel) -> Array:
-    """Return the least uncertainty of a mean torque: a quarter of a converter step, in the torque as well as in the
-    friction.
+    """Return the least uncertainty of a mean torque: a quarter of a converter step in the torque, and the same in
+    the friction.
     """
     return np.asarray(torque_step(arm) * np.sqrt(2) / 4)
 

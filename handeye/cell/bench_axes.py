@@ -22,13 +22,13 @@ Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
 
 
 def sensor(name: str) -> Sense:
-    """Make the function for a channel that reads the values of the scene's sensor `name`."""
+    """Make the function that reads a channel whose values are those of the scene's sensor `name`."""
     return lambda _, data: np.asarray(data.sensor(name).data)
 
 
 def switch(name: str, above: float = 0.0) -> Sense:
-    """Make the function for a switch channel: 1 while the sensor `name` shows more than the threshold `above`, or
-    else 0.
+    """Make the function that reads a switch channel: 1 while the sensor `name` shows more than the threshold
+    `above`, otherwise 0.
     """
     return lambda _, data: (float(data.sensor(name).data[0] > above),)
 
@@ -207,7 +207,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
                 self._allow_sleep(allowed=True)
 
     def _plan(self) -> None:
-        """Compute the set-points for the rest of the period, by the physics steps that are left after each."""
+        """Compute the set-points for the rest of the period. Row k is the set-point when k physics steps of the
+        period are left.
+        """
         self._set_points = self._goal - np.arange(self._left)[:, np.newaxis] * self._way
 
     @property

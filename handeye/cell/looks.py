@@ -1,4 +1,4 @@
-"""Shapes of the MuJoCo model that pictures and traces show, and their names there."""
+"""Names for MuJoCo's shape types, and for the geom groups that decide where a shape is seen."""
 
 from typing import Final
 

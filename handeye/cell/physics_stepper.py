@@ -152,7 +152,7 @@ class PhysicsStepper:
         return smooth
 
     def _held(self) -> set[int]:
-        """Return the trees of bodies that the hand carries, one body with another."""
+        """Return the trees of bodies that the hand carries, directly or by way of other carried bodies."""
         pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in self._touching()]
         reached, before = {int(self._model.body_treeid[self._hand])}, 0
         while len(reached) > before:

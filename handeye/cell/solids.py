@@ -1,8 +1,9 @@
-"""The solids of a scene, by name, as trimesh meshes; and the scene as a glTF file (GLB) of them.
+"""The solids of a scene, by name, as trimesh meshes; and the scene as a glTF file (GLB) that contains these
+solids.
 
-A solid is a coloured surface, with its mass and whether it is closed. If a surface consists of several coloured
-pieces in the scene, the pieces form one solid here. A surface is closed only if its faces share their corners, and
-a corner has only one colour. Where two colours meet, the corners get the lighter colour.
+A solid is a coloured surface with a mass. It also records whether the surface is closed. If a surface consists of
+several coloured pieces in the scene, the pieces form one solid here. A surface is closed only if its faces share
+their corners, and a corner has only one colour. Where two colours meet, the corners get the lighter colour.
 
 The file has a tree of named bodies, their solids, and places on them. In glTF, y points up and colours are linear,
 so axes and colours are converted. Grain and gloss are left out.

@@ -55,7 +55,7 @@ def figures(values: Array) -> tuple[float, ...]:
 
 
 def finite(values: V, what: str) -> V:
-    """Return the values. Raises InvalidInput if a value is not finite; `what` names the values in its sentence."""
+    """Return the values. Raises InvalidInput if a value is not finite; `what` names the values in the message."""
     if not all(map(math.isfinite, values)):
         raise BadFile(f"{what} holds a value that is not a finite number")
     return values

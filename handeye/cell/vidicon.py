@@ -19,8 +19,8 @@ GAMMA: Final = 0.7
 NOISE: Final = 1.0  # sigma, levels
 PEAK: Final = 12.5  # level of the bright parts
 BRIGHT: Final = 97  # percentile that counts as the bright parts
-"""Percentile of the signal that counts as the bright parts. This value and the constants above are the signal chain
-of the vision study, section 0.1. Its numbers are placeholders that give a realistic picture.
+"""Percentile of the signal that counts as the bright parts. This value and the constants above are those of the
+signal chain in the vision study, section 0.1. They are placeholders that give a realistic picture.
 """
 GAIN_WINDOW: Final = 0.6
 """The target voltage is adjusted for this fraction of the width and of the height of the picture, about its centre.

@@ -25,7 +25,8 @@ _NO_MEMORY: Final = "allocate memory"
 app = App(
     name="handeye",
     version=HANDEYE,
-    help="A simulated robot arm that assembles a water pump by camera, touch and force, as Stanford did in 1973.\n\n"
+    help="Simulates a robot arm that assembles a water pump by camera, touch and force, as an arm at Stanford "
+    "did in 1973.\n\n"
     "Try `handeye demo` first. `handeye COMMAND --help` shows the options of a command; `handeye docs` lists the "
     "pages of the documentation.",
     suppress_keyboard_interrupt=False,

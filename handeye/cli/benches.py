@@ -76,7 +76,9 @@ def insertion(
     ] = None,
     search: Annotated[
         Literal["gentle", "1973"],
-        Parameter(help="Search pattern of the bench's own program, or of the 1973 listing."),
+        Parameter(
+            help="Search pattern: `gentle` is that of the bench's own program, `1973` that of the 1973 listing."
+        ),
     ] = "gentle",
     options: SweepOptions = ANY,
 ) -> int:

@@ -83,7 +83,7 @@ def positive(count: int, what: str) -> None:
 
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
-PictureFile = Annotated[Path, Parameter(name=["--out", "-o"], help="File for the picture, .png.")]
+PictureFile = Annotated[Path, Parameter(name=["--out", "-o"], help="File for the picture (.png).")]
 Overwrite = Annotated[bool, Parameter(help="Replace existing files.")]
 SceneCamera = Annotated[
     str | None,
@@ -109,7 +109,7 @@ Json = Annotated[
 Out = Annotated[
     Path | None,
     Parameter(
-        name=["--out", "-o"], help="Folder to save plan, events, trace, checkpoints, pictures and result in."
+        name=["--out", "-o"], help="Folder in which to save plan, events, trace, checkpoints, pictures and result."
     ),
 ]
 

@@ -21,7 +21,7 @@ def demo(
     ] = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the page, .html.")] = Path(PAGE),
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the page (.html).")] = Path(PAGE),
     overwrite: Overwrite = False,
     no_browser: Annotated[bool, Parameter(help="Write the page without opening it.")] = False,
 ) -> int:

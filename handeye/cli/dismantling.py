@@ -30,9 +30,9 @@ def dismantle(
 ) -> int:
     """Have the arm undo the steps of a run: take the pump apart again.
 
-    The arm undoes every step, from the last to the first, by moving back along its own path. If the hand meets more
-    force than expected, or does not hold the part that it held at that step, the arm brakes and the program calls
-    the operator. The folder of the run does not change.
+    The arm undoes every step, from the last to the first, by moving back along its own path. If the hand meets
+    more force than expected, or no longer holds the part that it held when the step was executed, the arm brakes
+    and the program calls the operator. The folder of the run does not change.
 
     Exit code 0: every part is back where it was before the run or, with --to, every step is undone back to that
     stage; 1: the arm was stopped and the program called the operator; 3: the program reported every step undone,

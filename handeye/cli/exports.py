@@ -53,7 +53,7 @@ def glb(
     run: State = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the solids, .glb.")],
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the solids (.glb).")],
     overwrite: Overwrite = False,
     part: Annotated[str, Parameter(help="What to export: the whole `cell`, or the `pump`.")] = "cell",
     json: Json = False,
@@ -171,7 +171,7 @@ def thin(
     run: RunOrTrace = None,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the thinned trace, .mcap.")],
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the thinned trace (.mcap).")],
     overwrite: Overwrite = False,
 ) -> int:
     """Shrink a trace to about a tenth of its size, for sharing: it keeps the motion that is needed to show the run.

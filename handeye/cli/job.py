@@ -320,7 +320,9 @@ class _Work:
 
     @contextmanager
     def _waiting(self) -> Iterator[None]:
-        """In this context, the user is asked for a line, with the progress bar hidden and Ctrl-C as usual."""
+        """While the context is open, the user is asked for a line: the progress bar is hidden, and Ctrl-C
+        interrupts as usual.
+        """
         with self.panic.aside(), self.progress.aside():
             yield
         if sys.stdin.isatty():

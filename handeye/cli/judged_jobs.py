@@ -44,7 +44,7 @@ class JobOptions(RunOptions):
     """Options for running a job, except its world."""
 
     video: Annotated[
-        Path | None, Parameter(help="File for a video of the run (14 s): .webp, .webm or .mp4.")
+        Path | None, Parameter(help="File for a video of the run, 14 s long: .webp, .webm or .mp4.")
     ] = None
 
 
@@ -63,8 +63,8 @@ def carry_out_run(
     """Run a program and report how it ended. Returns the exit code.
 
     Args:
-        listening: observers of the run, unless it is stepped.
-        folder: where the run is kept, in place of --out.
+        listening: observers of the run; not used if the run is stepped. folder: where the run is kept, in place of
+        --out.
     """
     from handeye.cli.job import Job, work
     from handeye.runs.snapshot import Checkpoint
@@ -80,7 +80,7 @@ def carry_out_run(
 
 
 def carry_out_job(setup: "Setup", options: JobOptions, listening: "Sequence[Observer]" = ()) -> int:
-    """Run a job and let its referee judge; make the video. Returns the exit code."""
+    """Run a job, have its referee judge the result, and make the video. Returns the exit code."""
     out, video, overwrite = options.out, options.video, options.overwrite
     check_kept(options.no_keep, out)
     with TemporaryDirectory() as aside:

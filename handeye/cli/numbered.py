@@ -95,8 +95,8 @@ def converse(
     """Execute some lines, then those that the user types, until the session is over. Returns the exit code.
 
     Args:
-        begin: begins the session, given functions that ask the user a question, and that tell whether the panic button
-            has been pressed.
+        begin: function that begins the session. It is given two functions: one asks the user a question, the other
+            tells whether the panic button has been pressed.
         echo: print questions even if the answers come from a pipe.
     """
     from handeye.cli.panic_button import PanicButton

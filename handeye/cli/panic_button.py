@@ -12,8 +12,8 @@ from handeye.core.signals import ToldToEnd, break_in, heard
 
 
 class PanicButton:
-    """In this context, Ctrl-C presses the panic button; if a first press has no effect, the second one interrupts
-    as usual.
+    """While the context is open, Ctrl-C presses the panic button. If the first press has no effect, the second one
+    interrupts as usual.
     """
 
     def __init__(self) -> None:
@@ -36,8 +36,8 @@ class PanicButton:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """In this context, the user answers a question: Ctrl-C interrupts as usual. After a `kill`, no more
-        questions are asked.
+        """While the context is open, the user answers a question, so Ctrl-C interrupts as usual. After a `kill`,
+        no more questions are asked.
         """
         if self._told:
             raise ToldToEnd
@@ -46,7 +46,7 @@ class PanicButton:
 
     @contextmanager
     def released(self) -> Iterator[None]:
-        """In this context, nothing moves: Ctrl-C interrupts as usual."""
+        """While the context is open, nothing moves, so Ctrl-C interrupts as usual."""
         self._asking = True
         try:
             yield

@@ -31,7 +31,9 @@ def compiled(file: Path, work: "Task | None" = None) -> Plan:
 
 
 def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
-    """The script in a file, or the program with that name, and its task; raises InvalidInput if there is neither."""
+    """The script in a file, or else the program with that name; and the task of the script. Raises InvalidInput if
+    there is neither.
+    """
     wanted = None if task_words is None else planned(named(task_words))
     program = None if given.is_file() else _program(given)
     if program is None:
@@ -109,7 +111,7 @@ def made_known(words: str | None) -> str | None:
 
 
 def check_task(wanted: str | None, found: str, of: Path) -> None:
-    """Raises BadArgument if `--task` names a different task from that of a run."""
+    """Raises BadArgument if `--task` names a task different from that of the run."""
     if wanted not in (None, found):
         raise BadArgument(
             f"the run in {of} belongs to the task {quoted(found)}, not to {quoted(wanted)}; leave out --task"

@@ -234,8 +234,8 @@ class _Progress(Tally):
 
 
 def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
-    """Make a command, for the entry of a system, that runs a sweep without options of its own; by default with `n`
-    trials.
+    """Make a command that runs a sweep, for use in the entry of a system. The sweep has no options of its own; by
+    default, the command runs `n` trials.
     """
 
     def command(

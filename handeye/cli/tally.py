@@ -17,7 +17,7 @@ LINES: Final = 20  # Progress lines for all trials without a terminal; one more 
 
 
 class Tally:
-    """A progress bar on a terminal; without one, an occasional line."""
+    """A progress bar on a terminal; without a terminal, an occasional line."""
 
     def __init__(
         self,
@@ -69,7 +69,7 @@ class Tally:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """In this context, the bar is hidden so that other output can be printed."""
+        """While the context is open, the bar is hidden, so that other output can be printed."""
         self._bar.stop()
         try:
             yield

@@ -86,7 +86,11 @@ ATTEMPTS: Final = AttemptOptions()
 def base_vision_trials(
     *,
     n: Annotated[
-        WholeNumber, Parameter(help="Number of poses: first the pose of the world, then random poses.")
+        WholeNumber,
+        Parameter(
+            help="Number of poses of the base to try: the first is the one drawn for the world, the others are "
+            "random."
+        ),
     ] = 100,
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,

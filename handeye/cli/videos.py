@@ -106,7 +106,9 @@ def _trace(run: Path) -> "Trace":
 
 @contextmanager
 def drawing() -> Iterator["Progress"]:
-    """In this context, the number of drawn frames is shown: as a bar or, without a terminal, as an occasional line."""
+    """While the context is open, the number of drawn frames is shown: as a bar or, without a terminal, as an
+    occasional line.
+    """
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("drawing"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())

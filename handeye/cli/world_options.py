@@ -26,8 +26,8 @@ Faults = Annotated[
         name="--fault",
         group=WORLD,
         consume_multiple=False,
-        help="A fault: NAME or NAME=VALUE, followed by @STAGE to begin the fault at that stage instead of at the "
-        "start. `handeye faults --list` lists the faults of the pump, and with `--task JOB` those of a job. May be "
+        help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. "
+        "`handeye faults --list` lists the faults of the pump, and with `--task JOB` those of a job. May be "
         "repeated.",
     ),
 ]
@@ -101,7 +101,9 @@ class ErrorOptions:
         return spec
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """The error options alone, and the senses and macros to be switched off in the program, each once."""
+        """The options with only their errors; and the senses and macros that the program is to do without, each
+        once.
+        """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
         errors = [name for name in names if name not in spared]
@@ -172,7 +174,7 @@ class WorldOptions:
         return self.errors.spec(self.seed or 0)
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """The world options alone, and the senses and macros to be switched off in the program."""
+        """The options with only their world; and the senses and macros that the program is to do without."""
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared
 

@@ -1,5 +1,6 @@
-"""Builds the page for two runs. It shows both 3D views under one time slider, the differences, and both runs
-step by step."""
+"""Builds the page that compares two runs. It shows both 3D views under one time slider, the differences, and both
+runs step by step.
+"""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path

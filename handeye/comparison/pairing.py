@@ -98,7 +98,9 @@ class TwoRuns:
 
     @property
     def thinned(self) -> bool:
-        """True if a trace is thinned. It lacks some servo periods, so servo periods cannot be compared."""
+        """True if either trace is thinned. A thinned trace lacks some servo periods, so servo periods cannot be
+        compared.
+        """
         return self.a.trace.thinned or self.b.trace.thinned
 
     @cached_property
@@ -148,8 +150,8 @@ def _turns(run: RecordedRun, numbers: Mapping[int, int]) -> Iterator[CarriedOut]
 
 
 def side_by_side(a: Mapping[Turn, Fact], b: Mapping[Turn, Fact]) -> Iterator[tuple[Fact | None, Fact | None]]:
-    """Yield what is known about the same executed step in both runs, in the order of the script. None stands
-    for a run about whose step nothing is known.
+    """Yield, for each executed step in the order of the script, the facts that the two runs have about it. None
+    stands for a run that has no fact about the step.
     """
     for turn in sorted({*a, *b}):
         yield a.get(turn), b.get(turn)
@@ -160,8 +162,8 @@ _BEFORE: Final = -1  # pair number for the time before the first step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Leg:
-    """A segment of the timeline. In a leg, both runs did the same step, or one run did a step while the other run
-    waited.
+    """A segment of the timeline. In a leg, both runs execute the same step, or one run executes a step while the
+    other waits.
     """
 
     begin: float  # s of the course
@@ -199,7 +201,7 @@ class _TimedStep:
 
 
 def course(runs: TwoRuns) -> Course:
-    """Align two runs step by step. A step that both runs did takes as long as the longer of the two."""
+    """Align two runs step by step. A step that both runs executed takes as long as in the slower run."""
     a, b = (_done(run, steps) for run, steps in zip((runs.a, runs.b), runs.carried_out, strict=True))
     legs: list[Leg] = []
     time, at = 0.0, (a[0].begin, b[0].begin)
@@ -224,8 +226,9 @@ def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
 def _side_by_side(
     runs: TwoRuns, a: Sequence[_TimedStep], b: Sequence[_TimedStep]
 ) -> Iterator[tuple[_TimedStep | None, _TimedStep | None]]:
-    """Yield the pairs of steps in order. Steps that only one run did come between the pairs, those of the first
-    run first."""
+    """Yield the pairs of steps in order. Steps that only one run executed come between the pairs, those of the
+    first run first.
+    """
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():
         if tag == "equal":

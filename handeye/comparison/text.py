@@ -26,7 +26,7 @@ _CAME_TO: Final[dict[Kind, str]] = {
     "paused": "has not finished",
     "broken off": "was recorded only in part",
 }
-THINNED: Final = "One trace is thinned: events are compared, but not the sensor readings between them."
+THINNED: Final = "At least one trace is thinned: events are compared, but not the sensor readings between them."
 COURSE: Final = "Both runs took the same course: the same steps, stops, errors and answers."
 _UNITS: Final[Mapping[GuardKind, str]] = {
     GuardKind.FORCE: "oz",
@@ -37,7 +37,7 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
 
 
 def same_words(found: Comparison) -> str:
-    """Say in a sentence that two runs are equal, and how exactly they were compared."""
+    """Say in a sentence that two runs are equal, and how closely they were compared."""
     return (
         "Both runs recorded the same events."
         if found.thinned
@@ -188,8 +188,9 @@ def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
 
 
 def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Corrections]) -> Iterator[str]:
-    """Yield a line with the number of findings in both runs and how many of them are alike, or nothing if there
-    are none."""
+    """Yield a line that says how many findings both runs have, and how many of these are alike. Yields nothing if
+    there are no findings.
+    """
     both = [each for each in found if each.a is not None and each.b is not None]
     if found:
         counts = sum(each.b is None for each in found), sum(each.a is None for each in found)
@@ -201,8 +202,9 @@ def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Correctio
 
 
 def _took(found: Comparison) -> Iterator[str]:
-    """Yield a row for each stage and one for the total. A row has the simulated seconds of both runs, and the
-    seconds by which run B took longer."""
+    """Yield a row for each stage, and one for the total. A row gives the simulated seconds of each run, and by how
+    many seconds run B took longer.
+    """
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))
     yield f"{'Seconds':{wide}}{'A':>9}{'B':>9}{'B - A':>9}"
     for stage in found.stages:

@@ -13,7 +13,7 @@ LONGEST: Final = 1200  # characters: fifteen lines of 80
 
 
 class Brief:
-    """Base of dataclasses with a brief `repr`. Define the dataclass with `repr=False`."""
+    """Base class of dataclasses with a brief `repr`. Define the dataclass with `repr=False`."""
 
     __slots__ = ()
 

@@ -34,7 +34,7 @@ def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
 
 CODES: Final[dict[str, Code]] = {
     "always-undone": _warning("a stage is undone without a test before it", "MOVE P\nUNDO STAGE"),
-    "aoj-without-search": _warning("no SEARCH can be executed before an AOJ", "L: MOVE T\nAOJ L"),
+    "aoj-without-search": _warning("an AOJ has no SEARCH before it on any path", "L: MOVE T\nAOJ L"),
     "axis-count": _error(
         "the number of axes in a FREE or SPIN does not match the axes named after it", "FREE 2 X\nCHANGE X 1"
     ),
@@ -51,12 +51,12 @@ CODES: Final[dict[str, Code]] = {
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(
-        "an ASSIGN sets its counter again in every round of the loop that counts it down",
+        "an ASSIGN sets a counter again in every round of the loop that counts this counter down",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
     "endless-loop": _warning(
-        "a loop moves the arm, and only an error that the program does not test can end it",
+        "a loop moves the arm, and only an error for which the program has no test can end it",
         "L: MOVE T\nJUMP L",
     ),
     "error-never-raised": _warning(
@@ -114,11 +114,11 @@ CODES: Final[dict[str, Code]] = {
     "modifier-twice": _error("a motion has two modifiers of the same kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
     "never-saved": _warning(
-        "no SAVE of the difference can be executed before a RESTORE", "MOVE T\nRESTORE H"
+        "a RESTORE has no SAVE of its difference before it on any path", "MOVE T\nRESTORE H"
     ),
     "number-out-of-range": _error("a number is too small or too large for its operand", "OPEN 5"),
     "opened-too-little": _warning(
-        "a grasp has a minimum gap that is wider than the hand has opened", "OPEN .2\nCLOSE .25"
+        "a grasp has a minimum gap that is wider than the gap to which the hand has opened", "OPEN .2\nCLOSE .25"
     ),
     "parameter-name-taken": _error(
         "a parameter has the name of an instruction, of another word of the language, of an axis or of a label",
@@ -153,7 +153,7 @@ CODES: Final[dict[str, Code]] = {
         {"pins.al": "PARK"},
     ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
-    "save-without-move": _warning("no MOVE can be executed before a SAVE", "CLOSE\nSAVE H"),
+    "save-without-move": _warning("a SAVE has no MOVE before it on any path", "CLOSE\nSAVE H"),
     "search-begun-anew": _warning(
         "a SEARCH is inside its own loop, so every round of the loop restarts the search",
         "L: SEARCH .07\nMOVE T\nSTOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
@@ -162,17 +162,17 @@ CODES: Final[dict[str, Code]] = {
         "a search has no MOVE between its label and its AOJ",
         "MOVE T\nSEARCH .07\nL: STOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
-    "search-without-aoj": _warning("no AOJ can be executed after a SEARCH", "SEARCH .07\nMOVE T"),
+    "search-without-aoj": _warning("a SEARCH has no AOJ after it on any path", "SEARCH .07\nMOVE T"),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
-        "a skip would skip a modifier but not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
+        "a skip would skip a modifier, but not the motion that it modifies", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
     ),
     "skips-one-only": _warning(
         "several indented lines follow a skip, but it skips only the first",
         "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
     ),
     "specific-without-general": _warning(
-        "no GENERAL can be executed before a SPECIFIC", "LOOK V\nSPECIFIC BASE V"
+        "a SPECIFIC has no GENERAL before it on any path", "LOOK V\nSPECIFIC BASE V"
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
@@ -204,7 +204,7 @@ CODES: Final[dict[str, Code]] = {
     "travel-too-long": _warning(
         "a TRAVEL has a minimum above the length of the motion before it", "CHANGE Z .6\nTRAVEL .7 .9"
     ),
-    "travel-without-change": _warning("no CHANGE can be executed before a TRAVEL", "PARK\nTRAVEL .1 .2"),
+    "travel-without-change": _warning("a TRAVEL has no CHANGE before it on any path", "PARK\nTRAVEL .1 .2"),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
     "unit-written": _error("a unit follows a number", "OPEN 1.5 in"),

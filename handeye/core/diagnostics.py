@@ -93,7 +93,8 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 
 
 def arranged(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Sort diagnostics by position, drop duplicates, and keep at most `LIMIT`; errors are kept before warnings."""
+    """Sort diagnostics by position, drop duplicates, and keep at most `LIMIT`. Warnings are dropped before errors.
+    """
     once = {(d.code, d.primary.span): d for d in diagnostics}
     kept = sorted(once.values(), key=lambda d: (d.severity != "error", d.primary.span))[:LIMIT]
     return sorted(kept, key=lambda d: (d.primary.span, d.code))

@@ -48,7 +48,7 @@ class Uniform(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class _Constant(Distribution):
-    """Base of errors that have the same value in every world of a level."""
+    """Base class of errors that have the same value in every world of a level."""
 
     spread: float
 

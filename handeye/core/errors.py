@@ -26,7 +26,7 @@ from typing import Final
 
 
 class HandeyeError(Exception):
-    """Base of all exceptions that a caller may want to catch; `str(error)` is a sentence for the user."""
+    """Base class of all exceptions that a caller may want to catch; `str(error)` is a sentence for the user."""
 
 
 class InvalidInput(HandeyeError):

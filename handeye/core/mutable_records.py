@@ -22,7 +22,7 @@ Kept = TypeVar("Kept", bound="MutableRecord")
 
 
 class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Base of the states of systems and of their parts. Checkpoints hold copies of these states."""
+    """Base class of the states of systems and of their parts. Checkpoints hold copies of these states."""
 
     __repr__ = Brief.__repr__
 

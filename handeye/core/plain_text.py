@@ -1,4 +1,6 @@
-"""Writes text for users: printable characters, nouns with numbers, numbers with enough digits."""
+"""Writes text for users: printable characters, counts with their nouns (`2 steps`), and numbers with enough
+digits.
+"""
 
 import math
 import re

@@ -11,6 +11,6 @@ Vector3 = tuple[float, float, float]  # along x, y and z
 
 
 class Record(msgspec.Struct, frozen=True, gc=False, kw_only=True, forbid_unknown_fields=True):
-    """Base of the values stored on disk: programs, plans, events, settings."""
+    """Base class of the values stored on disk: programs, plans, events, settings."""
 
     __repr__ = Brief.__repr__

@@ -2,8 +2,8 @@
 
 A quantity is one number with a dotted name such as `camera.place.x`; the parts of a name before a dot name groups
 (`camera.place`, `camera`). Each quantity is drawn from a separate random stream, made from the seed and the
-quantity's name. A new quantity therefore changes no other, and one quantity can be switched off or set while the
-others keep their values.
+quantity's name. Adding a quantity therefore changes no other quantity, and one quantity can be switched off or set
+while the others keep their values.
 """
 
 from __future__ import annotations

@@ -35,8 +35,8 @@ class WritableQuantity(Protocol):
 def overrides(
     variation: Variation, without: Iterable[str], settings: Iterable[str], scales: Iterable[str] = ()
 ) -> Overrides:
-    """Make overrides from names to leave at nominal values, settings `NAME=VALUE`, and scales `NAME=FACTOR`. If a
-    name occurs twice, the later setting or scale applies.
+    """Make overrides from three lists: names of quantities to leave at their nominal values, settings
+    `NAME=VALUE`, and scales `NAME=FACTOR`. If a name occurs twice, the later setting or scale applies.
 
     Raises BadArgument if a text cannot be used.
     """
@@ -151,7 +151,9 @@ def by_number(text: str) -> int:
 
 
 def from_start_only(text: str) -> int:
-    """Refuse a stage, because the faults of the task are always present from the start."""
+    """Refuse a stage given with a fault (the part after `@`): the command has no stages, so faults are present
+    from the start.
+    """
     raise BadArgument(
         f"this command has no stages, so a fault is present from the start; leave out {quoted(f'@{text}')}"
     )

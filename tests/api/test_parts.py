@@ -305,12 +305,16 @@ def test_a_referee_of_ones_own_has_the_word() -> None:
     [
         (
             {"search": 3},
-            r"^a search must be a function that takes the number of a place and returns the place, not 3$",
+            r"^a search must be a function that takes the number of a place and returns the place; 3 is not a "
+            r"function$",
         ),
-        ({"camera": 3}, r"^a camera must be `auto`, `gl`, `ray`, or a function that takes a scene, not 3$"),
+        (
+            {"camera": 3},
+            r"^a camera must be `auto`, `gl`, `ray` or a function that takes a scene; 3 is none of these$",
+        ),
         (
             {"referee": 3},
-            r"^a referee must be a function that takes the true state of a cell, or a table of limits, not 3$",
+            r"^a referee must be either a table of limits or a function that takes the true state of a cell, not 3$",
         ),
         (
             {"referee": {"screws_clmp": 3}},

@@ -141,9 +141,9 @@ def test_a_line_without_an_end_is_the_name_of_a_file() -> None:
 
 def test_a_plan_that_was_saved_takes_no_positions(plan: handeye.Plan, tmp_path: Path) -> None:
     file = plan.save(tmp_path / "a.plan.json")
-    with pytest.raises(InvalidInput, match=r"leave out taught=\.\.\.$"):
+    with pytest.raises(InvalidInput, match=r"omit `taught=\.\.\.`$"):
         handeye.plan(file, taught=TAUGHT)
-    with pytest.raises(InvalidInput, match=r"leave out taught=\.\.\.$"):
+    with pytest.raises(InvalidInput, match=r"omit `taught=\.\.\.`$"):
         handeye.plan(plan, taught=TAUGHT)
 
 

@@ -256,7 +256,7 @@ def test_a_run_that_is_left_before_its_end_can_be_gone_on_with_in_its_folder(tmp
     assert (
         run.trace.counts == handeye.assemble(0, script=SCRIPT, camera="ray", out=tmp_path / "b").trace.counts
     )
-    with pytest.raises(InvalidInput, match=r"has ended; leave out out="):
+    with pytest.raises(InvalidInput, match=r"has ended; omit `out="):
         handeye.begin(tmp_path / "run", out=tmp_path / "run")
 
 

@@ -117,5 +117,5 @@ def test_a_thinned_trace_is_compared_by_what_happened(run: RecordedRun, tmp_path
     for found in (comparison(run, thin), comparison(thin, run), comparison(thin, thin)):
         assert found.same
         assert found.thinned
-        assert "One trace is thinned: events are compared" in str(found)
+        assert "At least one trace is thinned: events are compared" in str(found)
     assert not comparison(run, run).thinned

@@ -1,4 +1,4 @@
-"""Finds stops and checks whose outcome is always the same, whatever the arm meets."""
+"""Finds steps that can never have their effect, or that always raise an error, whatever the arm meets."""
 
 import math
 import re
@@ -61,7 +61,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
         opened = _gaps(graph, before)
         if before and len(opened) == len(before) and max(opened) < grasp.minimum - TOLERANCE_M:
             message = (
-                f"the grasp needs at least {grasp.minimum / INCH:g} in, but the hand is open by "
+                f"the grasp needs at least {grasp.minimum / INCH:g} in, but the hand is open only "
                 f"{max(opened) / INCH:g} in"
             )
             help = "this grasp always raises error 2"
@@ -74,7 +74,7 @@ def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
 
 
 def _travels(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the TRAVELs that require a greater distance than the length of the motion before."""
+    """Yield each TRAVEL whose minimum is greater than the length of the motion before it."""
     for number, travel in graph.each(Travel):
         before = graph.last(number, Change)
         changes = (graph.at(n, Change) for n in before)
@@ -89,7 +89,7 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _torques(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the stops on a torque while the screwdriver is switched off."""
+    """Yield the motions that wait for a torque while the screwdriver is switched off."""
     tools = graph.each(Tool)
     running = {number for number, tool in tools if tool.speed}
     started: set[int] | None = None
@@ -105,7 +105,7 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _touches(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the stops on a touch while the fingers are closed."""
+    """Yield the motions that wait for a touch while the fingers are closed."""
     for number in _guarded(graph, GuardKind.TOUCH):
         last = graph.last(number, Open, Close, Center)
         if last and not any(graph.at(n, Open) for n in last):

@@ -1,7 +1,7 @@
 """Checks of control flow, made on the graph of steps.
 
-A statement of a macro becomes several steps, one for each call of the macro. It is reported only if it is wrong in
-every call with the same operands.
+A statement of a macro becomes several steps, one for each call of the macro. The statement is reported only if it
+is wrong in all calls that give it the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -28,7 +28,9 @@ _CURES = {
 
 
 def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
-    """Check the control flow of a program without errors. `origins` has the statement of each step."""
+    """Check the control flow of a program that has no errors. `origins` gives the statement from which each step
+    was made.
+    """
     flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
     for check in (flow.tests, flow.rounds, flow.vain, *(_order(flow, order) for order in _ORDERS)):
@@ -38,8 +40,7 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after an operation of another kind, or if `later` is True, only before
-    one.
+    """An operation that makes sense only after an operation of another kind; if `later` is True, only before one.
     """
 
     code: str
@@ -122,7 +123,7 @@ class _Flow:
         self.trapped = graph.trapped(graph.which(Wait, Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
-        """Yield the diagnostics of a check that applies to all reachable steps of a statement."""
+        """Yield a check's diagnostics for each statement whose reachable steps are all at fault."""
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
             return
@@ -164,7 +165,7 @@ class _Flow:
         code, message, note = (
             "endless-loop",
             "this loop has no exit",
-            "only an error that the program does not test can end this loop",
+            "only an error for which the program has no test can end this loop",
         )
         if not any(self.graph.steps[n].operation.takes_time for n in loop):
             code, message = "idle-loop", "this loop has no exit, and nothing moves in it"
@@ -173,7 +174,8 @@ class _Flow:
         return problem(code, message, self.word(number).span, *head, notes=(note,))
 
     def tests(self) -> Iterator[Finding]:
-        """Report the tests of errors that cannot be pending at the place of the test."""
+        """Report the tests without effect, and the tests for errors that cannot be pending where the test is made.
+        """
         raised, actions = self.incoming()
         for number, operation in self.graph.each(Test):
             if not actions[number]:
@@ -212,7 +214,7 @@ class _Flow:
             yield jump, self.problem(code, jump, message, there, help=help)
 
     def vain(self) -> Iterator[Finding]:
-        """Report the stops and checks whose outcome is always the same."""
+        """Report the steps that can never have their effect, or that always raise an error."""
         for found in always_failing(self.graph):
             cause = () if found.cause is None else (Label(span=self.span(found.cause), text="by this"),)
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
@@ -253,8 +255,8 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """Return True if a test skips only another test, for an error that can be pending, and both tests lead to
-        the same step.
+        """Return True if a test skips only a second test, the second test is for an error that can be pending, and
+        both lead to the same step.
         """
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)
@@ -298,8 +300,8 @@ Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """Yield the jumps that repeat the same round of a search or count, each with the step that restarts it. The
-    step is None if nothing advances the round.
+    """Yield each jump back that repeats the same round of a search or count forever, together with the step that
+    restarts the search or count. The step is None if the round contains no MOVE to the next place.
     """
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))
@@ -319,8 +321,8 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """Yield the jump back if it restarts the search or count in every round. If another path leads to the end,
-    yield nothing.
+    """Yield the jump back, with the step that restarts the search or count, if every round executes such a step.
+    Yield nothing if a path without such a step leads on to the end of the program.
     """
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
         return

@@ -52,7 +52,8 @@ def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnos
 
 
 def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
-    """Return the words of the first steps after a skip, up to a label, at most `_MIN_BODY`."""
+    """Return the words of the first steps after a skip: at most `_MIN_BODY` words, and only those before a label.
+    """
     words: list[Name] = []
     for number in range(skip + 1, len(statements)):
         word = statements[number].word
@@ -89,5 +90,5 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
             f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, but its motion is outside the macro",
             modifier.span,
             Label(span=motion.span, text="this line is after the macro"),
-            help="a blank line ends a macro: remove it, or write a comment there",
+            help="a blank line ends a macro: remove the line, or write a comment on it",
         )

@@ -70,7 +70,7 @@ def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnost
 
 
 def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
-    """Return the key of the file, and the line, of a diagnostic."""
+    """Return the place of a diagnostic: the key of its file, and its line."""
     text, offset = source.find(diagnostic.primary.span.start)
     return text.key, text.position(offset)[0]
 
@@ -147,8 +147,8 @@ def check_unused(
 
 
 def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagnostic]:
-    """Join the diagnostics. If a jump goes too far back and an unused label may be the label that it means, the two
-    are reported as one mistake.
+    """Join the diagnostics. If a jump goes too far back, and an unused label may be the label that was meant,
+    report the two as one mistake.
     """
     left, merged = list(unused), []
     for diagnostic in found:
@@ -164,7 +164,7 @@ def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagn
 
 
 def _in_comments(source: Source, refers: tuple[Refers, ...]) -> dict[str, int]:
-    """Find the first operands of instructions that stand in comments. Returns the line of each."""
+    """Find the instructions that are commented out. Returns their lines, by their first operands."""
     words = {i.op for i in INSTRUCTIONS.values() if i.operands and i.operands[0].refers in refers}
     found: dict[str, int] = {}
     for comment in _COMMENTED_OUT.finditer(source.text):

@@ -1,7 +1,7 @@
-"""Finds RESTOREs of differences that are not saved on any path leading to them.
+"""Finds each RESTORE whose difference has not been saved on any path to it.
 
-A difference may be saved relative to the goal to which it is restored. It then follows a moving reference, and is
-allowed to start at zero.
+Exception: a difference may be saved relative to the goal that it shifts. Such a difference follows a moving
+reference, and may start at zero.
 """
 
 from collections.abc import Iterator
@@ -66,7 +66,7 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
 
 
 def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
-    """Return, for each step, the names that may have been saved before it, as a bit set, or None if the step is
+    """Return, for each step, a bit set of the names that may have been saved before the step; None if the step is
     unreachable.
 
     The sets are propagated forwards through the steps until nothing changes.

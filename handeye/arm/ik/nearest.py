@@ -25,10 +25,10 @@ _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to join
 
 def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
     """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if
-    there are none. The search begins at the solutions `starts`.
+    there are none.
 
-    The search also begins a little beside these solutions, because no first step reaches some of the poses near a
-    configuration in which joint axes are in line.
+    The search begins at the solutions `starts`, and then again slightly beside them: from a configuration in which
+    joint axes are in line, some poses nearby cannot be approached by any first step.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]

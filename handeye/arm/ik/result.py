@@ -41,7 +41,8 @@ SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
 WRITTEN: Final = (0.0025 * INCH, 0.0125 * DEGREE)
 """Greatest distance (m) and turn (rad) by which a pose may be off because it is written with few digits. Distance
 and turn are combined as the root of the sum of squares. Errors of .0005 in and of .005 degrees in each coordinate
-give at most .96 of the limit. The wrist, 10 in behind the finger tips, is then off by less than the distance.
+give at most .96 of the limit. The turn alone then moves the wrist, 10 in behind the finger tips, by less than the
+greatest distance.
 """
 
 
@@ -60,11 +61,12 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
 
 
 def shared(first: Joint, last: Joint, sense: float, one: float, other: float) -> list[tuple[float, float]]:
-    """Return all pairs of positions within the limits of two joints with axes in line that turn the hand as far as
-    `one` and `other` do together.
+    """Return all pairs of positions of two joints, each within its limits, that together turn the hand as far as
+    `one` and `other` do. The axes of the two joints are in line.
 
-    If `sense` is positive, both joints turn the hand the same way, and otherwise opposite ways. There is one pair
-    for each possible number of whole turns. The first joint stays at `one` if the last joint can do the rest.
+    If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions.
+    There is one pair for each possible number of whole turns. The first joint stays at `one` if the last joint can
+    do the rest.
     """
     sign, ends, found = math.copysign(1.0, sense), (last.lower, last.upper), []
     turns = math.ceil((first.upper - first.lower + last.upper - last.lower) / (2 * math.pi))

@@ -19,8 +19,8 @@ Triple = tuple[float, float, float]
 
 
 def _moments_about_centre(about_origin: Triple, mass: float, centre: Triple) -> Triple:
-    """Compute the moments of inertia about the mass centre from the published tensors, which are about the *origin*
-    of the link (Steiner).
+    """Compute, by Steiner's theorem, the moments of inertia about the mass centre from the published tensors,
+    which are about the *origin* of the link.
 
     The tensors are published without products of inertia, so the products at the mass centre are set to zero as
     well. The largest neglected product, of link 1, would be .018 kg m2.
