@@ -118,7 +118,9 @@ def test_an_interruption_says_what_comes_next(
 
     monkeypatch.setattr(start, "pip", interrupted)
     assert start.main(["check"]) == 130
-    assert capfd.readouterr().err.endswith("Setting up was interrupted; run the command again to complete it.\n")
+    assert capfd.readouterr().err.endswith(
+        "Setting up was interrupted; run the command again to complete it.\n"
+    )
 
 
 def test_the_checks_in_a_browser_say_what_they_need(

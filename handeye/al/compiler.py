@@ -17,7 +17,7 @@ from handeye.core.source import Source, Span
 from handeye.program.program import Program
 from handeye.program.taught import Taught
 
-# Part of the text is missing, so that its definitions would be reported as unknown.
+# Part of the text is missing, so the names that it defines would be reported as unknown.
 MISSING: Final = ("unreadable-file", "too-much-required")
 _OF_OTHERS: Final = (*MISSING, "require-circle", "required-twice")
 LANGUAGE: Final = "wave"  # name of the language in programs and plans: that of the arm program of 1973

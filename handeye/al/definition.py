@@ -16,7 +16,7 @@ MAX_NUMBER: Final = 1e6  # keeps squares of numbers finite
 ANY: Final = "a number in a program can be at most one million"
 MIN_POSITIVE: Final = 0.001
 
-AXES: Final = ("X", "Y", "Z")  # unit vectors where a vector stands; counted by `FREE` and `SPIN`
+AXES: Final = ("X", "Y", "Z")  # unit vectors where a vector is expected; `FREE` and `SPIN` name them as axes
 NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 

@@ -49,7 +49,7 @@ _ELSEWHERE: Final[dict[str, str]] = {
 }
 
 
-# for a STOP without its operand, as other languages have it
+# for a STOP without an operand, as other languages write it
 STOP_ALONE: Final = (
     f"`STOP` ends the next motion when the hand presses with the given force, in ounces; {_ENDS}"
 )

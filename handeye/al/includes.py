@@ -141,7 +141,7 @@ class Requirements:
             message = f"{quoted(file.text)} is already required above, so this line has no effect"
             first = Label(span=self.first[key], text="first required here")
             return problem("required-twice", message, file.span, first)
-        deep = len(self.reading) > MAX_FILES  # a text that was not sewn here
+        deep = len(self.reading) > MAX_FILES  # possible only in a text that `sewn` did not make
         if found is not None and not found.problem and not deep:
             self.first[key] = file.span
             return found

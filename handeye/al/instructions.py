@@ -200,7 +200,7 @@ _ROLES: Final = {
     **dict.fromkeys(("SKIPE", "SKIPN"), Role.SKIP),
     **dict.fromkeys(("AOJ", "SOJG", "JUMP"), Role.JUMP),
     **dict.fromkeys(("TRANS", "VECT", "REQUIRE", "STAGE", "DEFINE"), Role.DECLARATION),
-}  # of those that are no plain steps
+}  # of the instructions that are not plain steps
 _FITS: Final = {
     **dict.fromkeys(("STOP", "TOUCH", "TORQUE"), ("MOVE", "CHANGE", "TURN", "PARK")),
     **dict.fromkeys(("FORCE", "FREE", "SPIN"), ("CHANGE",)),

@@ -98,7 +98,7 @@ class _Draft(msgspec.Struct, gc=False):
     operation: AnyOperation | None
     modifier: ExpandedStatement | None  # the first one
     next: int | None  # the following draft
-    inside: tuple[str, ...]  # the macros it stands in, outermost first
+    inside: tuple[str, ...]  # the macros that contain it, outermost first
     reach: Call  # the call whose labels a jump sees
     line: FilledLine | None
     modifiers: Sequence[Statement] = ()  # modifiers that apply, and calls that give them operands
@@ -302,7 +302,7 @@ class _Lowerer:
             self.problem("unknown-label", message, label, there, *uses(label), help=help)
             return
         message = f"there is no label {quoted(label.text)}"
-        # Looking for what was meant takes time: only for those that will be shown.
+        # Finding similar names takes time, so it is done only for the diagnostics that will be shown.
         known = [name for scope, name in self.labels if scope in scopes] if self.unresolved <= LIMIT else []
         meant = alternatives(label.text, known)
         self.problem("unknown-label", message, label, *uses(label), help=names_sentence(meant), meant=meant)

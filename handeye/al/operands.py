@@ -245,7 +245,7 @@ class _Reader(msgspec.Struct, gc=False):
 
     def check_vector(self, value: Vector, operand: Operand) -> None:
         if not operand.units:
-            return  # the lines of a macro take it as what it is
+            return  # the operand of a macro: the macro's lines check it
         if len(value.values) != len(operand.units):
             message = f"`{self.definition.op}` takes a vector of {len(operand.units)} numbers, not {len(value.values)}"
             raise Mistake("vector-size", message, value.span, help=self.usage())

@@ -44,7 +44,7 @@ def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
 def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, list[Diagnostic]]:
     texts = {text.key: scan(text.text, source.begins[text.key]) for text in source.texts}
     defining = (text.key for text in source.texts if _DEFINE in text.text.upper())
-    # Known before they are defined, so that a call may stand first.
+    # Macros are known before they are defined, so a call may come before the definition.
     known: dict[str, Instruction | None] = {}
     for head in (head for key in defining for head in heads(texts[key])):
         known.setdefault(head.word, head.usage)
@@ -88,7 +88,7 @@ class _Parser:
         if word == _DEFINE:
             self.define(tokens)
             if labels:
-                # They belong to what follows the macro.
+                # The labels belong to the statement after the macro.
                 self.statements.append(self.statement(line, labels, "", ()))
             return
         statement = self.statement(line, labels, word, tokens)
@@ -205,7 +205,7 @@ class _Parser:
             operands = read_operands(definition, head, rest)
         except Mistake as mistake:
             self.tell(mistake.diagnostic)
-            # What it would have named is not missing as well.
+            # The name is kept, so that it is not reported as missing as well.
             named = tuple(_name(token) for token in rest[:1] if token.kind is NAME)
             return replace(statement, operands=named, broken=True)
         return statement if is_call else replace(statement, operands=operands)

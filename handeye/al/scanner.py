@@ -11,7 +11,7 @@ from handeye.core.source import Located
 class TokenKind(Enum):
     NAME = "name"
     NUMBER = "number"  # or what starts like one
-    STRING = "string"  # `"`, and perhaps no closing one
+    STRING = "string"  # may lack its closing quote
     MARK = "mark"  # one of `[ ] : ,`
     JUNK = "junk"
 

@@ -29,7 +29,7 @@ class Diagnostic:
     line: int  # line of the mistake, from 1
     column: int  # column of the first character, from 1
     end: int  # column after the last character
-    help: str | None  # a suggestion how to mend the mistake
+    help: str | None  # a suggestion for correcting the mistake
     shown: str = field(repr=False)  # the diagnostic as text, with the line of the script
 
     def __str__(self) -> str:

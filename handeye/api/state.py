@@ -48,7 +48,7 @@ class State:
     file: str  # required file that contains the next step; empty: the script itself
     line: int | None  # line of the next step
     text: str | None  # statement of the next step, without its modifiers, such as `STOP`
-    why: str  # reason of the pause, in words
+    why: str  # reason for the pause, in words
     joints: Array
     """Joint positions, shape (n,), in rad; in m for prismatic joints (joint 3 of the Stanford arm)."""
     gap: float  # sensed opening of the fingers, m

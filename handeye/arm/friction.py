@@ -27,7 +27,7 @@ from handeye.arm.model import ArmModel
 from handeye.core.pose import Array
 from handeye.program.guards import HandLoad
 
-UNKNOWN: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
+UNKNOWN: Final = 0.02  # of measured friction, in addition to a quarter of a converter step
 PEAK: Final = 4.0
 """Margin of a guard, in multiples of the scatter of single servo periods. One servo period in 30,000 exceeds this
 margin.

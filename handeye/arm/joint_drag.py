@@ -23,9 +23,9 @@ from handeye.arm.exertion import Exertion, columns
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 
-SLIDING_STEPS: Final = 4.0  # tachometer steps from which on a joint surely slides; chosen
+SLIDING_STEPS: Final = 4.0  # rate, in tachometer steps, at which a joint certainly slides; chosen
 LEAST_PERIODS: Final = (
-    15  # servo periods of sliding that an average needs; chosen: a torque step wavers less by 4
+    15  # servo periods of sliding in an average; chosen: torque rounding averages out to a quarter
 )
 MAX_DRAG_RATIO: Final = 2.0
 """Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in
@@ -57,8 +57,8 @@ class Stiffness:
 
     joint: int
     torque: float
-    friction: float  # what it took at first
-    one_way: bool  # it slid one way only, so that a weight beside the model's would feel the same
+    friction: float  # friction torque at its first measurement
+    one_way: bool  # it slid in one direction only, so an unmodelled weight would feel the same
 
 
 def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:

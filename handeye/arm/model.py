@@ -21,7 +21,7 @@ class GraspModel:
     speed: float  # m/s of the opening, free
     centring: float  # m/s of the opening while centring
     settle: int  # servo periods pressed before the gap is read; half of them after centring
-    give: float = 0.004  # m by which the fingers must be held up to press with all the force allowed; chosen
+    give: float = 0.004  # m that the set-point leads fingers that press with all the force allowed; chosen
 
     def lag(self, force: float, grip: float) -> float:
         """Return how far (m) the set-point of the gap leads the fingers when they press with `force`, of at most
@@ -46,7 +46,7 @@ class HandModel:
     palm: Box
     wrist: Box
     grasp: GraspModel
-    lamp: tuple[float, float, float] | None = None  # in T; shows the camera the hand
+    lamp: tuple[float, float, float] | None = None  # in T; shows the camera where the hand is
 
     def boxes(self, gap: float) -> tuple[Box, ...]:
         """Return the boxes of both fingers at an opening `gap` (m), of the palm and of the wrist."""
@@ -96,7 +96,7 @@ class ServoModel:
     period: float  # s between torque updates
     frequency: tuple[float, ...]  # of each joint's error, rad/s, critically damped
     lag: tuple[float, ...]  # following error that means collision, rad or m
-    short: float  # m off the set-point after a free motion that means contact
+    short: float  # m from the set-point that means contact, after a free motion
     settle: int  # periods held after a motion, and averaged for the tare
     drag: float  # s for the floating arm to come to rest
 

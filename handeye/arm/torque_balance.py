@@ -28,8 +28,8 @@ CENTRE: Final = 0.058  # of the distance of a link's mass centre from its joint:
 GAIN: Final = 0.02  # of a drive
 LOAD: Final = 0.06  # of a declared load: twice the spread of parts, and half again for how it is held
 DAMPING: Final = 0.6  # of viscous friction
-COULOMB: Final = 0.02  # of measured friction, beside a quarter of a step of the converter
-BEARS: Final = 4.0  # times its friction: the least weight that a joint must bear to be looked at; chosen
+COULOMB: Final = 0.02  # of measured friction, in addition to a quarter of a converter step
+BEARS: Final = 4.0  # least weight that a joint must carry to be checked, in multiples of its friction; chosen
 LIMIT: Final = 5.0
 """Limit of the remainder of a joint, in multiples of its uncertainty. The uncertainty is one sigma, for errors of
 twice their stated size.
@@ -37,7 +37,7 @@ twice their stated size.
 Assembling a pump takes about 350 motions, in which two joints are checked. A limit of 4 would stop one assembly in
 20 although all drives work; a limit of 5 stops one in 2,500.
 """
-OFF: Final = 0.4  # of LIMIT: from there on other joints are reported beside the worst
+OFF: Final = 0.4  # share of LIMIT above which further joints are reported with the worst one
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

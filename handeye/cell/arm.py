@@ -114,7 +114,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
         joints = [model.joint(name).id for name in names]
-        self.qpos = model.jnt_qposadr[joints]  # where its joints stand in the simulator's positions
+        self.qpos = model.jnt_qposadr[joints]  # indices of its joints in the simulator's positions
         self.dofs = model.jnt_dofadr[joints]
         self.last_link = int(model.jnt_bodyid[joints[-1]])  # the body that carries the hand
         self.watchdog = Watchdog(arm.servo.period)

@@ -25,7 +25,7 @@ steps in a second.
 """
 FASTEST: Final = 1000.0
 """Greatest plausible speed, m/s and rad/s. Only a failure of the contact solver makes a body on a bench faster."""
-_STRETCH: Final = Fraction(1, 60)  # s for which mechanisms may hold what they do to the simulator, at most
+_STRETCH: Final = Fraction(1, 60)  # longest time (s) for which the action of mechanisms may stay constant
 
 
 class Due(Record, frozen=True, kw_only=True):
@@ -165,7 +165,9 @@ class Bench(Clock, Mechanism[BenchTime]):
         for act in self.before_period:
             act()
         if asleep(self.data):
-            most = min(most, max(self._before_event(), 1))  # what was just called may have asked for one
+            most = min(
+                most, max(self._before_event(), 1)
+            )  # the functions just called may have added an event
             for part in self._parts:
                 part.rested(float(max(most - steps, 0) * self.tick))
             self._steps += most

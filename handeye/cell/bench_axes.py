@@ -179,7 +179,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         most = [np.inf if spec.force is None else spec.force for spec in self._specs] / gain[:, 0]
         self._goal = q + np.where(
             self._holds, np.clip(ahead, -most, most), 0.0
-        )  # what holds presses as it did
+        )  # an axis that holds its position keeps pressing as before
         self._way, self._left = np.zeros(len(self._specs)), 0
         self._switch(on=on)
         self._bench.data.ctrl[self._servos] = self._goal

@@ -41,7 +41,7 @@ class CameraState(Record, frozen=True, kw_only=True):
     noise: str  # state of its generator, as JSON
     lens: float
     pots: tuple[float, float]
-    stand: tuple[float, float]  # pan and tilt as they really are, rad
+    stand: tuple[float, float]  # true pan and tilt, rad
     focus: float | None  # m; None: at infinity
     gain: float | None
 

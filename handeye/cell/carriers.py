@@ -20,7 +20,7 @@ from handeye.core.pose import Array, Pose, inverse, pose
 STRAIGHTENING: Final = (
     1.33  # rad of turn in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen.
 )
-_STRAIGHT: Final = 1e-6  # rad, m: what is left of a lean is dropped here
+_STRAIGHT: Final = 1e-6  # rad, m: a lean smaller than this is set to zero
 
 
 class Carriers:
@@ -88,7 +88,7 @@ class Carriers:
         along = float(axis @ (X_BS[:3, 3] - self.mouths[hole]))
         model.body_pos[self._body[hole]] = X_BS[:3, 3] - along * axis
         x, y, z = axis
-        turn = np.array([1.0 + z, -y, x, 0.0])  # the shortest of z to the axis, a quaternion
+        turn = np.array([1.0 + z, -y, x, 0.0])  # the shortest rotation from z to the axis, a quaternion
         model.body_quat[self._body[hole]] = turn / np.linalg.norm(turn)
         self._move(hole, along, rate)
         self._show(hole, there=True)

@@ -61,7 +61,7 @@ class ArmBuild:
     armature: Array  # inertia of each drive
     damping: Array  # viscous friction
     friction: Array  # Coulomb friction, N m, N
-    hand_length: float  # true less believed, m
+    hand_length: float  # true minus modelled, m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,4 +87,6 @@ class CameraErrors:
     """Error of the position of each lens, m: forwards, to the right and upwards in its picture."""
     pot_noise: float  # sigma of the pan and tilt readings, rad
     raster: Raster
-    drift: float  # sigma of where a picture lies, along its lines and across, over half its length and height
+    drift: (
+        float  # sigma of a picture's position along its lines and across them, over half its width and height
+    )

@@ -66,7 +66,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._fingers = [int(model.jnt_qposadr[finger]) for finger in fingers]
         self._dof = int(model.jnt_dofadr[fingers[0]])
         self._switches = [int(model.sensor(f"{prefix}switch_{side}").adr[0]) for side in "ab"]
-        self._set_point = self.gap  # where the finger servo is to be when the time is over, m as read
+        self._set_point = self.gap  # of the finger servo at the end of the time that passes, m as read
         self._command: tuple[float, float] | None = None
         self._reading = HandReading(gap=self.gap, touch=(False, False))
         self._act = int(model.actuator_actadr[self._motor])
@@ -101,7 +101,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         if (goal - here) * (start - here) < 0 and abs(start - here) > step:
             start = here
         moved = min(max(goal - start, -step), step)
-        if abs(start + moved - self._set_point) > step / 4:  # not merely by the noise of what is held
+        if abs(start + moved - self._set_point) > step / 4:  # not just noise of the reading
             wake(self._data, self._dof)
         self._set_point = start + moved
         grip = self._lines.carried("finger_motor", min(max(grip, 0.0), self._hand.grip))

@@ -12,7 +12,7 @@ SPHERE: Final = mujoco.mjtGeom.mjGEOM_SPHERE
 
 SCENERY: Final = 1
 """Geom group of decorative shapes, which the television camera does not see."""
-SEEN: Final = 2  # group of the shapes by which a body is seen
-PLAIN: Final = 5  # group of the shapes that the television camera sees, where photographs show finer ones
+SEEN: Final = 2  # group of the shapes that show a body
+PLAIN: Final = 5  # group of shapes for the television camera; photographs show finer shapes instead
 LATENT: Final = 4
 """Geom group of shapes that appear only after an event, such as the screws in threads that are still empty."""

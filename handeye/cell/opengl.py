@@ -62,7 +62,7 @@ class OpenGlRenderer(SceneRenderer):
             self._scene.flags[getattr(mujoco.mjtRndFlag, f"mjRND_{flag}")] = 0
 
     def __del__(self) -> None:
-        # what is freed must be this context's, and another renderer may have made its own current
+        # The objects to free belong to this context, and another renderer may have made its own context current.
         with contextlib.suppress(Exception):  # at exit the display may be gone before us
             if "_context" in self.__dict__:
                 self._gl.make_current()
@@ -88,7 +88,7 @@ class OpenGlRenderer(SceneRenderer):
                 light.diffuse[:] = 0
         context = self._context
         self._gl.make_current()
-        # each time: where another renderer has drawn in between, OpenGL still draws into its picture
+        # Each time: if another renderer has drawn in between, OpenGL still draws into that renderer's picture.
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, context)
         viewport = mujoco.MjrRect(0, 0, _WIDTH, _HEIGHT)
         mujoco.mjr_render(viewport, self._scene, context)
@@ -161,7 +161,7 @@ def context() -> tuple[str, Any]:
         if not all(_loads(alternatives) for alternatives in libraries if alternatives):
             continue
         present = True
-        # what a broken driver raises is not documented: ImportError, AttributeError, errors of PyOpenGL
+        # What a broken driver raises is not documented: ImportError, AttributeError, errors of PyOpenGL.
         with contextlib.suppress(Exception):
             gl = importlib.import_module(module).GLContext(_WIDTH, _HEIGHT)
             gl.make_current()

@@ -57,9 +57,9 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
     if any(warnings):
         name = mujoco.mjtWarning(next(kind for kind, count in enumerate(warnings) if count)).name
         raise PhysicsFailed(f"the simulated cell broke down ({name})")
-    if data.qvel @ data.qvel < fastest * fastest:  # then nothing is as fast as that; soon known
+    if data.qvel @ data.qvel < fastest * fastest:  # then nothing is as fast as that; a quick test
         return
-    if not np.abs(data.qvel).max(initial=0.0) < fastest:  # nor is what is not a number
+    if not np.abs(data.qvel).max(initial=0.0) < fastest:  # also true for NaN
         raise PhysicsFailed(
             f"the simulated cell broke down (something moves faster than {fastest:g} m/s or rad/s)"
         )
@@ -80,7 +80,7 @@ class PhysicsStepper:
         self._hand = 0 if carrying is None else model.body(carrying.hand).id
         self._carried = np.zeros(
             (model.ntree + 1, model.ntree + 1), dtype=bool
-        )  # the last is what stands still
+        )  # the last is for bodies fixed in the world
         for pair in () if carrying is None else carrying.pairs:
             first, second = (model.body_treeid[model.body(name).id] for name in pair)
             self._carried[first, second] = self._carried[second, first] = True
@@ -106,7 +106,7 @@ class PhysicsStepper:
         """Return the pairs of bodies that touch."""
         geoms = self._data.contact.geom
         seen = geoms.tobytes()
-        if seen != self._seen:  # they are seldom others than in the step before
+        if seen != self._seen:  # they seldom change from one step to the next
             model = self._model
             bodies = np.sort(model.geom_bodyid[geoms], axis=1)
             first, second = model.body_treeid[bodies].T
@@ -131,7 +131,7 @@ class PhysicsStepper:
         smooth = True
         try:
             for _ in range(steps // LONGER):
-                mujoco.mj_step(model, data)  # its contacts are those where it began
+                mujoco.mj_step(model, data)  # its contacts are those at its beginning
                 smooth = self._touching() == touching
                 if not smooth:
                     break

@@ -49,7 +49,7 @@ def averaged(fine: Array | Luminance) -> Luminance:
     return np.asarray(lines.reshape(ROWS, COLUMNS, FINE).sum(axis=2) / FINE**2, dtype=np.float32)
 
 
-_SHOWN: Final = 60  # characters of what is no picture: it may be long
+_SHOWN: Final = 60  # characters shown of a value that is not a picture
 
 
 class PictureMaker(Protocol):

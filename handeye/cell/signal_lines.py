@@ -84,7 +84,7 @@ class SignalLines(Mechanism[SignalLinesState]):
                 self._states[place] = DefectState(seconds=state.seconds + seconds, first=state.first)
 
     def rested(self, seconds: float) -> None:
-        self.before(seconds)  # what is broken drifts on
+        self.before(seconds)  # the defects drift on
 
     def carried(self, line: str, value: float) -> float:
         """Return the number (SI) that arrives when `value` is sent."""

@@ -33,7 +33,7 @@ _RGB: Final = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
 class Solid:
     """A solid of a body."""
 
-    name: str  # no other in its body has it
+    name: str  # unique in its body
     mesh: str | None  # name of its shape, which other solids may have too
     shape: trimesh.Trimesh  # in its own frame, m
     X_BS: Pose
@@ -66,7 +66,7 @@ def solids_of(spec: mujoco.MjSpec, model: mujoco.MjModel, body: mujoco.MjsBody) 
             pieces.append((geom, shape, _colour(model, geom)))
     if pieces:
         first = pieces[0][0]
-        name = first.meshname.rpartition("_")[0]  # behind it stands the colour
+        name = first.meshname.rpartition("_")[0]  # the colour comes after it
         yield _mesh(first, name, *_joined([piece[1:] for piece in pieces]), again=0)
 
 
@@ -195,7 +195,7 @@ def glb(scene: SolidScene, told: Mapping[str, str]) -> bytes:
             _hang(tree, node, name, solid)
         around = pose(np.eye(3), np.zeros(3)) if node == FRAME else body_pose(data, node)
         for site in body.sites:
-            if site.name not in tree.graph.nodes:  # else a body has its name
+            if site.name not in tree.graph.nodes:  # otherwise a body already has this name
                 place = data.site(site.name)
                 X_WP = pose(place.xmat.reshape(3, 3).copy(), place.xpos.copy())
                 tree.graph.update(frame_from=node, frame_to=site.name, matrix=inverse(around) @ X_WP)

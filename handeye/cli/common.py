@@ -109,7 +109,8 @@ Json = Annotated[
 Out = Annotated[
     Path | None,
     Parameter(
-        name=["--out", "-o"], help="Folder in which to save plan, events, trace, checkpoints, pictures and result."
+        name=["--out", "-o"],
+        help="Folder in which to save plan, events, trace, checkpoints, pictures and result.",
     ),
 ]
 

@@ -166,7 +166,7 @@ class Leg:
     other waits.
     """
 
-    begin: float  # s of the course
+    begin: float  # s on the common timeline
     a: float
     """Time of the first run at the beginning of the leg, s since the run began; the time advances evenly to the
     beginning of the next leg.
@@ -181,7 +181,7 @@ class Course:
     """The common timeline of two runs."""
 
     legs: tuple[Leg, ...]
-    end: float  # s of the course
+    end: float  # s on the common timeline
     a: float  # end of the first run, s since it began
     b: float
 

@@ -26,7 +26,9 @@ _CAME_TO: Final[dict[Kind, str]] = {
     "paused": "has not finished",
     "broken off": "was recorded only in part",
 }
-THINNED: Final = "At least one trace is thinned: events are compared, but not the sensor readings between them."
+THINNED: Final = (
+    "At least one trace is thinned: events are compared, but not the sensor readings between them."
+)
 COURSE: Final = "Both runs took the same course: the same steps, stops, errors and answers."
 _UNITS: Final[Mapping[GuardKind, str]] = {
     GuardKind.FORCE: "oz",

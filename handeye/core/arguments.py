@@ -16,7 +16,7 @@ def whole(given: object) -> int | None:
         return None
     try:
         return index(given)
-    except TypeError:  # an array that is not one number alone
+    except TypeError:  # an array of more or fewer than one number
         return None
 
 

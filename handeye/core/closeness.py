@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, Final
 
-LAST_PLACES: Final = 1e-9  # of numbers above 1, as a share; SI
+LAST_PLACES: Final = 1e-9  # relative for numbers above 1, absolute for others; SI
 
 
 def alike(a: Any, b: Any, places: float = LAST_PLACES) -> bool:

@@ -118,7 +118,8 @@ CODES: Final[dict[str, Code]] = {
     ),
     "number-out-of-range": _error("a number is too small or too large for its operand", "OPEN 5"),
     "opened-too-little": _warning(
-        "a grasp has a minimum gap that is wider than the gap to which the hand has opened", "OPEN .2\nCLOSE .25"
+        "a grasp has a minimum gap that is wider than the gap to which the hand has opened",
+        "OPEN .2\nCLOSE .25",
     ),
     "parameter-name-taken": _error(
         "a parameter has the name of an instruction, of another word of the language, of an axis or of a label",
@@ -165,7 +166,8 @@ CODES: Final[dict[str, Code]] = {
     "search-without-aoj": _warning("a SEARCH has no AOJ after it on any path", "SEARCH .07\nMOVE T"),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
-        "a skip would skip a modifier, but not the motion that it modifies", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
+        "a skip would skip a modifier, but not the motion that it modifies",
+        "SKIPE 23\nSTOP [0 0 -50]\nMOVE T",
     ),
     "skips-one-only": _warning(
         "several indented lines follow a skip, but it skips only the first",

@@ -42,7 +42,7 @@ class MissingMark(Record, frozen=True):
     mark: str
 
 
-Meant = SimilarName | KnownNames | MissingMark  # what was probably meant, for a program that mends it
+Meant = SimilarName | KnownNames | MissingMark  # what was probably meant, for tools that correct it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,8 +93,7 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 
 
 def arranged(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Sort diagnostics by position, drop duplicates, and keep at most `LIMIT`. Warnings are dropped before errors.
-    """
+    """Sort diagnostics by position, drop duplicates, and keep at most `LIMIT`. Warnings are dropped before errors."""
     once = {(d.code, d.primary.span): d for d in diagnostics}
     kept = sorted(once.values(), key=lambda d: (d.severity != "error", d.primary.span))[:LIMIT]
     return sorted(kept, key=lambda d: (d.primary.span, d.code))

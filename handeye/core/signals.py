@@ -16,7 +16,7 @@ ENDING: Final = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal
 _IMPORTING: Final = (
     "importlib._bootstrap",
     "_frozen_importlib",
-)  # what imports is called so before and after `importlib`
+)  # names of the import system's module, before and after `importlib` is loaded
 
 Handler = Callable[[int, FrameType | None], None]
 

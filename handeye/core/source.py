@@ -14,7 +14,7 @@ from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
 from handeye.core.plain_text import printable
 
-LARGEST: Final = 1_000_000  # bytes of a text file: the longest possible program at a hundred a statement
+LARGEST: Final = 1_000_000  # bytes of a text file: the longest program, at a hundred bytes a statement
 
 
 class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
@@ -115,7 +115,7 @@ def read_source(path: str | Path) -> Source:
     try:
         return Source(name=str(path), text=with_line_ends(data.decode("utf-8-sig")))
     except UnicodeDecodeError as error:
-        # `utf-8-sig` counts from behind a byte order mark, if there is one.
+        # `utf-8-sig` counts offsets from the end of a byte order mark, if there is one.
         byte = error.object[error.start]
         offset = error.start + len(data) - len(error.object)
         raise BadFile(f"{path} is not UTF-8 text: byte {offset} is 0x{byte:02x}") from None

@@ -29,11 +29,11 @@ DRAWING: Final = 4  # version of the drawing: raised when equal seeds give other
 
 LARGEST_SEED: Final = (
     1 << 53
-) - 1  # the largest that every reader of JSON keeps, also one whose numbers are doubles
+) - 1  # the largest that every JSON reader keeps exactly, even one whose numbers are doubles
 Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
 """Number from which a world is drawn. Neighbouring numbers give unrelated worlds."""
 
-_LONG: Final = 10**40  # what has more digits is not repeated to a person
+_LONG: Final = 10**40  # a number with more digits is not quoted in a message
 
 UNSOURCED: Final = "unsourced"
 """In a scale, this name stands for all quantities whose size has no source."""
@@ -76,7 +76,7 @@ class Quantity:
                 raise BadArgument(f"{self.name} must be {known}, not {told}")
             return
         low, high = (limit * self.measure.size for limit in self.limits)
-        if type(value) not in (int, float) or not low <= value <= high:  # not a number is not between two
+        if type(value) not in (int, float) or not low <= value <= high:  # also refuses NaN
             raise BadArgument(f"{self.name} must be between {low:g} and {high:g} in SI units, not {value!r}")
 
 
@@ -242,7 +242,7 @@ class Variation:
         most = LARGEST_SCALE / SPREADS[spec.level]
         for name, factor in spec.overrides.scale.items():
             self.scalable(name)
-            if type(factor) not in (int, float) or not 0 <= factor <= most:  # not a number is not between two
+            if type(factor) not in (int, float) or not 0 <= factor <= most:  # also refuses NaN
                 raise BadArgument(
                     f"{quoted(name)} cannot be scaled by {factor!r}; at the level {spec.level}, a factor must be "
                     f"between 0 and {most:g}"

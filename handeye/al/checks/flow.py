@@ -40,8 +40,7 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after an operation of another kind; if `later` is True, only before one.
-    """
+    """An operation that makes sense only after an operation of another kind; if `later` is True, only before one."""
 
     code: str
     of: type[Operation]
@@ -174,8 +173,7 @@ class _Flow:
         return problem(code, message, self.word(number).span, *head, notes=(note,))
 
     def tests(self) -> Iterator[Finding]:
-        """Report the tests without effect, and the tests for errors that cannot be pending where the test is made.
-        """
+        """Report the tests without effect, and the tests for errors that cannot be pending where the test is made."""
         raised, actions = self.incoming()
         for number, operation in self.graph.each(Test):
             if not actions[number]:

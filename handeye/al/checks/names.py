@@ -44,7 +44,7 @@ def check_names(
     marked = [d.primary.span for d in swapped]
     unknown = [use for use in unknown if not any(mark.start <= use[0].start < mark.end for mark in marked)]
     unknown.sort(key=lambda use: use[0].span)
-    # Looking for what was meant takes time: only for those that will be shown.
+    # Finding similar names takes time, so it is done only for the diagnostics that will be shown.
     errors = [u for u in unknown if u[1] is not Refers.SAVED][:LIMIT]
     warnings = [u for u in unknown if u[1] is Refers.SAVED][:LIMIT]
     found = [_unknown(name, refers, known) for name, refers in errors + warnings]

@@ -129,10 +129,10 @@ _SERVO: Final = ServoModel(
 )  # fmt: skip
 
 # Chosen. Gain: slow enough for the arm's 20 kg of felt inertia. Gain of turning: slow for a wrist that gives some 160
-# N m a radian under its servo. Limit of turning: what leans on the hand more has hit it.
-# Friction: the data sheet has none. Inferred from the paper, by which the arm that is let go of stays where it is:
-# joints 2 and 3 carry half a step of their torques and what is left of gravity when the arm has weighed itself; the
-# wrist bears half a step. Of joint 1: placeholder, half a per cent of what its drive can do.
+# N m a radian under its servo. Limit of turning: a wrench that turns the hand further means that it was hit.
+# Friction: the data sheet has none. Inferred from the paper, according to which an arm that is let go stays where
+# it is: joints 2 and 3 carry half a step of their torques and what is left of gravity when the arm has weighed
+# itself; the wrist carries half a step. Of joint 1: placeholder, half a per cent of what its drive can do.
 _COMPLIANCE: Final = ComplianceModel(
     gain=0.0015, speed=0.0127, turn_gain=0.1, turn_speed=0.1, turn_limit=15 * DEGREE, ramp=6,
     friction=(0.4, 0.8, 2.0, 0.1, 0.1, 0.05),
