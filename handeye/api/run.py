@@ -50,7 +50,9 @@ Place = str | int
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunEnding:
-    """How a run ends: the folder to complete, the referee that judges it, and the timer of the computing time."""
+    """What a run needs at its end: the folder to complete, the referee that judges the run, and the timer of the
+    computing time.
+    """
 
     folder: RunFolder | None
     judged: bool

@@ -24,8 +24,8 @@ _LATE: Final = 1e-6  # share of a period lost to rounding
 
 @dataclass(slots=True)
 class Watchdog:
-    """Switches off the drives of an arm when its computer stops answering. They stay off until the program sets the
-    brakes.
+    """Switches off the drives of an arm when its computer stops answering. The drives stay off until the program
+    sets the brakes.
     """
 
     period: float  # s

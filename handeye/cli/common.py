@@ -39,8 +39,8 @@ TaskWords = Annotated[
     str | None,
     Parameter(
         name="--task",
-        help="The task: its name, or MODULE:NAME for your own, in a module on the path or in this folder. "
-        "Default: the task of the plan, program or run, or else the water pump.",
+        help="The task: its name, or MODULE:NAME for a task of your own, in a module on the path or in this "
+        "folder. Default: the task of the plan, program or run, or else the water pump.",
     ),
 ]
 CameraKind = Literal["auto", "gl", "ray"]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Self
 
 _LOADED = time.monotonic(), time.process_time()
-"""Wall-clock and processor time at which this module was imported, which a command does first."""
+"""Wall-clock and processor time at which this module was imported. A command imports it before anything else."""
 
 
 @dataclass(frozen=True, slots=True)

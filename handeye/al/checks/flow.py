@@ -214,7 +214,7 @@ class _Flow:
     def vain(self) -> Iterator[Finding]:
         """Report the steps that can never have their effect, or that always raise an error."""
         for found in always_failing(self.graph):
-            cause = () if found.cause is None else (Label(span=self.span(found.cause), text="by this"),)
+            cause = () if found.cause is None else (Label(span=self.span(found.cause), text="because of this"),)
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
 
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:

@@ -25,8 +25,8 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledScript:
-    """A script with the intermediate results of its compilation. In `statements`, each macro with parameters
-    appears as it is called.
+    """A script with the intermediate results of its compilation. In `statements`, macros with parameters appear
+    with the operands of each call filled in.
     """
 
     source: Source
@@ -79,8 +79,8 @@ _POSITION_KINDS: Final = (Refers.POSITION, Refers.TARGET)
 
 
 def check_here(placed: Sequence[ExpandedStatement], known: Container[str]) -> Iterator[Diagnostic]:
-    """Report each use of a position before the `HERE` that defines it, in text order. `known` are the taught
-    positions and the positions written in the script.
+    """Report each use of a position that comes, in the order of the text, before the `HERE` that defines the
+    position. `known` are the taught positions and the positions written in the script.
     """
     defined: dict[str, int] = {}
     for number, item in enumerate(placed):
