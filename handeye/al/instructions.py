@@ -72,8 +72,8 @@ _MEANINGS: Final = {
     "PARK": "go to the position called PARK",
     "TURN": "move on a circle about the vertical line through a position, by this angle (degrees, counter-clockwise)",
     "STOP": "end the next motion when the hand presses along this vector with more ounces than the vector's length, or "
-    "exerts more than this moment (oz-in); a single number (an extension of handeye) limits the force that "
-    "opposes the motion, whatever its direction; error 23 if the motion is not stopped",
+    "exerts more than this moment (oz-in); a single number (an extension of handeye) limits the force against "
+    "the motion, whichever way the hand moves; error 23 if the motion is not stopped",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
     "stiff) for each axis, or the number of axes and their names: `2 X Y`",

@@ -369,7 +369,8 @@ class Run:
 
         Args:
             path: a folder, to export a scene that plain MuJoCo can load; or a file name that ends in `.glb`, to
-            export the solids as a 3D model. part: which solids to export: `cell` (the default) or `pump`.
+                export the solids as a 3D model.
+            part: which solids to export: `cell` (the default) or `pump`.
             overwrite: replace an existing export.
 
         Returns:

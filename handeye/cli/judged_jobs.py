@@ -63,8 +63,8 @@ def carry_out_run(
     """Run a program and report how it ended. Returns the exit code.
 
     Args:
-        listening: observers of the run; not used if the run is stepped. folder: where the run is kept, in place of
-        --out.
+        listening: observers of the run; not used if the run is stepped.
+        folder: where the run is kept, in place of --out.
     """
     from handeye.cli.job import Job, work
     from handeye.runs.snapshot import Checkpoint

@@ -62,8 +62,8 @@ def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[St
     poses recorded at that moment belong to the step's stretch.
 
     Args:
-        unseen: number of an event; the messages that accompany the events before it are left out. periods: include
-        the messages of each servo period.
+        unseen: number of an event; the messages that accompany the events before it are left out.
+        periods: include the messages of each servo period.
     """
     stretch = Stretch(None, trace.messages[0].time)
     waiting: list[tuple[RawMessage, AnyEvent | None]] = []
