@@ -52,8 +52,8 @@ def _is_tight(tokens: Sequence[Token]) -> bool:
     """Return True if the last token must touch the previous token: after a bracket, or after a comma without
     blanks.
 
-    A blank after a comma is kept, because `0, 5` are two numbers, and `0,5` is one number written wrongly. The same
-    holds for `O.5`.
+    A blank after a comma is kept, because `0, 5` are two numbers, and `0,5` is one number written wrongly. For the
+    same reason, no blank is put into `O.5`, which has the letter O in place of a zero.
     """
     before, token = tokens[-2:]
     close = before.end == token.start

@@ -61,8 +61,9 @@ class Trace(recorded.Trace):
         camera's mechanism are cut.
 
         Args:
-            camera: `orbit` moves around the cell, `follow` moves close to the hand; or a camera of the scene.
-            seconds: length of the video, s, 14 by default; short stages are played more slowly, so that each can be
+            camera: `orbit`, which moves around the cell; `follow`, which moves close to the hand; or the name of a
+            camera of the scene. seconds: length of the video, s, 14 by default; short stages are played more
+            slowly, so that each can be
                 seen.
             speed: instead of `seconds`: factor by which the video is faster than the run.
             first: the first stage: its number, its name, or part of its name.

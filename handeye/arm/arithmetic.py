@@ -25,7 +25,7 @@ class ArmArithmetic(ABC):
 
     @abstractmethod
     def gravity(self, q: Array) -> Array:
-        """Return the joint torques that hold the arm up at rest, shape (n,), N m, or N for prismatic joints."""
+        """Return the joint torques that hold the arm up at rest, shape (n,), in N m (in N for prismatic joints)."""
 
     @abstractmethod
     def at_rest(self, q: Array) -> Dynamics:

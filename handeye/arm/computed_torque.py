@@ -19,7 +19,7 @@ def torque(
     arm: ArmModel, M: Array, bias: Array, q_des: Array, qd_des: Array, qdd_des: Array, q: Array, qd: Array,
     exerted: Array | float = 0.0,
 ) -> Array:  # fmt: skip
-    """Compute the drive torques for one servo period, shape (n,), N m, or N for prismatic joints.
+    """Compute the drive torques for one servo period, shape (n,), in N m (in N for prismatic joints).
 
     `M`, shape (n, n), and `bias`, shape (n,), belong to the planned state at the moment when `q` and `qd` are read.
     `exerted` is J^T F, where F is a force that the hand is to exert or a load that it carries.

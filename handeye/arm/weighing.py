@@ -33,8 +33,8 @@ def weighed(arm: ArmModel, factors: tuple[float, ...]) -> ArmModel:
 
 
 def mass_factors(arm: ArmModel, q: Array, unexplained: Array) -> Array:
-    """Find the factors on the link masses, shape (n,), that explain the holding torques `unexplained` (N m or
-    N), which the model's `gravity` does not give.
+    """Find the factors on the link masses, shape (n,), that explain `unexplained`: the holding torques (N m or N)
+    beyond those that the function `gravity` gives for the model.
     """
     doubt = TORQUE_DOUBT * constants(arm).effort
     alone = [gravity(weighed(arm, tuple(one)), q) for one in np.eye(len(arm.joints)).tolist()]  # of each link

@@ -41,8 +41,8 @@ class Mechanism(ABC, Generic[S]):
         """Prepare for the next `seconds`."""
 
     def rested(self, seconds: float) -> None:
-        """Let `seconds` pass at once, because everything sleeps. They come in addition to the seconds that `before`
-        announced.
+        """Let `seconds` pass at once, because everything sleeps. These seconds come in addition to those that
+        `before` announced.
         """
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -191,13 +191,13 @@ def allow(model: mujoco.MjModel, tree: int, *, allowed: bool = True) -> None:
 
 
 def wake(data: mujoco.MjData, dof: int) -> None:
-    """Wake the tree of bodies to which a degree of freedom belongs, if it sleeps."""
+    """Wake the tree of bodies to which a degree of freedom belongs, if the tree sleeps."""
     if data.qvel[dof] == 0.0:
         data.qvel[dof] = _NUDGE
 
 
 def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
-    """Wake the trees of bodies to which degrees of freedom belong, if they sleep."""
+    """Wake the trees of bodies to which degrees of freedom belong, if the trees sleep."""
     data.qvel[dofs[data.qvel[dofs] == 0.0]] = _NUDGE
 
 

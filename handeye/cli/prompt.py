@@ -69,7 +69,7 @@ class PipedLines:
         Thread(target=self._read, args=(file,), daemon=True).start()
 
     def wait(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
-        """Lines not yet taken; the context `aside` is entered while waiting for one."""
+        """Lines not yet taken; the context `aside` is entered while waiting for a line."""
         while True:
             with aside():
                 line = self._lines.get()

@@ -35,7 +35,8 @@ def video(
     camera: Annotated[
         str,
         Parameter(
-            help="`orbit` moves around the cell, `follow` moves close to the hand; or a camera of the scene."
+            help="`orbit`, which moves around the cell; `follow`, which moves close to the hand; or the name of a "
+            "camera of the scene."
         ),
     ] = "orbit",
     size: Size = "480x360",

@@ -217,7 +217,7 @@ class Variation:
         those = self.quantities.values() if name == UNSOURCED else self.select(name)
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
-            what = "no error without a source" if name == UNSOURCED else f"no error in {quoted(name)}"
+            what = "no unsourced error" if name == UNSOURCED else f"no error in {quoted(name)}"
             raise BadArgument(f"the world has {what} to scale")
         return found
 
