@@ -139,8 +139,8 @@ def comparison_text(found: Comparison) -> list[str]:
 
 
 def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
-    """Yield the conditions that differ as lines of text. If the plans differ, a note says that only common
-    steps are compared.
+    """Yield, as lines of text, the conditions that differ. If the plans differ, a note says that only common steps
+    are compared.
     """
     for each in differing:
         if each.what == "plan":
