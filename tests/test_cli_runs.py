@@ -384,7 +384,7 @@ def test_back_in_a_run_that_begins_at_a_stage_uses_the_checkpoints_of_the_folder
     standing = [line for line in out.splitlines() if line.startswith("──")]
     assert "stage 2, once more, step 3; 3 steps done" in standing[1]
     assert "stage 1, to and fro, step 2; 2 steps done" in standing[2]
-    assert (code, "`back` can undo only 2 steps" in out) == (2, True)
+    assert (code, "`back` can go back at most 2 steps" in out) == (2, True)
 
 
 def test_stepping_as_json_gives_one_object_a_line(command: Command, planned: Planned) -> None:

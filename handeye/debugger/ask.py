@@ -25,7 +25,7 @@ class Ask:
     """An operator who asks the person at the terminal. The end of the input means `abort`."""
 
     lines: Iterator[str]
-    write: Callable[[str], None]  # puts out lines of text; the end of the last one is not in them
+    write: Callable[[str], None]  # prints lines of text, given without the final newline
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         self._say(_question(runner, refused or call_sentence(call.message, call.error, call.cause)))

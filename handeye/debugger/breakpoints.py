@@ -35,7 +35,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     if error := _ERROR.fullmatch(text):
         if not listing.errors:
             raise Refused(
-                "the steps of this program raise no errors to break on; the run stops whenever the "
+                "the steps of this program raise no errors to break on; the run pauses whenever the "
                 "program stops"
             )
         return _on_error(error["number"] or error["any"], listing)
@@ -95,7 +95,7 @@ def meant(name: str, known: Iterable[str]) -> str:
 def _on_error(number: str, listing: Listing) -> AnyStop:
     if not _NUMBER.fullmatch(number) or int(number) not in listing.errors:
         raise NoSuchName(
-            f"there is no error {quoted(number)}; there are {', '.join(map(str, listing.errors))}"
+            f"no step raises error {quoted(number)}; the steps raise {', '.join(map(str, listing.errors))}"
         )
     return OnError(number=int(number))
 
@@ -138,8 +138,9 @@ def _at_stage(text: str, listing: Listing) -> AnyStop | None:
 
 
 def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
-    """Return True if a task of a run that begins at `start` can still reach the place of a stop. Errors can
-    always occur."""
+    """Return True if one of the tasks of a run that begins at `start` can still reach the place of a stop. Stops
+    without a place, such as errors, count as reachable.
+    """
     listing = listing_of(start.setup)
     wanted, ways = _steps(stop, listing), [step.ways for step in listing.steps]
     if wanted is None:

@@ -19,8 +19,8 @@ class Command(Generic[Act]):
     help: str
     group: str = ""  # its heading in help
     short: str = ""  # its abbreviation
-    repeats: bool = False  # an empty line after it repeats it
-    meanwhile: bool = False  # also allowed while the run goes
+    repeats: bool = False  # an empty line repeats it
+    meanwhile: bool = False  # also allowed while the run moves
 
     @property
     def name(self) -> str:

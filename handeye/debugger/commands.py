@@ -95,7 +95,7 @@ def back(session: DebugSession, rest: str) -> CommandResult:
         raise Refused("the run is at its first step: there is no earlier state to go back to")
     first = session.first()
     if position < first:
-        raise Refused(reach(first) if first else f"`back` can undo only {counted(done, 'step')}")
+        raise Refused(reach(first) if first else f"`back` can go back at most {counted(done, 'step')}")
     session.back_to(position)
     undone = done - position
     return CommandResult(source=session.source(), said=f"{counted(undone, 'step')} undone")

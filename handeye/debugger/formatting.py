@@ -19,7 +19,7 @@ from handeye.debugger.view_records import (
 )
 from handeye.results.pauses import pause_sentence, stop_name
 
-MAX_STEPS_SHOWN: Final = 24  # of a long way, on a terminal; all of them are in the trace
+MAX_STEPS_SHOWN: Final = 24  # after a long command, on a terminal; the trace has all steps
 STATEMENT_COLUMNS: Final = 30
 _ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in CommandResult.__struct_fields__)
 

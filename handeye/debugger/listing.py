@@ -14,7 +14,7 @@ from handeye.core.source import Source, line_name
 from handeye.debugger.view_records import TaskView
 from handeye.runs.system import Listing
 
-Place = tuple[str, int]  # a required file, or the script itself if that is empty, and a line of it
+Place = tuple[str, int]  # a required file (empty: the script itself), and a line of that file
 _PLACE: Final = re.compile(r"(?:(?P<file>[^:]+):)?(?P<line>[0-9]{1,9})")
 
 
@@ -34,8 +34,8 @@ class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
     name: str
     file: str = ""  # the required file it begins in; empty: the script itself
     lines: tuple[int, int] | None
-    """First and last line of the stage's steps in the file, without those of macros unless there are no others;
-    None if there are no steps.
+    """First and last line of the stage's steps in the file; None if there are no steps. Steps of macros count only
+    if there are no others.
     """
     steps: tuple[ListedStep, ...]
 
@@ -46,8 +46,8 @@ class SourceLine(Record, frozen=True, kw_only=True, omit_defaults=True):
     file: str = ""
     line: int
     text: str
-    here: bool  # the run stands at it
-    tasks: tuple[str, ...] = ()  # tasks that stand at it, of a system that has several
+    here: bool  # the run is at this line
+    tasks: tuple[str, ...] = ()  # tasks that are at this line, in a system with several tasks
 
 
 def listing(program: Listing) -> tuple[ListedStage, ...]:

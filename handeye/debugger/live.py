@@ -22,9 +22,7 @@ from handeye.runs.runner import Runner
 FREE: Final = "free"  # as fast as possible
 SLOWEST: Final = 0.25
 FASTEST: Final = 100.0
-_LATE_S: Final = (
-    0.1  # up to which a run catches up; one that is later, as after a picture, continues from there
-)
+_LATE_S: Final = 0.1  # a run that is later than this (after a picture, for example) does not catch up
 
 
 @dataclass(slots=True, eq=False)
@@ -74,15 +72,15 @@ def factor(text: str) -> float | None:
     return float(number[1])
 
 
-_OUTCOME_INDENT: Final = 8  # columns, where it has a line of its own
+_OUTCOME_INDENT: Final = 8  # columns, if the outcome has a line of its own
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Live:
     """The terminal as a run uses it: reads typed lines, and writes text."""
 
-    typed: Callable[[], str | None]  # a line that was typed already; None: there is none
-    put: Callable[[str], None]  # puts out a piece of a line
+    typed: Callable[[], str | None]  # returns a line that has been typed; None: there is none
+    put: Callable[[str], None]  # prints a piece of a line
     width: int
 
 
@@ -125,8 +123,8 @@ class LiveText(Observer):
     line if there is space."""
 
     runner: Runner
-    write: Callable[[str], None]  # puts out a line, without its end
-    put: Callable[[str], None]  # puts out a piece of a line
+    write: Callable[[str], None]  # prints a line, given without its newline
+    put: Callable[[str], None]  # prints a piece of a line
     width: int
     told: int = 0  # events printed so far
     _open: str = ""  # text of a line that has not ended

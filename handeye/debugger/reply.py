@@ -100,8 +100,8 @@ class CommandResult(Record, frozen=True, kw_only=True):
     """The result of a command. Fields without content are left out."""
 
     said: str | UnsetType = UNSET
-    pause: Pause | None = None  # why the run pauses, if the command made it go
-    source: tuple[SourceLine, ...] | UnsetType = UNSET  # around where the run stands, or as asked
+    pause: Pause | None = None  # why the run pauses, if the command continued it
+    source: tuple[SourceLine, ...] | UnsetType = UNSET  # lines around the present one, or the requested lines
     show: RunViews | UnsetType = UNSET
     breaks: tuple[Break, ...] | UnsetType = UNSET
     file: str | UnsetType = UNSET  # file that was written

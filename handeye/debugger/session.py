@@ -51,8 +51,8 @@ class DebugSession:
         self.over = False
         self.pace = Pace()
         self.output = Observer()  # prints what the run does while it continues
-        self.input = Observer()  # takes lines typed while it continues, or back
-        self.going: Literal["on", "back"] | None = None  # the way in which the run goes; None: it pauses
+        self.input = Observer()  # takes lines typed while it continues or goes back
+        self.going: Literal["on", "back"] | None = None  # the direction of the run; None: it is paused
         self._pause_asked = False
         self._set = 0
         self._begun = tuple(runner.events)
@@ -106,7 +106,7 @@ class DebugSession:
         try:
             with self._attended("on", self.pace, self.output, self.input):
                 pause = advance(self.runner, wanted, steps, lambda: self._pause_asked)
-        except BaseException:  # whatever broke it off: Ctrl-C, or code of a caller
+        except BaseException:  # whatever the interruption: Ctrl-C, or an error in code of the caller
             self.runner.rollback()
             raise
         if pause.kind == "panic":
@@ -162,7 +162,7 @@ class DebugSession:
             self.runner.rollback()
             done = self.runner.position
             raise Refused(
-                f"the panic button stopped the way back to the state after {counted(position, 'step')}; "
+                f"the panic button stopped the return to the state after {counted(position, 'step')}; "
                 f"the run is now at the state after {counted(done, 'step')}"
             ) from None
 

@@ -38,7 +38,7 @@ class Stepper:
         self.session = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:
             self.session.add_break(text)
-        self.repeated: str | None = None  # line that an empty one on a terminal repeats
+        self.repeated: str | None = None  # command that an empty line on a terminal repeats
         self.refused = False
         """True if a command was refused. Commands after the end of the run do not count, because the user could not
         foresee the end.
@@ -150,7 +150,7 @@ def interact(
             told.end()
         write(face(reply if told is None else msgspec.structs.replace(reply, did=())))
         if reply.pause is not None and reply.pause.kind == "panic" and not prompt:
-            return reply.pause  # no person is there to say whether the next line still holds
+            return reply.pause  # no person can decide whether the next line still applies
     return stepper.pause
 
 

@@ -59,7 +59,7 @@ class PositionView(Record, frozen=True, kw_only=True):
 
     at: Six
     of: str | None
-    moved: bool  # put elsewhere by `HERE`, or for an experiment
+    moved: bool  # redefined by `HERE` or by an experiment
 
 
 class PictureShown(Record, frozen=True, kw_only=True):
@@ -77,7 +77,7 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
     file: str = ""  # the required file its line is in; empty: the script itself
     line: int
     text: str
-    waits_for: str = ""  # what it waits for, in words; empty: its turn
+    waits_for: str = ""  # what it waits for, in words; empty: only its turn
 
 
 class RunViews(Record, frozen=True, kw_only=True):

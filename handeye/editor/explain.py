@@ -152,7 +152,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
     ),
     errors.WATCHDOG: Remedy(
-        "The computer failed, not the work: do not test for this error, or call the operator with a WAIT.",
+        "The computer failed, not the work. Either do not test for this error, or test for it and call the "
+        "operator with a WAIT.",
         'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
@@ -213,7 +214,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     errors.SWITCH_WRONG: Remedy(
         "A switch that is closed while its finger touches nothing is stuck. A switch that stays open while the "
         "fingers press on a part is stuck too, or the motor of the fingers is weak. The reports of such a switch "
-        "are worthless: do not test for the error, or call the operator with a WAIT.",
+        "are worthless. Either do not test for the error, or test for it and call the operator with a WAIT.",
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),
     errors.GAP_WRONG: Remedy(
@@ -223,13 +224,14 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "OPEN 1.8\nSKIPN 51 ;the fingers reached their gap\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(
-        "The first guarded motion after a MOVE already feels a force. Declare the weight in the hand with LOAD, and "
-        "LOAD 0 after the release. If the load is right, an object leans on the hand, or a drive or a tachometer "
-        "fails.",
+        "The first guarded motion after a MOVE feels a force although the hand should touch nothing. Declare the "
+        "weight in the hand with LOAD, and LOAD 0 after the release. If the declared weight is right, an object "
+        "leans on the hand, or a drive or a tachometer fails.",
         "MOVE P\nCLOSE .1\nLOAD 30 ;else it would be felt\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
     ),
     errors.JOINT_SENSE_WRONG: Remedy(
-        "The arm does not know where it is: do not test for the error, or call the operator with a WAIT.",
+        "The arm does not know where it is. Either do not test for the error, or test for it and call the "
+        "operator with a WAIT.",
         'MOVE T\nSKIPN 53 ;both sensors of each joint agree\nWAIT "SEE TO THE ARM\'S POTENTIOMETERS"\nMOVE P',
     ),
     errors.CURRENT_WRONG: Remedy(
@@ -240,13 +242,13 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.PICTURE_WRONG: Remedy(
         "Noise makes two pictures of a live camera differ, even of a scene at rest. A picture that equals an "
-        "earlier one, or is uniform, shows nothing; a picture with far more noise than that of a sound camera must "
-        "not be used for measurement.",
+        "earlier one, or is uniform, does not show the scene; a picture with far more noise than that of a sound "
+        "camera must not be used for measurement.",
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
     errors.JOINT_STIFF: Remedy(
-        "One joint takes far more torque than its friction, and no force at the hand could cause this: do not test "
-        "for the error, or call the operator with a WAIT.",
+        "One joint needs far more torque than its friction explains, and no force at the hand could cause this. "
+        "Either do not test for the error, or test for it and call the operator with a WAIT.",
         'MOVE T\nSKIPN 57 ;each joint takes what it took at first\nWAIT "SEE TO THE ARM\'S DRIVES"\nMOVE P',
     ),
 }

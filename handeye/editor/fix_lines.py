@@ -18,7 +18,7 @@ def remove_line(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     line = line_of(document, diagnostic)
     heads, tokens = line.split()
     if tokens and instruction(line)[0] is None:
-        return  # a call, which does more than is wrong
+        return  # a macro call: removing it would remove more than the mistake
     if heads and tokens:
         word = f"remove `{tokens[0].text}`"
         end = line.end if line.comment is None else tokens[-1].end

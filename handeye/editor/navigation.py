@@ -91,8 +91,9 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
-    """Return True if a name would clash with the new one. Positions and parts share their names, because AIM
-    takes both."""
+    """Return True if a name would clash with the new one. A position and a part must not get the same name,
+    because AIM accepts both.
+    """
     if name.kind == PARAMETER:
         return False
     if name.kind == LABEL:

@@ -16,7 +16,7 @@ from handeye.editor.places import instruction, places
 
 POSITION, PART, PICTURE = Refers.POSITION.value, Refers.PART.value, Refers.PICTURE.value
 SAVED, LABEL, MACRO, PARAMETER = Refers.SAVED.value, Refers.LABEL.value, "macro", "parameter"
-PARK: Final = "PARK"  # instruction and position in one
+PARK: Final = "PARK"  # both an instruction and a position
 _MAKES: Final = {
     "TRANS": POSITION, "HERE": POSITION, "SAVE": SAVED, "LOOK": PICTURE, "ASSIGN": "counter", "VECT": "vector"
 }  # fmt: skip
@@ -42,7 +42,7 @@ def occurrences(text: str, parts: Iterable[str], macros: Macros) -> list[Occurre
     found = list(_walk(scan(text), macros, set(parts)))
     own = {(o.name, o.scope) for o in found if o.kind == LABEL and o.makes}
     return [
-        replace(o, scope="")  # a jump to a label that its macro lacks goes to one of the text
+        replace(o, scope="")  # a label that the macro lacks is one of the text outside macros
         if o.kind == LABEL and o.scope and not o.makes and (o.name, o.scope) not in own
         else o
         for o in found

@@ -17,7 +17,7 @@ _log: Final = logging.getLogger(__name__)
 
 
 class Protocol(LanguageServerProtocol):
-    """A protocol handler that answers a request that has invalid parameters with an error, and ignores invalid
+    """A protocol handler that replies with an error to a request whose parameters are invalid, and ignores invalid
     notifications.
     """
 
@@ -32,7 +32,7 @@ class Protocol(LanguageServerProtocol):
                 self._send_response(data["id"], error=error)
             return lsp.SetTraceNotification(
                 params=lsp.SetTraceParams(value=lsp.TraceValue.Off)
-            )  # means nothing to us
+            )  # a notification that has no effect here
 
     def handle_message(self, message: Any) -> None:
         """Handle a message, unless it changes a text that was never opened."""
@@ -67,7 +67,7 @@ async def end_with(process: int) -> None:
     """End the server when a process has ended, even if another process keeps the server's input open."""
     while is_running(process):
         await asyncio.sleep(PAUSE_S)
-    os._exit(1)  # without the goodbye that the protocol asks for
+    os._exit(1)  # the client cannot send the `exit` that the protocol requires
 
 
 def is_running(process: int) -> bool:
@@ -83,4 +83,4 @@ def is_running(process: int) -> bool:
         return False
     except (OSError, OverflowError):  # another user's process, or a system without /proc
         return True
-    return state not in b"ZX"  # ended, and not yet asked how
+    return state not in b"ZX"  # ended, but its parent has not yet read its status

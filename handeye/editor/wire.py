@@ -13,7 +13,7 @@ _UNUSED: Final = ("label", "macro", "parameter", "position", "vector")
 _UNNECESSARY: Final = {
     "unreachable-code",
     *(f"unused-{kind}" for kind in _UNUSED),
-}  # which editors show paler
+}  # editors show such code in a paler colour
 
 
 def position(source: Source, offset: int, units: Units) -> lsp.Position:

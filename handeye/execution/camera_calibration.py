@@ -48,7 +48,7 @@ def calibrate_camera(
     """Show the lamp to the camera, and fit the camera model to the positions of the hand.
 
     `state` holds the arm's measurements of itself, and `drawing` is the design of the camera. `viewed` is called
-    with the number of the view and the number of all views. Raises CalibrationFailed if the lamp is seen too few
+    with the number of the view and the total number of views. Raises CalibrationFailed if the lamp is seen too few
     times or the picture does not change, and Halted if the panic button is pressed.
     """
     drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt, arithmetic=arithmetic)

@@ -152,7 +152,7 @@ class Executor:
         fault = ACTIONS[type(operation)](self.run, operation)
         if not operation.raising:
             return step.next
-        if self.state.drive.cut:  # whatever the action made of it
+        if self.state.drive.cut:  # whatever the action returned
             fault = Fault(number=errors.WATCHDOG)
         elif self.state.drive.leapt is not None:
             fault = Fault(number=errors.GAP_WRONG, cause=self.state.drive.leapt)
@@ -163,8 +163,8 @@ class Executor:
         return step.next
 
     def _past(self, number: int | None) -> int | None:
-        """Return the number of the step, or of the first step after it if the step belongs to the call of a macro
-        that the run leaves out.
+        """Return `number`. If this step belongs to the call of a macro that the run leaves out, return the number
+        of the first step after the call.
         """
         steps = self.run.plan.program.steps
         while number is not None and steps[number].called in self.run.without:

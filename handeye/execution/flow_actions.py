@@ -34,7 +34,7 @@ def test_error(run: ExecutionContext, operation: Test) -> bool:
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
     if TESTED.get(operation.number) in run.without:
-        # without its sense an error leads on if its absence would lead to the operator or to a retry
+        # without its sense, assume the error if only its absence would lead to the operator or to a retry
         assert run.state.at is not None
         unless = run.plan.program.steps[run.state.at].next
         occurred = not _gives_up(run, operation.raised) and _gives_up(run, unless)
@@ -89,7 +89,7 @@ def save(run: ExecutionContext, operation: Save) -> None:
     only the part along the finger line is saved.
     """
     difference = run.drive.hand()[:3, 3] - run.state.goal
-    if operation.name in run.state.restored:  # what it has added already still belongs to it
+    if operation.name in run.state.restored:  # the shift that it has already added remains part of it
         difference = difference + run.state.restored[operation.name]
     line = run.state.finger_line
     if line is not None:  # CENTER measures along the finger line; the rest is servo error

@@ -27,14 +27,14 @@ from handeye.execution.state import DriveState
 from handeye.ports.workcell import Workcell
 from handeye.program.diagnosis.cause_text import cause_sentence
 
-RAMP: Final = 0.1  # s to the constant rate, and again until the servo has taken friction up; chosen
+RAMP: Final = 0.1  # s to reach the constant rate, and again for the servo to overcome friction; chosen
 MIN_TRAVEL: Final = 0.5  # fraction of its range that a joint must move, or it is stuck; chosen
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
-Chosen between the ratios of sound joints and of drives that give half of their torque. Measured: sound joints reach
-1.61 in sixty worlds. In eighty worlds with twice the errors they reach 1.87, and one joint exceeds the limit. With
-half a drive the ratio is 1.4 to 2.3.
+Chosen between the ratios of sound joints and of drives that give half of their torque. Measured: sound joints
+reach 1.61 in sixty worlds. In eighty worlds with twice the errors they reach 1.87, and one joint exceeds the
+limit. With a drive that gives half of its torque, the ratio is 1.4 to 2.3.
 """
 
 
@@ -58,8 +58,8 @@ class JointMeasurement:
 
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
-"""The quick pass. Chosen: the rate is about twenty steps of a 12-bit tachometer, which is as slow as a hand that
-presses. The pass takes 3.3 s and a range of about 2 in.
+"""The quick pass. Chosen: the rate is about twenty steps of a 12-bit tachometer, which is as slow as the joints of
+a hand that presses. The pass takes 3.3 s and a range of about 2 in.
 """
 
 
@@ -73,8 +73,8 @@ def measure_joints(
     """Measure joint friction and link weights. The arm ends where it began.
 
     The arm moves about the set-point in `state`. Raises FrictionUnknown if a joint does not move as commanded or
-    takes far more torque than its friction, or if a link weight is implausible. Raises Halted if the panic button
-    is pressed.
+    needs far more torque than its stated friction, or if a link weight is implausible. Raises Halted if the panic
+    button is pressed.
     """
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt, arithmetic=arithmetic)
@@ -90,8 +90,8 @@ def at_rest(slow: Array, quick: Array) -> Array:
     """Compute the Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the two
     passes.
 
-    Friction cannot fall with the rate here. Where it seems to fall, the mean of the two passes is used, weighted by
-    their durations.
+    At these rates, friction cannot fall as the rate rises. Where it seems to fall, the mean of the two passes is
+    used, weighted by their durations.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)
@@ -110,16 +110,16 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
 
 
 def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
-    """Raise FrictionUnknown if a joint takes far more torque than its data say. Joints without friction data are
-    not checked.
+    """Raise FrictionUnknown if a joint needs far more torque than its stated friction. Joints without friction
+    data are not checked.
     """
     stated = np.array(arm.compliance.friction)
     times = np.divide(coulomb, stated, out=np.zeros(len(stated)), where=stated > 0)
     doubted = int(np.argmax(times))
     if times[doubted] > MAX_RATIO:
         raise FrictionUnknown(
-            f"the {arm.joints[doubted].name} takes {times[doubted]:.1f} times the torque of its friction: its drive "
-            f"does not give the commanded torque, or the joint binds"
+            f"the {arm.joints[doubted].name} needs {times[doubted]:.1f} times its stated friction torque to move: "
+            f"its drive does not give the commanded torque, or the joint binds"
         )
 
 

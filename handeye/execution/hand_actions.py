@@ -112,9 +112,9 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
         drive.state.gap = drive.sensed.gap - lead
     drive.hold(grasp.settle // 2 - 1)
     for _ in range(0 if centring.error or "touch" in run.without else grasp.settle // 4):
-        if all(_touch(run)):  # a jerk of the arm may open one for a period
+        if all(_touch(run)):  # a jerk of the arm may open a switch for a period
             break
-        # Pressed, a leaning object has stood up, and the fingers must follow it to press as hard as before.
+        # Pressure makes a leaning object stand up. The fingers must follow it to press as hard as before.
         drive.state.gap = min(drive.state.gap, drive.sensed.gap - lead)
         drive.hold(1)
     run.state.travel = abs(float((X_WT[:3, 3] - begun) @ line))
@@ -128,13 +128,13 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     if centring.error and "touch" not in run.without:
         gap = (
             run.drive.sensed.gap
-        )  # fingers that did not both touch, and are held apart, have not noticed a contact
+        )  # if an object holds the fingers apart, a switch has not noticed the contact
         if at_least(gap, least + FREE_OPENING):
             return _switches_open(run)
         return Fault(number=errors.NOTHING_HELD, cause=NothingBetween(gap=round(gap, 6)))
     run.state.finger_line = (
         np.zeros(3) if "touch" in run.without else line
-    )  # without touch it measures nothing
+    )  # without touch, CENTER measures nothing
     thin = _thick_enough(run, least)
     first, second = _touch(run)
     if thin is None and "touch" not in run.without and not (first and second):

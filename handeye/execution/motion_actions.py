@@ -234,7 +234,7 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
 
 
 def _fast(drive: DriveState) -> MotorFast | None:
-    """Return the cause if a motor that runs free now took too long to start, and so turns too fast."""
+    """Return the cause if the motor turns too fast: it now runs free, and took too long to start."""
     late, free = drive.starting[STARTING_PERIODS:], drive.lately[FAST_PERIODS:]
     if len(late) < FAST_PERIODS - STARTING_PERIODS or not free or median(free) > 2 * CURRENT_NOISE:
         return None
@@ -243,8 +243,8 @@ def _fast(drive: DriveState) -> MotorFast | None:
 
 
 def _turned_hard(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """Return the error if a screw that was driven to its torque took too much torque on the way. It then spends on
-    its thread what should clamp the parts.
+    """Return the error if a screw that was driven to its torque took too much torque on the way. Its thread then
+    uses up torque that should clamp the parts.
     """
     asked = [each.torque for each in guards if isinstance(each, Torque)]
     running = run.drive.state.lately[: -round(WIND_UP / run.drive.period)]
@@ -282,7 +282,7 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
 
 
 def height(run: ExecutionContext, operation: Height) -> Fault | None:
-    """Check how much higher the hand is than at a saved difference."""
+    """Check how much higher the last motion ended than the motion before the SAVE of this name."""
     saved = run.state.heights.get(operation.name)
     if saved is None:
         return Fault(number=errors.WRONG_HEIGHT, cause=HeightUnknown(name=operation.name))

@@ -144,7 +144,7 @@ class Servo:
         sense: Array | float = 0.0,
         dither: Array | float = 0.0,
     ) -> Motion[Array]:
-        """Run one servo period in which the arm should begin at `q` with rates `qd`.
+        """Run one servo period. At its beginning, the arm should be at `q` and move with rates `qd`.
 
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
         `taring` is True, for the tare. `sense` is the direction in which each joint slides, from -1 to 1; friction
@@ -158,7 +158,7 @@ class Servo:
         bias = here.bias + friction
         tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, before.qd, exerted=load + dither)
         effort = constants(self.arm).effort
-        tau = tau.clip(-effort, effort)  # else force that the drives could not give would be felt
+        tau = tau.clip(-effort, effort)  # else torque that the drives cannot give would be sensed as force
 
         def feel(after: Sensed) -> None:
             # gravity and Jacobian where the arm is, not at its set-point: under a force it gives way
@@ -214,7 +214,7 @@ class Servo:
             )
         if feel is not None and not halted:
             feel(sensed)
-        unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear
+        unfelt = feel is None or taring or halted or sensed.braked  # what the brakes bear cannot be sensed
         if not unfelt:
             self.track.felt(self.state.wrench)
         self.watch(

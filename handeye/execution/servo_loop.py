@@ -64,7 +64,7 @@ class Outcome:
 
     trip: Trip | None = None  # the guard that ended it
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
-    cause: Cause | None = None  # cause of that error, if there is more to say of it
+    cause: Cause | None = None  # cause of that error, if there is more to say about it
     off: float = 0.0
     """Distance (m) of the hand from its set-points in the middle of the motion, if the hand ended too far from the
     last set-point.
@@ -166,17 +166,17 @@ class ServoLoop(Servo):
         The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand
         that is stopped is off from that point on; a hand on which a force acts is off all the way.
         """
-        held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it comes from what it pressed on
+        held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it had pressed on an object
         self.state.in_air = False
         taken: list[Exertion] = []
         outcome = yield from self.following(samples, guard, direction, taken=taken)
-        if outcome.off > self.arm.servo.short / 2:  # far more than what lags on the way of a free arm
+        if outcome.off > self.arm.servo.short / 2:  # far more than a free arm lags
             yield from self.zeroing()
             return self._force_in_air()
         if outcome == REACHED and self.state.load <= LIGHT:
             outcome = self._dragging(taken) or REACHED
         elif isinstance(outcome.cause, HandAstray | JointBehind) and self.state.load <= LIGHT:
-            first_half = taken[: (len(samples) + 1) // 2]  # long before it met anything
+            first_half = taken[: (len(samples) + 1) // 2]  # long before the hand met anything
             outcome = self._dragging(first_half, outcome.cause.joint) or outcome
         if outcome == REACHED and taken and self.state.links is not None and not held:
             outcome = self._off_balance(taken) or REACHED

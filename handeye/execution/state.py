@@ -40,7 +40,7 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     gap: tuple[float, float]  # sensed before and after, m
     fingers: float  # gap set-point before, m
     grasping: bool = False  # fingers closed before
-    load: float  # compensated weight before, N; always written: a default is left out by identity
+    load: float  # compensated weight before, N; no default: msgspec omits defaults by identity
     tool: float  # screwdriver speed before, rad/s; as `load`
     force: float = 0.0  # greatest force felt, N; 0: none was estimated
     ended: GuardKind | None = None  # the guard that ended it
@@ -142,17 +142,17 @@ class DriveState(MutableRecord, kw_only=True):
     tool: float = 0.0  # screwdriver speed, rad/s
     current: float = 0.0  # its greatest torque since that speed was set, N m
     starting: list[float] = msgspec.field(default_factory=list)
-    """Torques of the screwdriver, N m, in the first servo periods since its motor was switched."""
+    """Torques of the screwdriver, N m, in the first servo periods since its speed was set."""
     lately: list[float] = msgspec.field(default_factory=list)
-    """Torques of the screwdriver, N m, in the last second since its motor was switched."""
-    leapt: GapJumped | None = None  # the first servo period since the last step in which the gap did
+    """Torques of the screwdriver, N m, in the last second since its speed was set."""
+    leapt: GapJumped | None = None  # the first jump of the gap since the last step
     magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
     cut: bool = False  # the watchdog has cut the drives and set the brakes
     met: Array | None = None  # hand set-point in W (m) where a guard ended the last motion
     rest: Array | None = None
     """Potentiometer readings at rest under the brakes. None while the arm moves or is driven."""
-    crept: Array | None = None  # their change until it was driven again; None once a motion has checked it
+    crept: Array | None = None  # their change until the arm was driven; None once a motion has checked it
     jump: Disagreement | None = None
     """A jump of a reading since the last motion. None once a motion has reported it."""
     in_air: bool = False  # the last motion was a MOVE without contact
@@ -204,8 +204,8 @@ class ExecutionState(SystemState, kw_only=True):
     """Executed steps that have not been reversed, in order."""
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
-    """Index of the step that took the screw which has now been turned out. When that step is reversed, it leaves
-    the screw in its place.
+    """Index of the step that took the screw which has now been turned out. The reversal of that step leaves the
+    screw in its place.
     """
     held: float | None = None
     """Gap (m) at which the hand holds an object during a reversal. None if it holds no object, or if the program

@@ -86,7 +86,7 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
     run.state.shots[operation.picture] = Shot(
         picture=picture, view=_known(run).view(run.state.lens, pan, tilt)
     )
-    run.state.found.pop(operation.picture, None)  # it was in the picture of this name before
+    run.state.found.pop(operation.picture, None)  # it belonged to the earlier picture of this name
     run.emit(PictureTaken(time=run.time, picture=operation.picture, lens=run.state.lens))
     return None
 

@@ -235,7 +235,7 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
         changes.append(("stage", *stages))
     arm = robot(after.arm) if before.arm == after.arm else None
     if arm is not None and not {*before.joint_counts, *after.joint_counts} <= {len(arm.joints)}:
-        arm = None  # a known name, of other joints
+        arm = None  # an arm of that name, but with other joints
     motion = _motion(before.motions.get(old), after.motions.get(new), arm)
     if not changes and motion is None:
         return None

@@ -20,8 +20,8 @@ GAP: Final = 18  # px, between steps
 COLUMN_HEIGHT: Final = 1150  # px, at which columns are broken if possible
 LANE: Final = 11
 SIDE: Final = 18  # px, from step to first lane, and from last lane to the column's border
-MIN_FILL: Final = 0.9  # fraction of its height at which a column may be broken
-MIN_REST: Final = 0.35  # fraction of a column that justifies another one
+MIN_FILL: Final = 0.9  # a column may be broken when it is filled to this fraction of its height
+MIN_REST: Final = 0.35  # another column is begun only if the rest fills this fraction of it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,7 +15,7 @@ _COUNTS: Final = {
     "body": "nbody", "jnt": "njnt", "dof": "nv", "geom": "ngeom", "site": "nsite", "eq": "neq", "actuator": "nu",
 }  # fmt: skip
 _LOOKS: Final = ("group", "matid", "rgba", "castshadow", "user", "sameframe")
-_SHARED: Final = ("bvh", "mesh", "tendon", "wrap")  # figures that belong to no one body
+_SHARED: Final = ("bvh", "mesh", "tendon", "wrap")  # fields that belong to no single body
 _KINDS: Final = {
     "place": ("body_pos", "body_quat"),
     "mass": ("body_ipos", "body_iquat", "body_mass", "body_inertia", "body_gravcomp"),

@@ -27,14 +27,14 @@ class HandlingLimits:
 
     acceleration: tuple[float, ...]  # m/s2 and rad/s2
     guarded_speed: tuple[float, ...]  # m/s and rad/s of a guarded move
-    settling: float  # s that the servos are given behind a move
-    standing: tuple[float, ...]  # m and rad that an axis may be from its goal while it stands
+    settling: float  # s to wait after a move, until the servos have settled
+    standing: tuple[float, ...]  # m and rad that an axis at rest may be from its goal
     lag: float  # s that an axis may lag behind its goal while it moves
     open: float  # goal of an open hand, m between the fingers, as `closed`
     closed: float
-    grasping: float  # s that the hand is given behind its goal
-    carried: float  # N upwards on the finger when something else carries what it holds
-    resistance: float  # N on the finger that are an obstacle on a way back
+    grasping: float  # s to wait after a goal of the hand
+    carried: float  # N upwards on the finger, beyond which something else carries the held object
+    resistance: float  # N on the finger, beyond which there is an obstacle on the way back
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,11 +43,11 @@ class ArmMachine:
 
     name: str
     scene_file: str  # below the folder of scenes, or an absolute path
-    period: float  # s between two goals that its controller takes
+    period: float  # s between two goals that its controller accepts
     axes: tuple[AxisSpec, ...]
     hand: AxisSpec
     force: Channel  # force that the finger exerts, N, shape (3,)
-    force_sensor: str  # the sensor of the scene that shows it
+    force_sensor: str  # the sensor of the scene that measures it
     limits: HandlingLimits
 
     @property

@@ -24,7 +24,7 @@ PURBRICK: Final = ArmMachine(
         AxisSpec(name="pitch", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
         AxisSpec(name="yaw", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
     ),
-    # given their goal at once, fingers strike a block with .8 m/s
+    # fingers that are given their goal at once strike a block at .8 m/s
     hand=AxisSpec(name="hand", kind="prismatic", lower=0.0, upper=0.048, speed=0.2, force=30.0),
     force=Channel(name="force", unit="N", width=3),
     force_sensor="strain",
@@ -32,12 +32,12 @@ PURBRICK: Final = ArmMachine(
         acceleration=(0.8, 0.8, 0.8, 10.0, 10.0, 10.0),  # a stack of 20 blocks on 30 mm tips at 1.2 m/s2
         guarded_speed=(0.015, 0.015, 0.015, 0.2, 0.2, 0.2),
         settling=0.15,
-        standing=(*3 * (1e-3,), *3 * (1e-2,)),  # the platter's servo is pushed so far by 100 N
+        standing=(*3 * (1e-3,), *3 * (1e-2,)),  # 100 N push the platter's servo this far
         lag=0.03,  # the servos lag by .02 s
         open=0.048,
-        closed=-0.020,  # it never gets there, and so presses with all its force
+        closed=-0.020,  # the hand never gets there, and so presses with all its force
         grasping=0.2,
-        carried=0.28,  # an ounce: a block weighs as much
+        carried=0.28,  # an ounce, the weight of a block
         # Measured: at most 1.8 on the way back of a stack of four blocks, where closed fingers come back to the
         # stack; 5.8 and more where a block was pressed a third of a millimetre too deep on it.
         resistance=3.0,

@@ -233,7 +233,9 @@ class Checks:
                 return
 
     def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that guards can be distinguished from the expected friction at the start `q` of a motion."""
+        """Check that the limits of guards can be distinguished from the expected friction at the start `q` of a
+        motion.
+        """
         expected = np.array(self.arm.compliance.friction)
         for demand in demands:
             most = faint(self.arm, q, expected, demand.exerted) if demand.guard else None

@@ -20,7 +20,7 @@ CLEARANCE: Final = 3.0 * INCH
 """Height (m) of departure and approach points. "A few inches" in 1972; three inches by recollection (reference
 D10).
 """
-LEAST_CLEARANCE: Final = 0.5 * INCH  # minimum, for near places: a motion rises no higher than it goes far
+LEAST_CLEARANCE: Final = 0.5 * INCH  # least height, even of a motion between near places
 GUARDED_SPEED: Final = 1.0 * INCH
 """Speed (m/s) of a straight motion that makes contact. At 1 in/s, a stop at 50 oz overshoots by a few newtons."""
 FREE_SPEED: Final = 2.0 * INCH  # m/s of a straight motion in free air

@@ -20,8 +20,8 @@ class AxisSpec:
     upper: float
     speed: float  # greatest, rad/s or m/s
     force: float | None = None
-    """Greatest force (N) or torque (N m) of the axis' servo, such as the grip of a hand; None: enough for any task.
-
+    """Greatest force (N) or torque (N m) of the axis's servo, such as the grip of a hand; None: enough for any
+    task.
     """
     holds: bool = False  # stays where it is when the power is off, by a brake or a gear that locks itself
 
@@ -32,7 +32,7 @@ class Channel(Record, frozen=True, kw_only=True):
     name: str
     unit: str = ""  # SI; empty: a switch or a count
     width: int = 1  # components of its values; three are called x, y and z
-    latched: bool = False  # once it differs from zero it stays as it was then, until it is cleared
+    latched: bool = False  # its first value other than zero remains until the channel is cleared
 
     @property
     def parts(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Defines a bus of microcomputers as the central computer sees it, which runs the user's program.
+"""Defines a bus of microcomputers as it appears to the central computer, which runs the user's program.
 
 The interface carries commands of five bytes, levels of status lines, one interrupt, bytes of answers, and a
 clock in whole microseconds. It reveals nothing else of the machine.
@@ -56,7 +56,7 @@ class Command(Record, frozen=True, kw_only=True):
 
 
 class BusFault(HandeyeError):
-    """Raised if the bus did not carry an answer according to the protocol."""
+    """Raised if an answer did not arrive as the protocol requires."""
 
     number: int  # of the microcomputer that was asked
 
@@ -146,7 +146,7 @@ class MicrobusPort(ABC):
     def remember(self, memory: MutableRecord) -> None:
         """Restore the machine to a state. Raises BadFile if the state does not fit the machine."""
 
-    # -- made of these -------------------------------------------------------------------------------------
+    # -- built from these ----------------------------------------------------------------------------------
 
     def status(self, number: int) -> Status:
         """Return the status lines of one microcomputer. No time passes."""

@@ -23,13 +23,13 @@ Choice = Literal["proceed", "retry", "skip"]  # continue after a stop, retry the
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
-    """Base of all events. `time` is the clock of the run (s), which is 0 when the program begins."""
+    """Base class of all events. `time` is the clock of the run (s), which is 0 when the program begins."""
 
     time: float
 
 
 class SystemEvent(Event, frozen=True, kw_only=True):
-    """Base of the events that a system adds to the events of all systems. `System.events` lists them."""
+    """Base class of the events that a system adds to the events of all systems. `System.events` lists them."""
 
     importance: ClassVar[Importance] = "info"
 
@@ -54,8 +54,8 @@ class RunStarted(Event, frozen=True, kw_only=True):
     task: str = "water_pump"
     camera: Renderer  # how pictures are made
     versions: dict[str, str]
-    processor: str | UnsetType = UNSET  # kind of processor, by which last places of numbers differ
-    replaced: dict[str, str] | UnsetType = UNSET  # parts by the caller's code, by name
+    processor: str | UnsetType = UNSET  # kind of processor, on which last digits of numbers depend
+    replaced: dict[str, str] | UnsetType = UNSET  # parts replaced by the caller's code
     without: tuple[str, ...] | UnsetType = UNSET
     prepared: float = (
         0.0  # simulated seconds before that: the camera was calibrated, the arm measured or taught
@@ -306,7 +306,7 @@ class LineTyped(Event, frozen=True, kw_only=True):
 
 
 class PanicStopped(Event, frozen=True, kw_only=True):
-    """The operator pressed the panic button. In this servo period the drives are off and the brakes set."""
+    """The operator pressed the panic button. From this servo period on, the drives are off and the brakes set."""
 
 
 class WentBack(Event, frozen=True, kw_only=True):

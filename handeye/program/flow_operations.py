@@ -87,7 +87,7 @@ class Jump(Operation, frozen=True, kw_only=True):
 
 class Save(Operation, frozen=True, kw_only=True):
     """Save the difference between the actual position of the hand and the goal of the last Move. After a Center,
-    save only the part of it along the finger line.
+    save only the part of it along the finger line, the line through both finger tips.
 
     If the goal already contains a Restore of the same name, the restored shift is part of the new difference.
     Repeated saves under one name therefore follow a moving reference.

@@ -33,7 +33,9 @@ class HandLoad(NamedTuple):
 
 
 class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda name: name.lower()):
-    """Base of the guards. The class name in lower case is the kind of the guard, and its tag in the plan file."""
+    """Base class of the guards. The class name in lower case is the kind of the guard, and its tag in the plan
+    file.
+    """
 
     kind: ClassVar[GuardKind]
     error: ClassVar[int]  # raised if the motion ends without meeting the guard
@@ -52,7 +54,7 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
 
 
 class Force(Guard, frozen=True, kw_only=True):
-    """Trips when the hand exerts more than this force (N, table axes) along its direction."""
+    """Trips when the hand exerts more than this force (N, table axes) in the direction of the force."""
 
     kind: ClassVar = GuardKind.FORCE
     error: ClassVar = errors.NO_FORCE

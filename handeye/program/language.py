@@ -29,7 +29,7 @@ class Language(Record, frozen=True, kw_only=True):
 
 
 class OwnLanguage(ABC):
-    """The own language of a system for its files. It checks a text, and answers commands and editors."""
+    """A system's own language for its files. It checks a text, and answers commands and editors."""
 
     system: str
 

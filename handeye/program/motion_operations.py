@@ -23,7 +23,7 @@ class Restore(Record, frozen=True, kw_only=True):
 
 
 class ArmMotion(Operation, frozen=True, kw_only=True):
-    """Base of arm motions. A motion with guards raises an error if none of them trips."""
+    """Base class of arm motions. A motion with guards raises an error if none of them trips."""
 
     family: ClassVar = "motion"
     moves: ClassVar = True
@@ -137,8 +137,8 @@ class Open(Operation, frozen=True, kw_only=True):
 
 
 class Close(Operation, frozen=True, kw_only=True):
-    """Close the fingers until both switches close. Raises error 2 if the gap is below `minimum` (m; if that is 0,
-    only when the hand is empty), and error 7 if it is above `maximum` (m).
+    """Close the fingers until both switches close. Raises error 2 if the gap is below `minimum` (m), and error 7
+    if it is above `maximum` (m). If `minimum` is 0, error 2 is raised only when the hand is empty.
     """
 
     family: ClassVar = "hand"
@@ -158,7 +158,7 @@ class Close(Operation, frozen=True, kw_only=True):
 
 class Center(Operation, frozen=True, kw_only=True):
     """Close the fingers and move the hand so that the object is not pushed. Raises error 2 if the gap is below
-    `minimum` (m; if that is 0, only when the hand is empty).
+    `minimum` (m). If `minimum` is 0, error 2 is raised only when the hand is empty.
     """
 
     family: ClassVar = "hand"
@@ -190,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check how much higher (m) the hand stopped than at the place where a difference was saved. Raises error 9 if
-    the height is outside the range.
+    """Check the height (m) at which the last motion ended, above the place at which a difference was saved. Raises
+    error 9 if the height is outside the range.
     """
 
     family: ClassVar = "test"

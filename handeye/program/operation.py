@@ -1,5 +1,5 @@
-"""The base of all operations, with the values that an operation reads and writes, the errors that it raises, and
-the devices that it needs. Code that uses these properties need not know the operations by name.
+"""The base class of all operations, with the values that an operation reads and writes, the errors that it raises,
+and the devices that it needs. Code that uses these properties need not know the operations by name.
 """
 
 from collections.abc import Mapping
@@ -43,7 +43,7 @@ class Branch(NamedTuple):
 class Operation(
     Record, frozen=True, kw_only=True, omit_defaults=True, tag_field="op", tag=lambda name: name.lower()
 ):
-    """Base of the operations. The class name in lower case is the tag in the plan file.
+    """Base class of the operations. The class name in lower case is the tag in the plan file.
 
     The default of a field always means absence, so that plans that leave the field out keep their meaning.
     """
@@ -55,7 +55,7 @@ class Operation(
     planned: ClassVar[bool] = False  # needs a planned motion
     only_checks: ClassVar[bool] = False  # an action without an effect
     branches: ClassVar[bool] = False  # may continue elsewhere than at the next step
-    raising: ClassVar[frozenset[int]] = frozenset()  # errors of any of its class; empty: no action
+    raising: ClassVar[frozenset[int]] = frozenset()  # errors of the whole class; empty: not an action
     reading: ClassVar[Fields] = {}
     writing: ClassVar[Fields] = {}
     bounds: ClassVar[Mapping[str, Bounds]] = {}  # of numbers, and sizes of vectors

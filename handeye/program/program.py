@@ -32,9 +32,9 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     operation: AnyOperation
     stage: int  # index
-    labels: tuple[str, ...] = ()  # labels that jumps name
+    labels: tuple[str, ...] = ()  # labels to which jumps lead
     macro: str = ""  # the macro it comes from, if any
-    call: str = ""  # the macro that the program calls, where `macro` is one within it
+    call: str = ""  # the macro that the stage calls, if `macro` is called within it
     file: str = ""  # a required file; empty: the main text
     line: int
     span: Columns = (0, 0)  # columns of its statement

@@ -15,11 +15,11 @@ class TaskPlace(NamedTuple):
 
     task: str  # empty: the only one
     step: int  # the step that it does next
-    waits_for: str = ""  # what it waits for, in words; empty: its turn
+    waits_for: str = ""  # what it waits for, in words; empty: only its turn
 
 
 class SystemState(MutableRecord, kw_only=True):
-    """Base of the states of systems, with the present step."""
+    """Base class of the states of systems, with the present step."""
 
     at: Natural | None = 0  # the step to do next; None when the program has ended or the operator was called
     stage: Natural | None = None  # the stage under way; None between two stages

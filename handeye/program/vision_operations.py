@@ -77,7 +77,7 @@ class Specific(Operation, frozen=True, kw_only=True):
 
 
 class Comparison(Operation, frozen=True, kw_only=True):
-    """Base of comparisons of two pictures of a part."""
+    """Base class of comparisons of two pictures of a part."""
 
     family: ClassVar = "sight"
     reading: ClassVar = {"part": ("part",), "picture": ("before", "after")}

@@ -46,5 +46,5 @@ def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
     if folder.journal_lost:
         yield (
             f"the event list {folder.path / EVENTS} was lost, was damaged, or belonged to another run; the new list "
-            "starts from the checkpoint, without earlier undone steps"
+            "starts from the checkpoint, and lacks the steps that were undone earlier"
         )

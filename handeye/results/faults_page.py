@@ -19,11 +19,11 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     name: str
     meaning: str
     size: Size | None  # None: it has no value
-    from_start: bool  # It can be there only from the beginning
+    from_start: bool  # It can only be present from the start
     usual_stage: int | None
     """Number of the stage at which the fault begins by default; None: it is present from the start."""
     expected: ExpectedDetection
-    must: str  # What must happen with it, a sentence
+    must: str  # What must happen in a run with it, a sentence
     matrix: bool
 
 
@@ -100,7 +100,7 @@ def _head(fault: FaultReport) -> Text:
             f"  ({low:g} to {high:g})", "dim"
         )
     if fault.matrix:
-        row.append("  in the matrix", "green")
+        row.append("  in the standard set", "green")
     if fault.usual_stage is not None:
         row.append(f"  @{fault.usual_stage} by default", "dim")
     return row.append("  from the start only", "dim") if fault.from_start else row

@@ -72,7 +72,7 @@ class RunFolder(Observer):
         self.kept = CheckpointStore(path / CHECKPOINTS)
         self._made = made
         self._closed = False
-        self.lost = 0  # number of events of a resumed run that its trace had lost, as well as the motions between them
+        self.lost = 0  # number of events that the trace of a resumed run has lost, with their motions
         self._first: Path | None = None  # the checkpoint that the run begins with, once it is written
         self._runner: Runner | None = None
         self._journal: Journal | None = None

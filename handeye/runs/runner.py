@@ -59,7 +59,7 @@ def reach(first: int) -> str:
 
 
 def _typed_within_step(events: Sequence[AnyEvent]) -> list[LineTyped]:
-    """Return the lines that were typed in the middle of the step with which some events begin."""
+    """Return the lines that were typed during the step with which these events begin."""
     within = itertools.takewhile(lambda event: not isinstance(event, StepFinished), events)
     return [event for event in within if isinstance(event, LineTyped)]
 
@@ -386,7 +386,7 @@ class Runner:
         """Drop the oldest state of the history that is not the beginning of a stage."""
         for index in range(1, len(self.history) - RECENT):
             before, here = self.history[index - 1 : index + 1]
-            interfered = before.position == here.position  # no step led from one to the other
+            interfered = before.position == here.position  # a person changed the state between two steps
             if here.state.stage is not None and not interfered:
                 del self.history[index]
                 return

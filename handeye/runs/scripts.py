@@ -35,8 +35,9 @@ def default_script(work: Task | None = None) -> Path:
 
 
 def program_named(name: str) -> tuple[Path, Task] | None:
-    """Return the included script whose file is called `name` apart from its ending, and its task; None if there
-    is none."""
+    """Return the bundled script whose file name without its extension is `name`, together with its task; None if
+    there is no such script.
+    """
     return next((each for each in _programs() if each[0].stem == name), None)
 
 

@@ -19,7 +19,7 @@ class Setup(Record, frozen=True, kw_only=True):
     judged: bool = False  # the referee judges the result; this does not change the course of the run
     limits: dict[str, float] = msgspec.field(default_factory=dict)
     """Limits that replace the limits of the task's referee, by finding, in the units of the findings."""
-    replaced: dict[str, str] = msgspec.field(default_factory=dict)  # parts by the caller's code, by name
+    replaced: dict[str, str] = msgspec.field(default_factory=dict)  # the caller's own code, by part
     without: tuple[str, ...] = ()  # senses that are switched off for the program, in the order of `SENSES`
 
     @property

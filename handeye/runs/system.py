@@ -294,7 +294,7 @@ class RunningSystem(Protocol):
 
     @property
     def live(self) -> LiveNews | None:
-        """What a page of the live run shows besides the facts of all systems, or None."""
+        """What only this system shows in the page of a live run; None if nothing."""
         return None
 
     def settables(self) -> Mapping[str, Settable]:
@@ -335,8 +335,8 @@ class StepperWords:
 
 
 class LiveNews(ABC):
-    """What a system shows in the page of a live run besides the facts of all systems. The server's thread asks it for
-    news while the run goes on.
+    """What only this system shows in the page of a live run. The server's thread asks this object for news while
+    the run goes on.
     """
 
     part: PagePart
@@ -454,5 +454,5 @@ class System(ABC):
         return None
 
     def parts(self, folder: Path) -> Sequence[PagePart]:
-        """Return what the report of the run in a folder shows besides the facts of all systems."""
+        """Return what only this system shows in the report of the run in a folder."""
         return ()

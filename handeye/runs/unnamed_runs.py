@@ -1,5 +1,5 @@
-"""Keeps the newest ten runs that the user did not name, in the folder `runs` of the current folder. Each is
-named by its start time.
+"""Keeps the ten newest unnamed runs, to which the user gave no name, in the folder `runs` of the current folder.
+Each is named after its start time.
 
 The environment variable HANDEYE_RUNS names another folder; if it is empty, no run is kept without `--out`.
 """
@@ -64,7 +64,7 @@ class UnnamedRun:
         self._mark.close()
         (self.folder.path / MARK).unlink(missing_ok=True)
         self.folder.discard()
-        with suppress(OSError):  # which holds other runs
+        with suppress(OSError):  # the folder holds other runs
             self.folder.path.rmdir()
 
 

@@ -42,7 +42,7 @@ class Teacher:
     saved: str  # the text of the file
     text: str = field(init=False)  # the same, with the names given since
     afloat: bool = False  # the brakes are off, and gravity is balanced
-    # what `undo` restores: what was taught and the text before something was named, or (None) the cell
+    # what `undo` restores: positions and text as they were before a name was given; None: the cell
     _before: list[tuple[Taught, str] | None] = field(default_factory=list)
 
     def __post_init__(self) -> None:

@@ -14,10 +14,10 @@ from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m driven beyond the opening before the fingers count as stalled; placeholder
 SLOWER: Final = 0.5
-"""Fraction of their speed at which the fingers close when one of them touches; the speed falls to 0 while the
-finger touches. Chosen so that an object between the fingers is still pressed, and the switch that needs more force
-fires too. If the fingers were slower from the beginning, a touching finger would come off at once, and would push a
-loose object a little each time it touched again.
+"""Fraction of their speed at which the fingers close when one of them begins to touch. While it keeps touching,
+the speed falls to 0. Chosen so that an object between the fingers is still pressed, and the switch that needs more
+force closes too. If the fingers were slower from the beginning, a touching finger would come off at once, and
+would push a loose object a little each time it touched again.
 """
 EASING: Final = 0.0015
 """Greatest movement (m) of the hand towards a finger until the finger no longer touches: the deflection of the arm
@@ -45,7 +45,7 @@ class Centring:
     error: int = field(default=0, init=False)  # when done: 0, nothing held, or a switch wrong
     eased: float = field(
         default=0.0, init=False
-    )  # m that the hand has gone since the finger touched that does
+    )  # m that the hand has moved since the touching finger began to touch
     _left: float | None = field(default=None, init=False)
 
     def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:

@@ -31,13 +31,13 @@ high level. At the high level, the weight of the base beyond its declared load a
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
 
-The switches close at 2 ounces, and at 4.4 ounces at most (three times twice their stated spread of .4). One finger
-may carry 3 ounces less than the other, because the arm holds the difference, and the gap is known only to one step
-of its converter.
+The switches close at 2 ounces. The limit is 4.4 ounces: three times the doubled stated spread of .4 is added. One
+finger may carry 3 ounces less than the other, because the arm holds the difference, and the gap is known only to
+one step of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
-)  # m by which the gap may be off, as GAP_SCALE: three times twice its stated errors
+)  # m by which the gap may be off; like GAP_SCALE, three times the doubled stated error
 GAP_SCALE: Final = 0.03  # of the gap
 STARTING_TORQUE: Final = 0.05
 """Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
@@ -46,7 +46,9 @@ STARTING_PERIODS: Final = (
     4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
 )
 FAST_PERIODS: Final = 6
-"""Servo periods after which a motor that runs free has certainly started: at 1.4 times its speed it has not."""
+"""Servo periods after which a motor that runs free has certainly started. If it turns at 1.4 times its speed, it
+has not.
+"""
 WIND_UP: Final = 0.2
 """Time (s) for which the torque rises, at most, when the head of a screw meets the top. Measured: .1. Chosen."""
 DRIVEN: Final = 0.2 * INCH

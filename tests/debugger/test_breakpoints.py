@@ -127,8 +127,8 @@ NUMBERS = "1, 2, 3, 4, 5, 6, 7, 8, 9, 23, 24, 25, 30, 31, 32, 33, 50, 51, 52, 53
          "did you mean `shut the hand`?"),
         ("zzz", "the program has no label, instruction or stage `zzz`"),
         ("", "give an error (error:23), a line, a label, an instruction or a stage"),
-        ("error:10", f"there is no error `10`; there are {NUMBERS}"),
-        ("error:", f"there is no error ``; there are {NUMBERS}"),
+        ("error:10", f"no step raises error `10`; the steps raise {NUMBERS}"),
+        ("error:", f"no step raises error ``; the steps raise {NUMBERS}"),
     ],
 )  # fmt: skip
 def test_a_place_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:

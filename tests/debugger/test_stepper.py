@@ -620,7 +620,7 @@ def test_a_wrong_command_is_answered_by_one_sentence_and_changes_nothing(
 
 
 def test_going_back_farther_than_the_beginning_is_refused(say: Say) -> None:
-    assert say("s 2", "b 3")[-1].error == "`back` can undo only 2 steps"
+    assert say("s 2", "b 3")[-1].error == "`back` can go back at most 2 steps"
 
 
 def test_after_the_call_of_the_operator_going_on_needs_an_answer(say: Say) -> None:

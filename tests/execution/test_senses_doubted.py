@@ -280,7 +280,7 @@ def test_a_potentiometer_that_drifts_under_the_brakes_is_told_by_the_next_motion
     run = resting(lambda seconds: 0.01 * DEGREE * seconds)
     assert run.errors == [errors.JOINT_SENSE_WRONG]
     assert "column has moved 0.6 degrees by its potentiometer" in run.told
-    assert run.told.endswith("although its brake is set; or the brake slips)")
+    assert run.told.endswith("although its brake is set: a sensor fails, or the brake slips)")
 
 
 def test_an_arm_that_creeps_under_its_brakes_is_believed() -> None:

@@ -80,12 +80,12 @@ WORDS: list[tuple[c.Cause, str]] = [
     (
         s.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
         "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still, allowed: 0.6 "
-        "degrees/s; or its drive, or something outside, shakes the arm",
+        "degrees/s: the tachometer fails, or the joint's drive or something outside shakes the arm",
     ),
     (
         s.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
-        "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still, allowed: 0.25 in/s; or "
-        "its drive, or something outside, shakes the arm",
+        "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still, allowed: 0.25 in/s: "
+        "the tachometer fails, or the joint's drive or something outside shakes the arm",
     ),
     (
         s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
@@ -161,7 +161,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     (
         s.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=0.0, braked=True),
         "wrist has moved 2.0 degrees by its potentiometer and 0.0 degrees by its tachometer, although its brake "
-        "is set; or the brake slips",
+        "is set: a sensor fails, or the brake slips",
     ),
     (
         s.JointAlone(joint=ARM.joints[1], torque=150 * OUNCE_INCH, friction=30 * OUNCE_INCH),
@@ -169,7 +169,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.JointAlone(joint=ARM.joints[1], torque=9 * OUNCE_INCH, friction=3 * OUNCE_INCH, one_way=True),
-        "wrist takes 9 oz-in to move; at the start it took 3 oz-in; or the arm no longer stands upright",
+        "wrist takes 9 oz-in to move; at the start it took 3 oz-in; perhaps the arm no longer stands upright",
     ),
     (s.JointAlone(joint=ARM.joints[0], torque=-80 * OUNCE_FORCE), "rail does not move with 80 oz"),
     (s.CurrentSilent(torque=0.0), "the sensor showed at most 0.0 oz-in, less than the motor needs to start"),

@@ -43,7 +43,7 @@ from handeye.program.operation import Operation
 from handeye.touch.guards import FirstOf, Monitor
 from handeye.touch.senses import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
-SUPPORT_SHARE: Final = 0.5  # of the force when a screw was taken, to support the hand that returns it
+SUPPORT_SHARE: Final = 0.5  # of the force that took a screw: this must support the hand that returns it
 STRAIGHTER: Final = 2 * 1.1e-3
 """Distance (m) by which the gap may change because a carried object straightens between the fingers. Chosen: twice
 the largest measured value.
@@ -72,7 +72,7 @@ def order(state: ExecutionState, undoing: ReversalOrder) -> None:
 
 
 def end(state: ExecutionState) -> None:
-    """End a reversal. The magnet is switched on, as programs leave it."""
+    """End a reversal. The magnet is switched on again, because programs always have it on."""
     state.undoing, state.drive.magnet = None, True
 
 
@@ -96,7 +96,7 @@ def undo_last(run: ExecutionContext) -> UndoFailure | None:
         remembered = [recalled(run, done.remembered) for done in state.done[first:]]
         stopped = _lift(run, first - 1) if several else _undo(run, state.done[-1])
         undone = [] if stopped else _forget(run, first, remembered)
-    except ValueError:  # a way or a memory that is none of this program and its arm
+    except ValueError:  # a path or a memory that does not fit this program and its arm
         stopped, undone = UndoFailure(cause=UndoUnknown()), []
     hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
     force = round(run.drive.track.force, 3)
@@ -113,7 +113,7 @@ def _first_of_lift(run: ExecutionContext) -> int:
     last = len(state.done) - 1
     try:
         rounds = loop_entry(state.done, lambda index: _hand_behind(run, index), grasping=state.grasping)
-    except ValueError:  # a path that cannot be used records no round
+    except ValueError:  # a path that cannot be used does not show a round
         return last
     entry = touch_entry(state.done, grasping=state.grasping) if rounds is None else rounds
     return last if entry is None or entry + 1 < state.undoing.left else entry + 1
@@ -160,7 +160,7 @@ def _undo(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     if not done.way:
         return None
     if run.state.lets_go == len(run.state.done) - 1 and drive.magnet:
-        # before the magnet lets go, the screw has to stand where a step took it
+        # before the magnet lets go, the screw must stand where a step took it
         outcome = lower(run, force := SUPPORT_SHARE * done.force)
         if outcome.error is not None:
             return UndoFailure(error=outcome.error, cause=outcome.cause)
@@ -171,7 +171,7 @@ def _undo(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
         return _turn_out(run, done)
     stopped = _UNDOING.get(type(operation), _retrace)(run, done)
     if operation.goal_position is not None and stopped is None:
-        drive.magnet = True  # it is away from what it let go
+        drive.magnet = True  # the hand has left the screw
     return stopped
 
 
@@ -227,7 +227,7 @@ def _take_again(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None
 
 
 def _fingers_back(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    # the returned object presses with the force that ended the motion before
+    # the returned object may press with the force that ended the motion before the step
     before = next((earlier for earlier in reversed(run.state.done[:-1]) if earlier.way), done)
     meeting = None
     if "touch" not in run.without:

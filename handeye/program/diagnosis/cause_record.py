@@ -1,10 +1,10 @@
-"""The base of all causes, and the joint that a cause names."""
+"""The base class of all causes, and the joint that a cause names."""
 
 from handeye.core.record import Record
 
 
 class CauseRecord(Record, frozen=True, kw_only=True, tag_field="cause", tag=True):
-    """Base of all causes."""
+    """Base class of all causes."""
 
 
 class JointName(Record, frozen=True, kw_only=True):

@@ -23,7 +23,7 @@ def error_sentence(number: int, cause: Cause | None) -> str:
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """Write the sentence of a call of the operator: the program's own message, the error, or the cause."""
+    """Write the sentence for a call of the operator: the program's own message, the error, or the cause."""
     if message:
         return message
     if error is not None:
@@ -32,7 +32,7 @@ def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
 
 
 def cause_sentence(cause: Cause) -> str:
-    """Write the sentence of a cause. The sentence is empty if the meaning of the error says it all."""
+    """Write the sentence for a cause. The sentence is empty if the meaning of the error says it all."""
     if isinstance(cause, SenseCause):
         return doubt_sentence(cause)
     match cause:

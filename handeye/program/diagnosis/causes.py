@@ -9,7 +9,7 @@ from handeye.program.diagnosis.reach import NamedArm, ReachFailure
 from handeye.program.diagnosis.sense_causes import SenseCause
 from handeye.program.guards import GuardKind
 
-LargeHole = Literal["largest", "second"]  # holes that vision locates a part by
+LargeHole = Literal["largest", "second"]  # holes by which vision locates a part
 
 
 # -- the arm ----------------------------------------------------------------------------------------
@@ -66,7 +66,7 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
 
 
 class HandStuck(CauseRecord, frozen=True, kw_only=True):
-    """The hand moved only by `moved` (m) while it pressed."""
+    """The hand moved by only `moved` (m) while it pressed."""
 
     moved: float
 
@@ -86,7 +86,9 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightOutside(CauseRecord, frozen=True, kw_only=True):
-    """The hand is too high or too low, by its height (m) above the place at which a difference was saved."""
+    """The last motion ended too high or too low. `height` (m) is measured from the place at which the difference
+    `name` was saved.
+    """
 
     name: str
     height: float
@@ -158,7 +160,7 @@ class NoGasket(CauseRecord, frozen=True, kw_only=True):
 
 
 class HoleFault(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
-    """Base of the faults at one hole of an inspected part."""
+    """Base class of the faults at one hole of an inspected part."""
 
     hole: LargeHole
 

@@ -11,7 +11,7 @@ from handeye.core.units import DEGREE, INCH
 
 
 class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
-    """Base of the reasons."""
+    """Base class of the reasons."""
 
     @property
     def named_joints(self) -> tuple[int, ...]:
@@ -20,8 +20,8 @@ class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
 
 
 class BeyondRange(ReachFailureRecord, frozen=True):
-    """Base of failures in which a joint would be at `amount`, beyond the end `limit` of its range (both in rad or
-    m).
+    """Base class of failures in which a joint would be at `amount`, beyond the end `limit` of its range (both in
+    rad or m).
     """
 
     joint: int
@@ -93,7 +93,7 @@ class HeldJoint(ReachFailureRecord, frozen=True):
 
 
 class InLine(ReachFailureRecord, frozen=True):
-    """Two joint axes would come into line on the way. There the orientation of the hand cannot be kept."""
+    """Two joint axes would line up on the way. Where they line up, the orientation of the hand cannot be kept."""
 
     joints: tuple[int, int]
 

@@ -25,7 +25,9 @@ class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` stay closed although the hand has moved by `moved` (m) to the side of that finger."""
+    """The switches of `fingers` stay closed although the hand has moved by `moved` (m) towards the side of that
+    finger.
+    """
 
     fingers: tuple[bool, bool]
     moved: float
@@ -143,13 +145,13 @@ class CurrentShort(CauseRecord, frozen=True, kw_only=True):
 
 
 class MotorSlow(CauseRecord, frozen=True, kw_only=True):
-    """The motor started in this fraction of its usual time."""
+    """The motor started in this fraction of its usual starting time."""
 
     share: float
 
 
 class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor ran free, and had not started after this multiple of its usual time."""
+    """The motor ran free, and had not started after this multiple of its usual starting time."""
 
     times: float
 

@@ -76,12 +76,16 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             ways = (
                 f"{cause.joint.name} has moved {pot} by its potentiometer and {tachometer} by its tachometer"
             )
-            return f"{ways}, although its brake is set; or the brake slips" if cause.braked else ways
+            return (
+                f"{ways}, although its brake is set: a sensor fails, or the brake slips"
+                if cause.braked
+                else ways
+            )
         case s.RateScatters():
             scatter, limit = (_rate(cause.joint, rate) for rate in (cause.scatter, cause.limit))
             return (
                 f"the tachometer reading of the {cause.joint.name} scatters by {scatter} while the arm holds still, "
-                f"allowed: {limit}; or its drive, or something outside, shakes the arm"
+                f"allowed: {limit}: the tachometer fails, or the joint's drive or something outside shakes the arm"
             )
         case s.JointAlone():
             return _alone(cause)
@@ -152,7 +156,7 @@ def _alone(cause: s.JointAlone) -> str:
     if cause.friction is None:
         return f"{cause.joint.name} does not move with {abs(cause.torque) / unit:.0f} {name}"
     took, takes = distinct_digits([cause.friction / unit, cause.torque / unit], 0)
-    tilted = "; or the arm no longer stands upright" if cause.one_way else ""
+    tilted = "; perhaps the arm no longer stands upright" if cause.one_way else ""
     return f"{cause.joint.name} takes {takes} {name} to move; at the start it took {took} {name}{tilted}"
 
 

@@ -31,7 +31,7 @@ class Outcome:
     step: StepStarted | None = None  # The step under way then, or done last
     call: OperatorCalled | None = None
     wrong: tuple[Check, ...] = ()
-    doubts: tuple[Check, ...] = ()  # Findings of doubtful quality that do not make the work wrong
+    doubts: tuple[Check, ...] = ()  # Failed findings that are only warnings
 
     @property
     def good(self) -> bool:

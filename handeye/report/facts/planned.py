@@ -43,7 +43,7 @@ class MotionEnd:
 
     time: float  # s since the run began
     step: StepStarted
-    off: float  # Distance of the hand from where the plan has it, m
+    off: float  # Distance of the hand from its planned position, m
     why: EndReason
 
 

@@ -159,7 +159,7 @@ def searched(searches: Sequence[Search]) -> Iterator[Markup]:
     """Yield drawings of the searches of a run. Each shows the path through the places that the search tried."""
     yield element("h3", "Searches")
     if not searches:
-        yield note("No search needed a second place.")
+        yield note("No search had to try a second place.")
         return
     yield note(
         "Places that each search tried, seen from above. The ring marks the first place, the dot the last."

@@ -121,7 +121,7 @@ def _points(pieces: Sequence[Piece]) -> Array:
     return np.concatenate([piece.surface.points for piece in pieces])
 
 
-CELLS: Final = 14  # Along the longest side of a body: what lies in one cell becomes one point
+CELLS: Final = 14  # Along the longest side of a body: all points in a cell become one
 
 
 def coarsened(surface: Surface, cell: float) -> Surface:

@@ -24,8 +24,9 @@ _RGB: Final = 1  # Where a material has its texture: MuJoCo's `mjTEXROLE_RGB`
 _SLENDER: Final = 3.0  # Ratio of length to width above which the grain goes along a piece
 
 Row = tuple[float, ...]
-"""A material: red, green, blue as light, 0 to 1; emitted light; metalness; roughness; number of its grain, or -1;
-axis of the body (0 to 2) along which the grain runs; repeats of the grain per metre along and across the axis.
+"""A material: red, green and blue in linear light (0 to 1); emitted light; metalness; roughness; number of its
+grain, or -1; axis of the body (0 to 2) along which the grain runs; repeats of the grain per metre along and across
+the axis.
 """
 
 
