@@ -331,5 +331,7 @@ def test_faults_are_listed_for_programs(command: Command) -> None:
     assert list(known) == [*task().faults(LATER).kinds, "panic"]
     assert known["gap_potentiometer.off"]["size"] == {"unit": "in", "usual": 0.5, "limits": [-4.0, 4.0]}
     assert known["lamp.dead"]["size"] is None
-    assert known["gap_potentiometer.off"]["must"].startswith("The program stops by error 51 (the gap differs")
+    assert known["gap_potentiometer.off"]["must"].startswith(
+        "The program stops with error 51 (the gap differs"
+    )
     assert known["thread.1.scarred"]["must"] == "The pump is right."

@@ -38,7 +38,7 @@ class Ask:
                 continue
             if answer is not None:
                 return answer
-        self._say(["no more answers: the run is aborted"])
+        self._say(["the input has ended: the run is aborted"])
         return "abort"
 
     def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:

@@ -200,7 +200,7 @@ def abort(session: DebugSession, _: str) -> CommandResult:
 
 def _check_called(session: DebugSession, word: str) -> None:
     if session.runner.call is None:
-        raise Refused(f"`{word}` answers a call of the operator, but no call is waiting for an answer")
+        raise Refused(f"`{word}` answers a call to the operator, but no call is waiting for an answer")
 
 
 # -- keeping and leaving --------------------------------------------------------------------------------
@@ -226,7 +226,7 @@ def _file(name: str) -> Path:
     try:
         path = Path(name).expanduser()
         path.exists()
-    except (OSError, RuntimeError, ValueError):  # too long a name, the home of an unknown user, a NUL
+    except (OSError, RuntimeError, ValueError):  # a name that is too long or contains NUL, or an unknown user
         raise BadArgument(f"{quoted(name)} cannot be a file name") from None
     return path
 

@@ -162,4 +162,4 @@ _LINES: Final[dict[str, Callable[[Any], Sequence[str]]]] = {
     "positions": _positions,
     "tasks": _tasks,
     "state": lambda state: [f"{name} {value}" for name, value in state.items()],
-}  # lines of text of each field; its title is its name without the unit
+}  # for each field, its lines of text; the title is its name without the unit

@@ -30,7 +30,7 @@ class Pace(Observer):
     """Limits the pace of a run to `factor` times real time by waiting. This does not change the course of the
     run."""
 
-    factor: float | None = None  # simulated seconds per second; None: as fast as it goes
+    factor: float | None = None  # simulated seconds per second; None: as fast as possible
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)

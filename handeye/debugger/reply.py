@@ -79,8 +79,9 @@ def _outcome(
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:
-    """Return where the hand or the fingers were at the end of a step without other events. Empty if the step
-    took no time."""
+    """Return where the hand or the fingers were at the end of a step in which nothing else happened. Empty if the
+    step took no time.
+    """
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
@@ -132,7 +133,7 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     line: int | None
     text: str | None  # its statement
     script: str = ""  # the required file its line is in; empty: the script itself
-    tasks: tuple[TaskView, ...] | UnsetType = UNSET  # places of the tasks of a system that has several
+    tasks: tuple[TaskView, ...] | UnsetType = UNSET  # places of the tasks, if there are several
     did: tuple[StepSummary, ...] = ()  # steps that were done, in words
     events: tuple[AnyEvent, ...] = ()  # events that have happened, in full
     error: str | None = None  # why the command was not executed

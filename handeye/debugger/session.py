@@ -174,8 +174,8 @@ class DebugSession:
         return first
 
     def stage_began(self) -> int | None:
-        """Return the number of steps that were done when the present stage began, or the previous stage if the
-        run is between stages. None before the first stage.
+        """Return the number of steps that were done when the present stage began or, between two stages, when the
+        previous stage began. None before the first stage.
         """
         return next(reversed(beginnings(self.runner).values()), None)
 

@@ -29,7 +29,7 @@ _FOUND: Final = {
 }
 _NUMBERS: Final = {str(number): number for number in ERRORS}
 SENTENCE_WIDTH: Final = 100  # columns
-_MAX_FILES = 2  # required files of an example that are shown
+_MAX_FILES = 2  # of the files that an example requires: at most this many are shown
 
 
 def explanation(word: str) -> str:
@@ -147,8 +147,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "MOVE T\nSKIPE 3 ;T is out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(
-        "The hand has met an object where none was expected, or the joint in the message does not follow. If you "
-        "expect contact, give the motion a STOP, which ends it; otherwise ask the operator.",
+        "The hand has met an object where none was expected, or the joint in the message does not follow its "
+        "set-point. If you expect contact, give the motion a STOP, which ends it; otherwise ask the operator.",
         'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
     ),
     errors.WATCHDOG: Remedy(

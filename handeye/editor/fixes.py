@@ -14,7 +14,7 @@ from handeye.editor.fix import Fix, replace
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
     """Return the fixes for a diagnostic of the document; empty if there are none."""
     if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
-        return []  # some of it stands in a required file
+        return []  # part of the diagnostic is in a required file
     cure = _CURES.get(diagnostic.code)
     found = [*_meant(diagnostic), *(cure(document, diagnostic) if cure is not None else ())]
     return list(dict.fromkeys(found))

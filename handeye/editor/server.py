@@ -36,7 +36,7 @@ class ArmServer(LanguageServer):
         super().__init__("handeye", HANDEYE, protocol_cls=Protocol)
         self.planned: dict[str, tuple[Source, Taught, list[Diagnostic]]] = {}
         self.watching: asyncio.Future[None] | None = (
-            None  # of the editor's process, if it has said which that is
+            None  # watches the editor's process, if the editor has named it
         )
 
     def script(self, uri: str) -> EditedScript:
@@ -131,8 +131,9 @@ def make_server() -> ArmServer:
 
 
 def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any]:
-    """Wrap an answer that only scripts of planned programs have. For a text in a system's own language, the
-    answer is empty."""
+    """Wrap a handler that can answer only for scripts of planned programs. For a text in a system's own language,
+    the answer is empty.
+    """
 
     def answered(server: ArmServer, params: Any) -> Any:
         if own_language(params.text_document.uri) is not None:
@@ -143,7 +144,7 @@ def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any
 
 
 def _told(answer: Callable[..., Any]) -> Callable[..., Any]:
-    """Wrap an answer so that an error becomes a one-sentence message for the editor."""
+    """Wrap a handler so that an error becomes a one-sentence message for the editor."""
 
     def told(server: ArmServer, params: Any) -> Any:
         try:

@@ -51,7 +51,7 @@ class ExecutionContext:
     emit: Callable[[AnyEvent], None]
     search: SearchPattern = spiral  # places that a search tries
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
-    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # what computes an arm at one posture
+    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     vision: Stopwatch = field(default_factory=Stopwatch)
     """CPU time of vision, s. The working phase itself reads no clock of the computer."""
     state: ExecutionState = field(init=False)

@@ -163,7 +163,9 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
 
 
 def _driven(start: float, goal: float) -> float:
-    """Return the distance (m) for which the fingers were driven, at most until they are closed."""
+    """Return the distance (m) by which the fingers were driven together, not counting any command beyond closed
+    fingers.
+    """
     return start - max(goal, 0.0)
 
 

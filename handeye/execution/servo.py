@@ -64,7 +64,7 @@ class Servo:
     watch: Callable[[ServoPeriod], None] = lambda _: None  # called after every servo period
     halt: Callable[[], bool] = lambda: False  # the panic button, polled in every servo period
     track: Track = field(default_factory=Track)  # records commands and felt forces, for a later undo
-    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # what computes an arm at one posture
+    arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
 
     @property

@@ -224,7 +224,7 @@ class ServoLoop(Servo):
             if trip is not None:
                 self._freeze(course.direction)
                 return Outcome(trip=trip)
-        if guard is not None:  # its error says that nothing was met
+        if guard is not None:  # the error of the guard says that nothing was met
             return REACHED
         return Outcome(error=errors.SERVO_LAG, cause=HandStuck(moved=round(gone, 6)))
 
@@ -311,7 +311,7 @@ class ServoLoop(Servo):
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
-        """Hold the hand at its present place along `direction` with zero reference velocity, so that it is not
+        """Set the reference of the hand along `direction` to its present place at rest, so that the hand is not
         kicked back.
         """
         self.state.met = self.chain.forward(self.state.q)[:3, 3]

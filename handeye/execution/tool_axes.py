@@ -16,7 +16,7 @@ from handeye.execution.servo import Motion
 from handeye.execution.servo_loop import Outcome
 from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel
 
-SPEED: Final = 0.2  # m/s. At it up to 7 N are felt in the air; at .025 m/s, 2.5 N.
+SPEED: Final = 0.2  # m/s. At this speed, up to 7 N are sensed in free air; at .025 m/s, 2.5 N.
 TURNING: Final = 1.0  # rad/s. Chosen.
 FORCE: Final = Channel(name="force", unit="N", width=3)
 MOMENT: Final = Channel(name="moment", unit="N m", width=3)

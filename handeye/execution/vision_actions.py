@@ -67,7 +67,7 @@ def _target(run: ExecutionContext, name: str) -> Array:
         return run.world.position(name)[:3, 3]
     part = run.world.parts[name]
     p_W = run.world.part(name)[:3, 3].copy()
-    if len(part.holes) > 1:  # the middle of the two large holes is the middle of the picture
+    if len(part.holes) > 1:  # the picture is centred on the middle of the two large holes
         X_WP, hole = run.world.part(name), part.holes[1]
         p_W[:2] = X_WP[:2, :2] @ (hole.x / 2, hole.y / 2) + X_WP[:2, 3]
     p_W[2] += part.face
@@ -185,7 +185,7 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
 
 def match(run: ExecutionContext, operation: Match) -> Fault | None:
     """Check with two pictures that a part has not moved."""
-    from handeye.vision.matching import match as match_part  # takes OpenCV, without which plans are made
+    from handeye.vision.matching import match as match_part  # needs OpenCV; planning must not
 
     seen = _compared(run, operation, errors.PART_ASTRAY, match_part)
     if not isinstance(seen, PartMatch):

@@ -44,7 +44,7 @@ class Flow:
     stages: tuple[str, ...]  # of the whole plan
     nodes: tuple[Node, ...]  # in text order
     edges: tuple[FlowEdge, ...]
-    outside: dict[int, str]  # steps left out that edges lead to, with their stages
+    outside: dict[int, str]  # steps to which edges lead but which are not drawn, with their stages
 
 
 def flow(plan: Plan, stage: int | None = None) -> Flow:

@@ -21,7 +21,7 @@ from handeye.program.program import Program
 Measured = Literal["part", "position", "difference", "search"]
 Key = tuple[Measured, str]
 _MEASURED: Final[tuple[Measured, ...]] = get_args(Measured)
-Newest = dict[Key, frozenset[int]]  # steps that may have made each measurement last
+Newest = dict[Key, frozenset[int]]  # for each measurement, the steps that may have made it last
 
 
 class Dependence(Record, frozen=True, kw_only=True):

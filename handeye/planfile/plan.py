@@ -9,7 +9,7 @@ from handeye.core.record import Record
 from handeye.program.program import Program
 
 VERSION: Final = 3  # version of the format on disk
-PLANNER: Final = 1  # version of the planner: another one makes other motions of the same script
+PLANNER: Final = 1  # version of the planner; versions plan different motions for the same script
 
 Joints = tuple[float, ...]  # one for each joint of the arm, rad or m
 
@@ -30,7 +30,7 @@ class Plan(Record, frozen=True, kw_only=True):
     version: int = VERSION
     task: str  # name of the task whose arm and cell it is for
     arm: str  # name of the arm model
-    arm_digest: str  # digest of the arm model's figures: a plan is not run on an arm it was not made for
+    arm_digest: str  # digest of the arm model's figures: a plan runs only on the arm for which it was made
     speed: float  # speed of free motions as a share of the arm's limits
     program: Program
     motions: dict[int, PlannedMotion]  # planned motion of each step that moves the arm, by step number

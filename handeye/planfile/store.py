@@ -46,7 +46,7 @@ def encode(plan: Plan) -> str:
 
 
 def _line(value: Any) -> str:
-    import json  # to write one, where a check of a script needs none
+    import json  # needed to write a plan, but not to check a script
 
     return json.dumps(value, ensure_ascii=False)
 
@@ -117,7 +117,9 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """Remove all fractions from a value made of dictionaries and lists, because they may have been computed."""
+    """Remove all floating-point numbers from a value made of dictionaries and lists, because they may have been
+    computed.
+    """
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}
     if isinstance(value, list | tuple):

@@ -206,7 +206,7 @@ class Checks:
                         along=crossing.along, at_end=crossing.at_end, held=held, grasp=grip.taken,
                     )
                 )  # fmt: skip
-                return  # the worst of a motion is enough
+                return  # one finding for each motion is enough
 
     def strong(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
         """Check that the arm can carry its load at configurations `q`, shape (N, n), and can exert the demands at

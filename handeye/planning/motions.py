@@ -79,7 +79,7 @@ def directions(samples: Samples, arm: ArmModel, q: Array) -> Array:
     step = np.diff(p, axis=0)
     size = np.linalg.norm(step, axis=1, keepdims=True)
     moving = size[:, 0] > 1e-9
-    # a set-point at rest keeps the direction of the nearest one that moves
+    # at rest, a set-point has the direction of the nearest one that moves
     index = np.maximum.accumulate(np.where(moving, np.arange(len(step)), 0))
     index[: int(np.argmax(moving))] = int(np.argmax(moving))
     return np.asarray(step[index] / np.maximum(size[index], 1e-12))

@@ -55,7 +55,7 @@ class AxesReading:
 class Axes(ABC):
     """A machine whose servos move its axes to their goals."""
 
-    name: str  # name of the machine, unlike that of any other under the same clock
+    name: str  # name of the machine, unique among the machines that share its clock
 
     @property
     @abstractmethod

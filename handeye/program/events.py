@@ -57,9 +57,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     processor: str | UnsetType = UNSET  # kind of processor, on which last digits of numbers depend
     replaced: dict[str, str] | UnsetType = UNSET  # parts replaced by the caller's code
     without: tuple[str, ...] | UnsetType = UNSET
-    prepared: float = (
-        0.0  # simulated seconds before that: the camera was calibrated, the arm measured or taught
-    )
+    prepared: float = 0.0  # simulated seconds of preparation before that, such as calibration and teaching
 
     @property
     def made_alike(self) -> "RunStarted":
@@ -139,7 +137,7 @@ class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
     """
 
     joints: tuple[JointFriction, ...]
-    links: tuple[float, ...] = ()  # weight of each link as found, over the model's; empty: not weighed
+    links: tuple[float, ...] = ()  # measured weight of each link, divided by the model's; empty: not weighed
     seconds: float
 
 

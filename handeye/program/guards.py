@@ -38,7 +38,7 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
     """
 
     kind: ClassVar[GuardKind]
-    error: ClassVar[int]  # raised if the motion ends without meeting the guard
+    error: ClassVar[int]  # raised if the motion ends before the guard trips
     bounds: ClassVar[Mapping[str, Bounds]]
 
     @classmethod

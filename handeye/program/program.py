@@ -110,8 +110,8 @@ class Part(Record, frozen=True, kw_only=True):
     face: float = 0.0  # height of the upper face over the reference point, m
     holes: tuple[Hole, ...] = ()  # large convex holes, largest first
     screw_holes: tuple[Hole, ...] = ()
-    region: tuple[float, float] | None = None  # half width and depth of where it may be, m
-    outline: tuple[float, float, float, float] | None = None  # box, m: x, y from, x, y to
+    region: tuple[float, float] | None = None  # half width and half depth of the area where it may be, m
+    outline: tuple[float, float, float, float] | None = None  # box, m: least x, y; greatest x, y
 
 
 class Fixture(Record, frozen=True, kw_only=True):
@@ -136,7 +136,7 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     name: str
     language: str  # name of its language
     source: str  # its text
-    required: dict[str, str] = field(default_factory=dict)  # required texts, by path from its folder
+    required: dict[str, str] = field(default_factory=dict)  # required texts, by path from the script's folder
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
     positions: dict[str, Position]

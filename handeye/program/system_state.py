@@ -23,7 +23,7 @@ class SystemState(MutableRecord, kw_only=True):
 
     at: Natural | None = 0  # the step to do next; None when the program has ended or the operator was called
     stage: Natural | None = None  # the stage under way; None between two stages
-    stopped: OperatorCalled | None = None  # the call of the operator that has not been answered
+    stopped: OperatorCalled | None = None  # the call to the operator that has not been answered
     onward: Natural | None = None  # after a stop: the step that would have been next
 
     @property

@@ -67,7 +67,7 @@ def _added(text: str, name: str, position: Position) -> str:
     end = len(text) if following is None else following.start()
     lines = text[:end].splitlines(keepends=True)
     while not lines[-1].strip() or lines[-1].lstrip().startswith("#"):
-        lines.pop()  # remarks before the next table are about that
+        lines.pop()  # remarks before the next table belong to that table
     place = len("".join(lines))
     gap = "" if text[:place].endswith("\n") else line_end
     return f"{text[:place]}{gap}{_line(name, position)}{line_end}{text[place:]}"

@@ -41,7 +41,7 @@ class Look(Operation, frozen=True, kw_only=True):
     writing: ClassVar = {"picture": ("picture",)}
 
     picture: str
-    hold_target: bool = False  # keep the target voltage of the picture before, for differencing
+    hold_target: bool = False  # keep the target voltage of the previous picture, for differencing
 
 
 class General(Operation, frozen=True, kw_only=True):

@@ -142,7 +142,9 @@ def _names(bodies: Iterable[WeighedBody]) -> str:
 
 
 Shown = Callable[[], ExportedState]
-"""Makes the state to export. Making it takes a while, so it is called only after the destination has been checked."""
+"""Makes the state to export. This takes a while, so the function is called only after the destination has been
+checked.
+"""
 
 
 class Weight(Record, frozen=True, kw_only=True):

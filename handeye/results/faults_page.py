@@ -80,7 +80,7 @@ def _must(expected: ExpectedDetection) -> str:
     errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
     ways = [
         *(["before the first stage"] if expected.at_setup else []),
-        *([f"by error {errors}"] if errors else []),
+        *([f"with error {errors}"] if errors else []),
         *(f"with “{call.replace('{what}', '…')}”" for call in expected.calls),
     ]
     stops = f"stops {', or '.join(ways)}" if ways else ""

@@ -89,7 +89,7 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
         return False
     try:
         result = read_result(path / RESULT)
-    except InvalidInput:  # it is made again
+    except InvalidInput:  # the result is made again
         return False
     own = _belongs(result, newest.events)
     told = result.assembled is not None or result.apart is not UNSET
@@ -151,7 +151,7 @@ def _host(path: Path) -> tuple[HostSeconds, list[str]]:
 
 
 def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
-    """Return the call of the operator at which a run has stopped, or None if it has not stopped at a call."""
+    """Return the call to the operator at which a run has stopped, or None if it has not stopped at a call."""
     standing = [event for event in events if not isinstance(event, StageFinished | RunFinished)]
     return standing[-1] if standing and isinstance(standing[-1], OperatorCalled) else None
 

@@ -144,7 +144,7 @@ def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
     """Yield the rows of the table of times. The first and the last row may be computing times; all other rows
     are simulated times."""
     t = result.timing
-    if t.planning_cpu_s:  # the plan may have been there already
+    if t.planning_cpu_s:  # 0 if the plan existed already
         yield "planning phase (CPU)", t.planning_cpu_s, then.get("planning")
     yield from cell_times(result, then)
     if result.camera.used:

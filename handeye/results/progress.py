@@ -25,7 +25,7 @@ from handeye.trace.sentences import sentence
 
 _CLOCK: Final = 7  # Columns of the time
 _BAR: Final = 12
-_STATEMENT: Final = 8  # Columns that are too few to tell a statement by
+_STATEMENT: Final = 8  # Columns that are too few for a recognisable statement
 _CALIBRATING: Final = "calibrating: view {} of {}"
 
 

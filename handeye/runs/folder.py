@@ -255,7 +255,7 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():
         if any(CheckpointStore(path).heads()):
-            raise BadFile(f"{path} is a folder of checkpoints, not of a run; name one of them")
+            raise BadFile(f"{path} is a folder of checkpoints, not of a run; give the path of one checkpoint")
         check_holds_run(path)
         raise BadFile(f"the run in {path} cannot continue: the folder has no {CHECKPOINTS}")
     checkpoint, faults = folder.kept.newest()

@@ -1,5 +1,5 @@
-"""Rules that answer calls of the operator without a person: give up, retry, or undo a stage. The debugger asks
-a person instead.
+"""Rules that answer calls to the operator without a person: give up, retry, or undo a stage. The debugger asks a
+person instead.
 """
 
 import re

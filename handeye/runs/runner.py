@@ -258,7 +258,7 @@ class Runner:
         self._settle()
 
     def answer(self, choice: Choice) -> None:
-        """Continue after a call of the operator."""
+        """Continue after a call to the operator."""
         self.system.answer(choice)
         self._settle()
 

@@ -35,7 +35,7 @@ def default_script(work: Task | None = None) -> Path:
 
 
 def program_named(name: str) -> tuple[Path, Task] | None:
-    """Return the bundled script whose file name without its extension is `name`, together with its task; None if
+    """Return the included script whose file name without its extension is `name`, together with its task; None if
     there is no such script.
     """
     return next((each for each in _programs() if each[0].stem == name), None)

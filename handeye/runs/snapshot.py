@@ -36,7 +36,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def ended(self) -> bool:
-        """True if the plan has ended: no step is left, and no call of the operator is unanswered."""
+        """True if the plan has ended: no step is left, and no call to the operator is unanswered."""
         state = None if self.snapshot is None else self.snapshot.state
         return state is not None and state.at is None and state.stopped is None
 

@@ -206,7 +206,7 @@ class RunningSystem(Protocol):
         """Execute one step. After an interruption, the whole step is repeated. Raises Halted or PhysicsFailed."""
 
     def answer(self, choice: Choice) -> None:
-        """Continue after a call of the operator."""
+        """Continue after a call to the operator."""
 
     @property
     def executed(self) -> Sequence[ExecutedStep]:
@@ -428,7 +428,7 @@ class System(ABC):
         return PLAIN
 
     def choices(self, runner: Runner) -> Mapping[Choice, str]:
-        """Return the possible answers to the present call of the operator, each with its effect."""
+        """Return the possible answers to the present call to the operator, each with its effect."""
         return {
             "proceed": "proceed: continue after the step that called the operator",
             "retry": "retry: execute the step again",

@@ -13,10 +13,10 @@ from handeye.core.source import Source
 from handeye.planning.planner import PlannedScript, plan_source
 from handeye.program.taught import Taught
 
-TYPED: Final = "typed"  # name of typed functions where a file would have a name
+TYPED: Final = "typed"  # used in place of a file name for typed functions
 OPEN: Final = frozenset(
     {"modifier-without-motion", "unknown-label", "skip-at-end", "unterminated-macro", "empty-program"}
-)  # mistakes of a text whose next line may put them right
+)  # mistakes that the next line of a text may correct
 _ALONE: Final = frozenset(
     {
         "aoj-without-search", "search-without-aoj", "save-without-move", "travel-without-change",

@@ -24,7 +24,7 @@ from handeye.teaching.answers import Answer, about, answer, carry_out, done
 from handeye.teaching.functions import TYPED, is_open, lasting, mistakes
 from handeye.teaching.workplace import Workplace
 
-MAX_LINES: Final = 500  # all of them are checked again with each that is added
+MAX_LINES: Final = 500  # whenever a line is added, all lines are checked again
 _ANSWERS: Final = (
     "PROCEED, RETRY or SKIP continues the stopped program; a new instruction abandons the program"
 )
@@ -78,7 +78,7 @@ class Repl:
         return self._advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
-        """Answer a call of the operator. Raises InvalidInput if there is no call."""
+        """Answer a call to the operator. Raises InvalidInput if there is no call."""
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
         return self._advised(Answer(time=self.workplace.time, said=said))
@@ -184,7 +184,7 @@ _TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
     Command(usage="WRITE FILE", act=_write, help="write the collected lines to a new file, as a script"),
     Command(usage="SHOW [WHAT]", act=_show, help="show joints, hand, gap, saved differences, positions, ..."),
     Command(usage="BACK", act=_back, help="undo the last DO: restores arm, parts and memory"),
-    Command(usage="PROCEED", act=_answer("proceed"), help="continue after the call of the operator"),
+    Command(usage="PROCEED", act=_answer("proceed"), help="continue after the call to the operator"),
     Command(usage="RETRY", act=_answer("retry"), help="repeat from the first instruction of the stage"),
     Command(usage="SKIP", act=_answer("skip"), help="skip the rest of the stage"),
     Command(usage="HELP [INSTRUCTION]", act=_help, help="show this list, or what an instruction does"),

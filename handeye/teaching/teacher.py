@@ -30,7 +30,7 @@ from handeye.teaching.answers import Answer, carry_out
 from handeye.teaching.functions import TYPED
 from handeye.teaching.workplace import Workplace
 
-REST_S = 0.5  # for a floating arm to come to rest when it is let go
+REST_S = 0.5  # s for a floating arm to come to rest when it is released
 
 
 @dataclass(slots=True, kw_only=True)

@@ -153,9 +153,9 @@ class Workplace:
         return Runner(start, halt=self.halt, observers=self.observers)
 
     def answer(self, choice: Choice) -> Pause:
-        """Continue after a call of the operator. Raises Refused if there is no call."""
+        """Continue after a call to the operator. Raises Refused if there is no call."""
         if self.runner.call is None:
-            raise Refused(f"`{choice}` answers a call of the operator, but no call is waiting for an answer")
+            raise Refused(f"`{choice}` answers a call to the operator, but no call is waiting for an answer")
         self.runner.answer(choice)
         return self._go()
 

@@ -10,7 +10,7 @@ from handeye.core.pose import Array
 from handeye.program import guards as g
 from handeye.program.guards import GuardKind, Guards
 
-HOLD_PERIODS: Final = 4  # servo periods that a torque must last; placeholder: the spindle spins up in fewer
+HOLD_PERIODS: Final = 4  # servo periods that a torque must last; the spindle starts in fewer; placeholder
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -237,7 +237,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
 def test_the_end_of_the_answers_is_taken_for_abort(runner: Runner) -> None:
     talk = Talk()
     assert attend(runner, talk.operator).kind == "operator"
-    assert talk.said[-1] == "no more answers: the run is aborted"
+    assert talk.said[-1] == "the input has ended: the run is aborted"
 
 
 @pytest.mark.parametrize(

@@ -33,10 +33,10 @@ def loop_entry(
     """Return the index of the step to which the last jump back returned, if the cell is in the state in which that
     step left it. Returns None if there is no such step.
 
-    The jump counts only if all motions since that step were in free air. The way back of a MOVE to the next place of
-    a search would end in contact with the object that the hand met at the place before. `hand` returns the position
-    of the hand after a step, given by its index, shape (3,), in W, or None if the hand had not moved yet.
-    `grasping` is True if the fingers were last closed; None means as before the last step.
+    The jump counts only if all motions since that step were in free air. If a MOVE to the next place of a search
+    were reversed, the hand would end in contact with the object that it met at the previous place. `hand` returns
+    the position of the hand after a step, given by its index, shape (3,), in W, or None if the hand had not moved
+    yet. `grasping` is True if the fingers were last closed; None means as before the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -66,8 +66,8 @@ def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None)
 
 
 def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
-    """Return the index of the step after which an empty hand went to touch an object that the last step left again.
-    Returns -1 if that was before the first step, or None if the last step did not leave a touch.
+    """Return the index of the step before a touch of the empty hand, if the last step moved the hand off the
+    touched object. Returns -1 if the touch was the first step, and None if the last step did not follow a touch.
 
     `grasping` is True if the fingers were last closed.
     """

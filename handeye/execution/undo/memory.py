@@ -57,7 +57,7 @@ def remember(state: ExecutionState, found: Memory) -> None:
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):
-            put_back(here, value)  # every holder of the record sees this
+            put_back(here, value)  # in place: every holder of the record sees this
         else:
             setattr(state, name, value)
 

@@ -31,7 +31,7 @@ ALLOWED: Final = 20.0
 """Least force limit of a reversal, N. Measured: lifting a top off the pins is sensed as at most 11 N. With a screw
 left in the top, it is sensed as 36 N and then 108 N.
 """
-SHARE: Final = 1.5  # of the force that the step itself met
+SHARE: Final = 1.5  # multiple of the force that the step itself met
 
 
 def allowed(met: float) -> float:
@@ -71,7 +71,7 @@ class EarlyContact:
         return Trip(guard=GuardKind.TOUCH, value=float(first + 2 * second), limit=3.0)
 
     def cause(self, trip: Trip) -> MetEarly:
-        """Return the cause of a trip, while the fingers are where the trip stopped them."""
+        """Return the cause of a trip. The fingers must still be where the trip stopped them."""
         closed = int(trip.value)
         fingers = bool(closed & 1), bool(closed & 2)
         return MetEarly(fingers=fingers, gap=round(self.gap(), 6), kept=self.kept, holding=self.holding)
@@ -82,8 +82,8 @@ RAMP: Final = 8
 full speed.
 """
 JOIN: Final = 5e-4
-"""Speed (rad or m per servo period) at which a joint moves to the end of the path first, because brakes and guards
-have left the arm beside the path.
+"""Speed (rad or m per servo period) at which the joints first move to the end of the path, because brakes and
+guards have left the arm beside the path.
 """
 
 
@@ -93,7 +93,7 @@ class ReturnPath:
 
     samples: Samples
     gap: Array  # finger set-points, (N,), m
-    left: Array  # path set-points left after each, (N,)
+    left: Array  # number of set-points of the path left after each, (N,)
 
 
 def retracing(

@@ -30,7 +30,7 @@ TIGHTENED: Final = 3 * 0.00127
 """Height (m) of three turns of the thread. A screw that rises less was only tightened. A screw driven from the
 mouth of its thread makes five turns.
 """
-QUIET: Final = 20  # servo periods without rising that show the end; a thread lifts a screw by 3 mm in as many
+QUIET: Final = 20  # servo periods without rising that show the end; a thread would lift a screw by 3 mm
 RISING: Final = 2e-4  # m that count as risen
 PATIENCE: Final = 120  # servo periods within which a screw must begin to rise
 

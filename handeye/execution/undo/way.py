@@ -57,7 +57,7 @@ class Track:
         moved = np.flatnonzero((rows[1:] != rows[:-1]).any(axis=1))
         if not len(moved):
             return None
-        part = slice(int(moved[0]), int(moved[-1]) + 2)  # without what it held still before and after
+        part = slice(int(moved[0]), int(moved[-1]) + 2)  # without the periods at rest before and after
         return RecordedPath(q=way.q[part], gap=way.gap[part])
 
 

@@ -23,7 +23,7 @@ def error_sentence(number: int, cause: Cause | None) -> str:
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """Write the sentence for a call of the operator: the program's own message, the error, or the cause."""
+    """Write the sentence for a call to the operator: the program's own message, the error, or the cause."""
     if message:
         return message
     if error is not None:

@@ -78,7 +78,7 @@ class TooWeak(Record, frozen=True, kw_only=True):
 
     step: int
     exerted: HandLoad
-    guard: bool  # True if a guard waits for this force or moment, and so can never trip
+    guard: bool  # True if a guard waits for this force or moment; it could never trip
     joint: int
     most: float
     position: None = None

@@ -80,7 +80,7 @@ def _ended(run: RecordedRun) -> Outcome:
 
 
 def _standing(run: RecordedRun) -> tuple[str | None, StepStarted | None, OperatorCalled | None]:
-    """Return the present stage and step of a run, and the call of the operator that has not been answered yet."""
+    """Return the present stage and step of a run, and the call to the operator that has not been answered yet."""
     stages = run.trace.stages
     step: StepStarted | None = None
     call: OperatorCalled | None = None
