@@ -52,8 +52,8 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 
 def stage_number(text: str, listing: Listing) -> int:
-    """Return the index of a stage. The user gives the stage's number from 1, its name, or a part of the name
-    that no other stage's name contains. Raises InvalidInput.
+    """Return the index of a stage. The user gives the stage's number (counted from 1), its name, or a part of the
+    name that no other stage's name contains. Raises InvalidInput.
     """
     return stage_index(text, listing.stages)
 

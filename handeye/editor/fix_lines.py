@@ -66,7 +66,7 @@ def label_first(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that replaces SKIPE n, modifier, motion by SKIPN n, JUMP label, modifier, motion, label."""
+    """Yield a fix that replaces "SKIPE n, modifier, motion" by "SKIPN n, JUMP label, modifier, motion, label"."""
     line = line_of(document, diagnostic)
     word = document.text[diagnostic.primary.span.start : diagnostic.primary.span.end].upper()
     opposite = {"SKIPE": "SKIPN", "SKIPN": "SKIPE"}[word]

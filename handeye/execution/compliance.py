@@ -52,7 +52,9 @@ class Course:
         return np.clip(_beyond(self.free * wrench[:3], self.friction[:3]) * k.gain, -k.speed, k.speed)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
-        """Return the rotation vector of the hand (rad), shape (3,), one servo period (s) after it was `turn`."""
+        """Return the rotation vector of the hand (rad, shape (3,)) at the end of a servo period (s) that began
+        with `turn`.
+        """
         felt, k = wrench[3:], self.compliance
         missing = _beyond(self.spin * felt, self.friction[3:])
         wanted = float(np.linalg.norm(self.moment))

@@ -40,8 +40,8 @@ class Stopwatch:
 
 @dataclass(slots=True, kw_only=True)
 class ExecutionContext:
-    """Plan, arm and cell of a working phase. The drive and the world model keep their state in parts of the state
-    of the context.
+    """Plan, arm and cell of a working phase. The drive and the world model keep their own state within the
+    context's state.
     """
 
     plan: Plan

@@ -163,8 +163,8 @@ class Executor:
         return step.next
 
     def _past(self, number: int | None) -> int | None:
-        """Return `number`. If this step belongs to the call of a macro that the run leaves out, return the number
-        of the first step after the call.
+        """Return `number`. If the step with this number belongs to the call of a macro that the run leaves out,
+        return the number of the first step after the call.
         """
         steps = self.run.plan.program.steps
         while number is not None and steps[number].called in self.run.without:

@@ -27,7 +27,7 @@ from handeye.execution.state import DriveState
 from handeye.ports.workcell import Workcell
 from handeye.program.diagnosis.cause_text import cause_sentence
 
-RAMP: Final = 0.1  # s to reach the constant rate, and again for the servo to overcome friction; chosen
+RAMP: Final = 0.1  # s to reach the constant rate, and again until the servo has compensated friction; chosen
 MIN_TRAVEL: Final = 0.5  # fraction of its range that a joint must move, or it is stuck; chosen
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
@@ -58,8 +58,8 @@ class JointMeasurement:
 
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
-"""The quick pass. Chosen: the rate is about twenty steps of a 12-bit tachometer, which is as slow as the joints of
-a hand that presses. The pass takes 3.3 s and a range of about 2 in.
+"""The quick pass. Chosen: the rate is about twenty steps of a 12-bit tachometer, and joints move as slowly while
+the hand presses. The pass takes 3.3 s and a range of about 2 in.
 """
 
 
@@ -90,8 +90,8 @@ def at_rest(slow: Array, quick: Array) -> Array:
     """Compute the Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the two
     passes.
 
-    At these rates, friction cannot fall as the rate rises. Where it seems to fall, the mean of the two passes is
-    used, weighted by their durations.
+    Here, friction cannot fall as the rate rises. Where it seems to fall, the mean of the two passes is used,
+    weighted by their durations.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)
@@ -157,8 +157,8 @@ def _profile(way: Pass, period: float) -> Array:
 
 
 def _stroke(q: Array, rate: Array, share: Array, period: float) -> Samples:
-    """Return the set-points of a motion from rest at `q` to rest. In each servo period, the rate of each joint is
-    the fraction `share` of `rate`, shape (n,).
+    """Return the set-points of a motion from rest at `q` to rest. `rate`, shape (n,), is the constant rate;
+    `share` is the fraction of it that is reached at the end of each servo period.
     """
     before = np.concatenate(([0.0], share[:-1]))
     gone = np.cumsum((before + share) / 2) * period

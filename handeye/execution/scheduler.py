@@ -27,8 +27,8 @@ _MOST_AT_ONCE: Final = 1_000_000  # turns of a task at one moment
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Until:
-    """A wait for a condition. The condition is tested after another task has acted, time has passed, or an event of
-    the clock was handled.
+    """A wait for a condition. The condition is tested whenever another task has acted, time has passed, or an
+    event of the clock has been handled.
     """
 
     met: Callable[[], bool]

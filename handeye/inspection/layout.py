@@ -123,8 +123,8 @@ class StepBox:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Route:
-    """The polyline of an edge. The edge leads down to the next step, back, past steps (skip), to another column
-    (over), or out of the drawing.
+    """The polyline of an edge. `kind` says where the edge leads: to the next step (down), back, past steps (skip),
+    to another column (over), or out of the drawing (out).
     """
 
     edge: FlowEdge

@@ -88,8 +88,8 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
 
 
 def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
-    """Yield the names of the model fields to compare that do not belong to a single body. Vertices of meshes
-    are compared separately, by shape.
+    """Of the model fields to compare, yield the names of those that do not belong to a single body. Vertices of
+    meshes are compared separately, by shape.
     """
     for field in dir(drawn):
         kind, _, what = field.partition("_")

@@ -1,8 +1,8 @@
-"""Finds machines by name. A machine is an arm with axes, as a value with its specification and the function that
-puts it on a bench.
+"""Finds machines by name. A machine is an arm with axes: a value of type `ArmMachine`, with its specification and
+the function that puts it on a bench.
 
-A system can use a machine, a value of type `ArmMachine`, directly. Machines that other systems can find by name are
-listed here, or in `Entry.machines` of a system.
+A system can use such a value directly. Machines that other systems can find by name are listed here, or in
+`Entry.machines` of a system.
 """
 
 from typing import Final

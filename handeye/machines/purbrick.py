@@ -38,8 +38,8 @@ PURBRICK: Final = ArmMachine(
         closed=-0.020,  # the hand never gets there, and so presses with all its force
         grasping=0.2,
         carried=0.28,  # an ounce, the weight of a block
-        # Measured: at most 1.8 on the way back of a stack of four blocks, where closed fingers come back to the
-        # stack; 5.8 and more where a block was pressed a third of a millimetre too deep on it.
+        # Measured: at most 1.8 N on the way back from a stack of four blocks, where closed fingers return to the
+        # stack; 5.8 N and more where a block had been pressed onto it a third of a millimetre too deep.
         resistance=3.0,
     ),
 )

@@ -77,7 +77,7 @@ class Obstacles:
         self._X_FW = np.array(frames).reshape(-1, 4, 4)
 
     def crossing(self, X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
-        """Find the deepest collision of boxes, given in frame T, with a fixture, over hand poses of shape (N, 4,
+        """Find the deepest collision of boxes (given in frame T) with a fixture, for hand poses of shape (N, 4,
         4). Returns None if there is no collision.
         """
         if not self._boxes or not boxes:
@@ -87,7 +87,7 @@ class Obstacles:
 
 
 def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
-    """Find the deepest collision of boxes, given in frame T, with the table, over hand poses of shape (N, 4, 4).
+    """Find the deepest collision of boxes (given in frame T) with the table, for hand poses of shape (N, 4, 4).
     Returns None if there is no collision.
     """
     if not boxes:

@@ -105,7 +105,7 @@ class MicrobusPort(ABC):
 
         The new time may be later than `until` if the machine is simulated in longer steps.
 
-        The new time may also be earlier than `until`, if the machine is slow to simulate, so that a person can
+        If the machine is slow to simulate, the new time may also be earlier than `until`, so that a person can
         interrupt the wait. The caller must then wait again.
         """
 

@@ -82,8 +82,8 @@ class ArmPort(ABC):
 
     A watchdog guards the arm. If no new command arrives before the clock has advanced by a servo period, the
     watchdog switches the drives off and sets the brakes, until the program sets the brakes itself. If the clock
-    advances by more than a servo period at once, the drives are off from the beginning. The watchdog does not
-    switch off the hand, which keeps its grip.
+    advances by more than a servo period at once, the drives are off for the whole of that time. The watchdog does
+    not switch off the hand, which keeps its grip.
     """
 
     @abstractmethod

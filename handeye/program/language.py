@@ -53,8 +53,8 @@ class OwnLanguage(ABC):
 
 
 def own_language(file: str) -> OwnLanguage | None:
-    """Return the language of the system whose files end as this file does, or None if the file is a script for a
-    planned program.
+    """Return the language of the system whose files have the same ending as this file, or None if the file is a
+    script for a planned program.
     """
     entry, ending = entry_of_file(file)
     if entry is None:

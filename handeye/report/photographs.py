@@ -99,7 +99,7 @@ def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
 
 
 def _left(picture: bytes, missing: Photograph) -> Photograph:
-    """Return the picture of the end that the run saved, to replace a photograph that could not be taken."""
+    """Return the picture that the run saved at its end, to replace a photograph that could not be taken."""
     points = cv2.imdecode(np.frombuffer(picture, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
     if points is None:
         return missing

@@ -119,9 +119,10 @@ OFF_MIDDLE: Final = 3e-3
 """Permitted distance (m) of an object from the middle of the fingers that close on it again, along the line of the
 fingers.
 
-An object that was carried and set down has slid in the grip by SKEW and turned by 2 degrees. At a grasp 57 mm from
-that grip, as on the walls of the pump base, the turn is 2 mm. Measured over eight pumps: at most 1.8 mm on these
-walls, and 1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
+An object that was carried and set down may have slid in the grip by SKEW and turned by 2 degrees. At a grasp 57 mm
+from that grip, as on the walls of the pump base, the turn is a displacement of 2 mm. Measured over eight pumps: at
+most 1.8 mm on these walls, and 1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it
+held the object).
 """
 
 

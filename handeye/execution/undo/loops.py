@@ -22,8 +22,8 @@ from handeye.program.guards import GuardKind
 
 SAME_GAP: Final = 5e-4  # m, of an unchanged hold
 SAME_PLACE: Final = (0.005, 0.02)
-"""Tolerance (m), sideways and in height, between the places of putting an object down and of taking it up. Fingers
-slide on an object.
+"""Tolerance (m), sideways and in height, between the place at which an object is put down and the place at which
+it is taken up. Fingers slide on an object.
 """
 
 
@@ -34,9 +34,9 @@ def loop_entry(
     step left it. Returns None if there is no such step.
 
     The jump counts only if all motions since that step were in free air. If a MOVE to the next place of a search
-    were reversed, the hand would end in contact with the object that it met at the previous place. `hand` returns
-    the position of the hand after a step, given by its index, shape (3,), in W, or None if the hand had not moved
-    yet. `grasping` is True if the fingers were last closed; None means as before the last step.
+    were reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes
+    the index of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the
+    hand had not moved yet. `grasping` is True if the fingers were last closed; None means as before the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
