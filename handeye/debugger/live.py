@@ -61,7 +61,7 @@ class Pace(Observer):
 
 
 def factor(text: str) -> float | None:
-    """Parse a pace: `1x`, `4x` or `.5x`, or `free`, for which it returns None. Raises InvalidInput."""
+    """Parse a pace, such as `1x`, `4x`, `.5x` or `free`. Returns None for `free`. Raises InvalidInput."""
     if text.casefold() == FREE:
         return None
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())

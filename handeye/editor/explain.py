@@ -157,8 +157,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
-        "A search has 49 places, or the number that its STEPS give. If you do not test for this error, it calls the "
-        "operator, which is usually right: the hole is not here. Count with SOJG to give up sooner.",
+        "A search has 49 places, or the number that its STEPS give. If you do not test for this error, it calls "
+        "the operator. This is usually right: the hole is not here. Count with SOJG to give up sooner.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),

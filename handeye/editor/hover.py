@@ -138,8 +138,9 @@ def _position(document: Document, name: str) -> list[str]:
 
 
 def joints(arm: ArmModel, X_WT: Pose) -> str:
-    """Return the joint positions for a hand pose, or the reason why there are none. They are solved from the
-    middle of the joint ranges."""
+    """Return the joint positions for a hand pose, or the reason why there are none. The solver starts from the
+    middle of the joint ranges.
+    """
     result = solve(arm, X_WT, arm.middle)
     if result.q is None:
         return f"out of the arm's reach: {result.message(arm)}"

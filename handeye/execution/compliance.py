@@ -25,11 +25,11 @@ class Course:
     free: Array = field(default_factory=lambda: np.zeros(3))
     """1 for each axis of W along which the hand yields to force, and 0 for the others, shape (3,)."""
     moment: Array = field(default_factory=lambda: np.zeros(3))
-    """Moment to exert about the tool centre point while turning, N m, shape (3,)."""
+    """Moment (N m, shape (3,)) to exert about the tool centre point while turning."""
     spin: Array = field(default_factory=lambda: np.zeros(3))
     """1 for each axis of W about which the hand yields to moment, and 0 for the others, shape (3,)."""
     friction: Array = field(default_factory=lambda: np.zeros(6))
-    """Joint friction that is sensed along and about each axis of W, shape (6,), N and N m. It is the dead band of
+    """Joint friction that is sensed along (N) and about (N m) each axis of W, shape (6,). It is the dead band of
     the compliance.
     """
 

@@ -339,7 +339,7 @@ class ServoLoop(Servo):
     # -- doubting -----------------------------------------------------------------------------------
 
     def _unloaded(self) -> Array:
-        """Return the force on the hand at the last tare, without the load that the servo carries, shape (3,), N."""
+        """Return the force (N, shape (3,)) on the hand at the last tare, without the load carried by the servo."""
         return np.asarray(self.state.tare[:3] + np.array((0.0, 0.0, self.state.load)))
 
     def _force_in_air(self) -> Outcome:

@@ -142,9 +142,9 @@ class DriveState(MutableRecord, kw_only=True):
     tool: float = 0.0  # screwdriver speed, rad/s
     current: float = 0.0  # its greatest torque since that speed was set, N m
     starting: list[float] = msgspec.field(default_factory=list)
-    """Torques of the screwdriver, N m, in the first servo periods since its speed was set."""
+    """Torques of the screwdriver (N m) in the first servo periods since its speed was set."""
     lately: list[float] = msgspec.field(default_factory=list)
-    """Torques of the screwdriver, N m, in the last second since its speed was set."""
+    """Torques of the screwdriver (N m) in the last second since its speed was set."""
     leapt: GapJumped | None = None  # the first jump of the gap since the last step
     magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
@@ -158,7 +158,7 @@ class DriveState(MutableRecord, kw_only=True):
     in_air: bool = False  # the last motion was a MOVE without contact
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
-    """External wrench on the hand in W, N and N m, after taring, shape (6,)."""
+    """External wrench on the hand in W after taring: force (N) and moment (N m), shape (6,)."""
 
     @classmethod
     def holding(cls, sensed: Sensed, arm: ArmModel) -> "DriveState":
@@ -185,7 +185,7 @@ class ExecutionState(SystemState, kw_only=True):
     search: SearchState | None = None
     restored: dict[str, Array] = msgspec.field(default_factory=dict)  # added to the goal of the last Move
     goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
-    """Goal of the last Move, without the offset of the search, m in W."""
+    """Goal of the last Move in W (m), without the offset of the search."""
     place: str = ""  # its name
     travel: float = 0.0  # m, of the last straight motion
     finger_line: Array | None = None  # unit vector, if the last action was a Center

@@ -1,5 +1,5 @@
-"""Finds the parts of a scene that differ from the original model, and in which properties. Colours and sleep
-settings do not count.
+"""Finds the parts of a scene that differ from the original model, and the properties in which they differ. Colours
+and sleep settings do not count.
 """
 
 from collections.abc import Iterator, Mapping

@@ -92,8 +92,8 @@ def read_plan(path: Path) -> Plan:
 
 
 def write_plan(path: Path, plan: Plan) -> None:
-    """Write a plan completely or not at all. Only a file that is a plan is replaced. Raises InvalidInput if the
-    file cannot be written.
+    """Write a plan completely or not at all. An existing file is replaced only if it is a plan. Raises
+    InvalidInput if the file cannot be written.
     """
     write_over(path, encode(plan).encode(), PLAN)
 

@@ -47,8 +47,8 @@ class FindingList:
 OVERLAP: Final = 0.1 * INCH
 """Tolerated overlap of boxes (m).
 
-Free motions for the pump deviate from a straight descent by that much: the return of the screwdriver is planned .02
-in into its rack.
+Free motions of the pump's program deviate from a straight descent by that much: the planned return of the
+screwdriver goes .02 in into its rack.
 """
 
 SAME: Final = 1e-6  # depths closer than this are equal, m: of equal ones the first counts, on every processor

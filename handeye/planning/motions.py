@@ -62,7 +62,7 @@ def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKRe
 
 
 def change_speed(operation: Change) -> float:
-    """Return the speed of a Change, m/s."""
+    """Return the speed of a Change (m/s)."""
     return operation.speed or (GUARDED_SPEED if operation.meets else FREE_SPEED)
 
 

@@ -67,7 +67,7 @@ class Force(Guard, frozen=True, kw_only=True):
 
 
 class Against(Guard, frozen=True, kw_only=True):
-    """Trips when more than `force` (N) opposes the motion, whatever its direction."""
+    """Trips when more than `force` (N) opposes the motion, in whatever direction the hand moves."""
 
     kind: ClassVar = GuardKind.AGAINST
     error: ClassVar = errors.NO_FORCE

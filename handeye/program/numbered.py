@@ -52,7 +52,7 @@ class NumberedListing:
         return (self.name,)
 
     def step_of(self, number: int) -> int:
-        """Return the step of a line; of a line that is not in the listing, the step before it."""
+        """Return the step of a line or, if the line is not in the listing, the step before it."""
         return max(bisect_right(self.steps, number, key=lambda step: step.line) - 1, 0)
 
 

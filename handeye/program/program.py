@@ -92,7 +92,7 @@ class Position(Record, frozen=True, kw_only=True):
 
 
 class Hole(Record, frozen=True, kw_only=True):
-    """A round hole in the upper face of a part, in part coordinates, m."""
+    """A round hole in the upper face of a part, in part coordinates (m)."""
 
     x: float
     y: float

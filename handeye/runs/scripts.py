@@ -1,4 +1,4 @@
-"""Finds the scripts of tasks, their languages and taught positions, and plans them."""
+"""Finds the scripts of tasks, their languages and their taught positions, and plans the scripts."""
 
 from collections.abc import Iterator
 from dataclasses import replace

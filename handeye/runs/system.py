@@ -1,4 +1,4 @@
-"""Defines the interfaces of a system in `handeye/systems`: `System`, and `RunningSystem`, a system during a
+"""Defines the interfaces of a system in `handeye/systems`: `System`, and `RunningSystem` for the system during a
 run, which can be stepped, saved and restored.
 
 A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run needs it.
@@ -263,7 +263,7 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state; the cell must be in its state of the same moment. Raises
+        """Continue from a copy of a state; the cell must already be in its state of the same moment. Raises
         InvalidInput if the state does not fit the plan.
         """
 

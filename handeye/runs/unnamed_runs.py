@@ -120,7 +120,9 @@ def _runs(home: Path) -> Iterator[Path]:
 
 
 def _unnamed(home: Path) -> Iterator[Path]:
-    """Yield the folders of unnamed runs that contain nothing else. A run in a renamed folder counts as named."""
+    """Yield those folders of unnamed runs that contain nothing but the run. A run in a renamed folder counts as
+    named.
+    """
     for path in home.iterdir():
         mark = path / MARK
         if path.is_symlink() or not mark.is_file() or mark.is_symlink():

@@ -127,7 +127,7 @@ def _here(teacher: Teacher, words: list[str]) -> Answer:
     again = bool(words) and words[-1].lower() == "again"
     words = words[:-1] if again else words
     if len(words) not in (1, 3) or (len(words) == 3 and words[1].lower() != "of"):
-        raise BadArgument("name a position with `here NAME`, `here NAME of PART`, `here NAME again`")
+        raise BadArgument("name a position with `here NAME`, `here NAME of PART` or `here NAME again`")
     name, part = words[0], words[2] if len(words) == 3 else None
     if not NAME.fullmatch(name):
         raise BadArgument(f"{quoted(name)} is not a name: letters, digits and _, no digit first")

@@ -78,7 +78,7 @@ class VectorMonitor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AgainstMonitor:
-    """Trips when a force of more than `limit` (N) opposes the motion, whatever its direction."""
+    """Trips when a force of more than `limit` (N) opposes the motion, in whatever direction the hand moves."""
 
     limit: float
 

@@ -22,7 +22,7 @@ Placeholder.
 """
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 FREE_FORCE: Final = 45 * OUNCE_FORCE
-"""Greatest force sensed in free air, N: 12.5.
+"""Greatest force sensed in free air: 12.5 N.
 
 By calculation, the errors of link masses, mass centres, drive gains and joint friction, which may act upwards or
 downwards, are sensed as at most 6.1 N in 400 nominal worlds, at 15 places on the table, and as at most 8.9 N at the

@@ -60,7 +60,7 @@ class ScrewMonitor:
 
     @property
     def risen(self) -> float:
-        """Rise of the hand since the start, m."""
+        """Rise of the hand since the start (m)."""
         return self.highest - self.started
 
     @property
@@ -104,7 +104,7 @@ def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tup
 
 
 def lower(run: ExecutionContext, force: float) -> Outcome:
-    """Lower the hand a little until a force (N) supports it, yielding sideways. If the hand finds no support, the
+    """Lower the hand a little, yielding sideways, until a force (N) supports it. If the hand finds no support, the
     outcome has no trip.
     """
     course = replace(_course(run), distance=LOWER, speed=LOWER, force=None)
@@ -125,8 +125,8 @@ def _course(run: ExecutionContext) -> Course:
 
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
-    """Return the index of the step that took the screw which another step drives in. That step ended on the head of
-    the screw, before the hand moved again. Returns None if there is none.
+    """Return the index of the step that took the screw which another step drives in. The step that took the screw
+    ended on its head, before the hand moved again. Returns None if there is none.
 
     `backwards` gives the indices of steps, from the driving step backwards.
     """

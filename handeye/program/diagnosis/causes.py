@@ -242,7 +242,7 @@ class MetEarly(CauseRecord, frozen=True, kw_only=True):
 
 
 class ScrewFast(CauseRecord, frozen=True, kw_only=True):
-    """The screwdriver turned left with at most `torque` (N m), but the screw rose only by `risen` (m)."""
+    """The screwdriver turned left with at most `torque` (N m), but the screw rose by only `risen` (m)."""
 
     torque: float
     risen: float

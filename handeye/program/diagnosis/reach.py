@@ -34,7 +34,7 @@ class BeyondRange(ReachFailureRecord, frozen=True):
 
     @property
     def excess(self) -> float:
-        """How far the joint would be beyond its limit, rad or m."""
+        """How far the joint would be beyond its limit (rad or m)."""
         return abs(self.amount - self.limit)
 
 
@@ -60,7 +60,7 @@ class InnerCylinder(ReachFailureRecord, frozen=True):
 
     @property
     def excess(self) -> float:
-        """How much too near the wrist would be, m."""
+        """How much too near to the axis the wrist would be (m)."""
         return self.least - self.radius
 
 

@@ -96,8 +96,8 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
 
 
 class RateScatters(CauseRecord, frozen=True, kw_only=True):
-    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound one scatters by at most
-    `limit`. Both are median deviations from the median, rad/s or m/s.
+    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound tachometer scatters by
+    at most `limit`. Both are median deviations from the median, rad/s or m/s.
     """
 
     joint: JointName
@@ -107,8 +107,8 @@ class RateScatters(CauseRecord, frozen=True, kw_only=True):
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint takes a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
-    that was measured first; None if the joint does not move at all. `one_way` is True if the joint moved in only
-    one direction, so that a weight would have the same effect.
+    that was measured at the start; None if the joint does not move at all. `one_way` is True if the joint moved in
+    only one direction, so that a weight would have the same effect.
     """
 
     joint: JointName
