@@ -66,19 +66,20 @@ PLACES, TOOL, VISION, RUN = "Positions", "Tool and load", "Vision", "Order of th
 
 _MEANINGS: Final = {
     "MOVE": "go to a position: rise, move across and go down; with DIRECT, go straight to the position",
-    "CHANGE": "move in a straight line from the present place, in this direction (in table coordinates), by this "
-    "distance (inches), at this speed (in/s; 0 is the usual speed)",
+    "CHANGE": "move from the present place in a straight line: in this direction (table coordinates), by this "
+    "distance (inches), at this speed (inches per second; 0 is the usual speed)",
     "PLACE": "lower the hand by at most 3 in, until it meets a force of 50 oz; error 23 if it does not meet this force",
     "PARK": "go to the position called PARK",
-    "TURN": "move on a circle about the vertical line through a position, by this angle (degrees, counter-clockwise)",
-    "STOP": "end the next motion when the hand presses along this vector with more ounces than the vector's length, or "
-    "exerts more than this moment (oz-in); a single number (an extension of handeye) limits the force against "
-    "the motion, whichever way the hand moves; error 23 if the motion is not stopped",
+    "TURN": "move on a circle about the vertical line through a position, by this angle (degrees; a positive angle is "
+    "counter-clockwise)",
+    "STOP": "end the next motion when the force with which the hand presses along this vector exceeds the vector's "
+    "length (oz), or when the hand exerts more than this moment (oz-in); a single number (an extension of handeye) is "
+    "the limit for the force that opposes the motion, whatever its direction; error 23 if nothing stops the motion",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
-    "stiff) for each axis, or the number of axes and their names: `2 X Y`",
+    "stiff) for each axis, or the number of axes that yield and their names, such as `2 X Y`",
     "SPIN": "let the hand yield to moments about the given table axes during the next CHANGE: give 1 (yield) or 0 "
-    "(stay stiff) for each axis, or the number of axes and their names: `2 X Y`",
+    "(stay stiff) for each axis, or the number of axes that yield and their names, such as `2 X Y`",
     "VIA": "pass these positions during the next MOVE, in this order, without stopping",
     "TOUCH": "end the next motion when a finger touches something: 1 is the finger on the side to which angle O "
     "points, 2 the other finger, 3 either finger; error 25 if the motion ends without a touch",
@@ -86,36 +87,35 @@ _MEANINGS: Final = {
     "never reached",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
     "OPEN": "open or close the fingers to this gap (inches)",
-    "CLOSE": "close on a part; error 2 if there is no part or the part is thinner than the minimum (inches), "
-    "error 7 if the part is thicker than the maximum (inches)",
-    "CENTER": "close on a part without pushing it, because the arm moves instead; error 2 if there is no part or "
+    "CLOSE": "close the fingers on a part; error 2 if there is no part or the part is thinner than the minimum "
+    "(inches), error 7 if the part is thicker than the maximum (inches)",
+    "CENTER": "close the fingers on a part without pushing it: the arm moves instead; error 2 if there is no part or "
     "the part is thinner than the minimum (inches)",
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
-    "SEARCH": "start a search from the present place with this step (inches): a spiral that extends three steps "
-    "to each side, or, with ALONG, a line in this direction (degrees from the x axis of the table) that extends "
-    "four steps to each side; STEPS gives another number of steps",
-    "AOJ": "go to the next place of the search and jump back to the label; error 6 if no place is left",
+    "SEARCH": "start a search with this step (inches): along a square spiral with three steps to each side, or, with "
+    "ALONG, along a line in this direction (degrees from the x axis of the table) with four steps to each side; STEPS "
+    "sets another number of steps",
+    "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
-    "SOJG": "subtract one from a counter, and jump to the label while the counter is still positive",
+    "SOJG": "subtract one from a counter, and jump to the label if the counter is still positive",
     "JUMP": "continue at the label",
     "WAIT": "set the brakes and show the operator a text; without an operator the run ends here",
-    "UNDO": "have the arm undo this stage and start the stage again; after one undo, or the given number of them, "
-    "UNDO has no effect",
-    "TRANS": "define a hand position by x, y, z (inches) and the angles O, A, T (degrees), in table coordinates "
-    "or in those of a part",
-    "VECT": "define a vector for STOP, FORCE or CHANGE, in ounces, in ounce-inches or without a unit; "
+    "UNDO": "make the arm undo this stage, and start the stage again: once, or at most the given number of times; "
+    "after that, the UNDO has no effect and the program continues",
+    "TRANS": "define a hand position by x, y, z (inches) and the angles O, A, T (degrees), in table coordinates or "
+    "relative to a part",
+    "VECT": "define a vector for STOP, FORCE or CHANGE: a force (oz), a moment (oz-in) or a direction; "
     "X, Y and Z are predefined",
-    "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER, save only its component along "
-    "the finger line",
-    "HERE": "define a position as the present place of the hand; a taught position that belongs to a part stays "
-    "relative to that part",
+    "SAVE": "save the offset of the hand from the goal of the last MOVE; after CENTER, save only the component of the "
+    "offset along the finger line (the line through both finger tips)",
+    "HERE": "define a position as the present place of the hand; if the position was taught relative to a part, it "
+    "stays relative to that part",
     "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
-    "TRAVEL": "check how many inches the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance "
-    "is outside the range",
-    "HEIGHT": "compare the heights at which two motions stopped: the last motion, and the motion before the SAVE "
-    "of this name; error 9 if the difference (inches, positive if the last motion stopped higher) is outside the "
-    "range",
+    "TRAVEL": "check how far the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance (inches) is "
+    "outside the range",
+    "HEIGHT": "check how much higher the last motion ended than the motion before the SAVE of this name; error 9 if "
+    "this difference (inches) is outside the range",
     "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, and 0 stops the screwdriver",
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",
@@ -125,10 +125,10 @@ _MEANINGS: Final = {
     "SPECIFIC": "find the part's holes in the picture; error 31 if the picture does not show them",
     "INSPECT": "compare two pictures and check that the part is in place; error 32 if it is not",
     "MATCH": "compare two pictures and check that the part has not moved; error 33 if it has",
-    "REQUIRE": "read a file of instructions as if its lines were here; the path is relative to the file that contains "
-    "the REQUIRE",
+    "REQUIRE": "read a file of instructions as if its lines were here; the path is relative to the folder of the file "
+    "that contains the REQUIRE",
     "STAGE": "begin a stage of the work; reports use this name",
-    "DEFINE": "begin a macro, which ends at a blank line; each call gives one operand for each parameter of the macro",
+    "DEFINE": "begin a macro, which ends at a blank line; a call of the macro gives one operand for each parameter",
 }
 _GROUPS: Final = {
     MOTIONS: ("MOVE", "CHANGE", "PLACE", "PARK", "TURN", "RESTORE"),
@@ -155,7 +155,7 @@ _OPERANDS: Final[dict[str, tuple[Operand, ...]]] = {
     "FREE": (_AXES,),
     "SPIN": (_AXES,),
     "VIA": (_POSITION, *[replace(_POSITION, optional=True)] * (VIAS - 1)),
-    "TOUCH": (count("mask", 1, 3, "1 and 2 each mean one finger, 3 means either finger"),),
+    "TOUCH": (count("mask", 1, 3, "1 and 2 each select one finger, 3 selects both"),),
     "TORQUE": (number("torque", OZ_IN, MIN_POSITIVE),),
     "RESTORE": (name_of("name", Refers.SAVED), word("LEVEL")),
     "OPEN": (gap("gap"),),

@@ -145,7 +145,7 @@ class _Expansion:
         try:
             if len(line.text) > LONGEST_LINE:
                 message = f"with the operands filled in, the line has {len(line.text)} characters"
-                help = f"a line has at most {LONGEST_LINE}"
+                help = f"a line can have at most {LONGEST_LINE} characters"
                 raise Mistake("line-too-long", message, line.statement.span, help=help)
             return read_operands(definition, line.head, line.tokens)
         except Mistake as mistake:

@@ -258,7 +258,7 @@ class _Reader(msgspec.Struct, gc=False):
     def check_number(self, value: Number, operand: Operand, token: Token) -> None:
         if operand.choices and value.value not in operand.choices:
             known = " and ".join(f"{choice:g}" for choice in operand.choices)
-            help = f"there are {known} {operand.units[0].name}"
+            help = f"the focal lengths are {known} {operand.units[0].name}"
             raise Mistake("unknown-lens", f"there is no {quoted(token.text)} mm lens", value.span, help=help)
         if not operand.low <= value.value <= operand.high:
             size = "small" if value.value < operand.low else "large"

@@ -113,7 +113,8 @@ class _Parser:
     def too_long(self, line: Line) -> None:
         span = Span(start=line.start + LONGEST_LINE, end=line.end)
         message = f"the line has {line.end - line.start} characters"
-        self.tell(problem("line-too-long", message, span, help=f"a line has at most {LONGEST_LINE}"))
+        help = f"a line can have at most {LONGEST_LINE} characters"
+        self.tell(problem("line-too-long", message, span, help=help))
         broken = Statement(span.start, span.end, (), None, line.number, broken=True)
         (self.statements if self.opened is None else self.body).append(broken)
 

@@ -33,10 +33,14 @@ def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
 
 
 CODES: Final[dict[str, Code]] = {
-    "always-undone": _warning("a stage is undone without a test before it", "MOVE P\nUNDO STAGE"),
-    "aoj-without-search": _warning("an AOJ has no SEARCH before it on any path", "L: MOVE T\nAOJ L"),
+    "always-undone": _warning(
+        "an UNDO has no test before it, so the stage is always undone", "MOVE P\nUNDO STAGE"
+    ),
+    "aoj-without-search": _warning(
+        "an AOJ has no SEARCH before it on any path through the program", "L: MOVE T\nAOJ L"
+    ),
     "axis-count": _error(
-        "the number of axes in a FREE or SPIN does not match the axes named after it", "FREE 2 X\nCHANGE X 1"
+        "the number in a FREE or SPIN is not the number of axes named after it", "FREE 2 X\nCHANGE X 1"
     ),
     "carries-through-fixture": _planning(
         "the part in the hand would go through a fixture",
@@ -47,16 +51,16 @@ CODES: Final[dict[str, Code]] = {
         "the part in the hand would be below the table top", "OPEN 1\nMOVE P\nCLOSE\nCHANGE [0 0 -1] 1"
     ),
     "compared-without-hold": _warning(
-        "INSPECT or MATCH compares with a picture that was not taken with HOLD",
+        "the second picture of an INSPECT or MATCH was not taken with HOLD",
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(
-        "an ASSIGN sets a counter again in every round of the loop that counts this counter down",
+        "an ASSIGN is inside the loop that counts its counter down, so every round sets the counter again",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
     "endless-loop": _warning(
-        "a loop moves the arm, and only an error for which the program has no test can end it",
+        "a loop that moves the arm has no exit: only an error for which the program does not test can end the loop",
         "L: MOVE T\nJUMP L",
     ),
     "error-never-raised": _warning(
@@ -96,12 +100,12 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _planning(
-        "a STOP has a threshold below the smallest force that the arm can feel in free air",
+        "the force of a STOP is so small that in free air joint friction may feel like this force",
         "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
         "warning",
     ),
     "faint-moment": _planning(
-        "a STOP has a threshold below the smallest moment that the arm can feel in free air",
+        "the moment of a STOP is so small that in free air joint friction may feel like this moment",
         "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
         "warning",
     ),
@@ -114,12 +118,12 @@ CODES: Final[dict[str, Code]] = {
     "modifier-twice": _error("a motion has two modifiers of the same kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
     "never-saved": _warning(
-        "a RESTORE has no SAVE of its difference before it on any path", "MOVE T\nRESTORE H"
+        "a RESTORE or HEIGHT has no SAVE of its difference before it on any path through the program",
+        "MOVE T\nRESTORE H",
     ),
     "number-out-of-range": _error("a number is too small or too large for its operand", "OPEN 5"),
     "opened-too-little": _warning(
-        "a grasp has a minimum gap that is wider than the gap to which the hand has opened",
-        "OPEN .2\nCLOSE .25",
+        "the minimum gap of a grasp is wider than the gap of the open fingers", "OPEN .2\nCLOSE .25"
     ),
     "parameter-name-taken": _error(
         "a parameter has the name of an instruction, of another word of the language, of an axis or of a label",
@@ -154,7 +158,9 @@ CODES: Final[dict[str, Code]] = {
         {"pins.al": "PARK"},
     ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
-    "save-without-move": _warning("a SAVE has no MOVE before it on any path", "CLOSE\nSAVE H"),
+    "save-without-move": _warning(
+        "a SAVE has no MOVE before it on any path through the program", "CLOSE\nSAVE H"
+    ),
     "search-begun-anew": _warning(
         "a SEARCH is inside its own loop, so every round of the loop restarts the search",
         "L: SEARCH .07\nMOVE T\nSTOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
@@ -163,18 +169,19 @@ CODES: Final[dict[str, Code]] = {
         "a search has no MOVE between its label and its AOJ",
         "MOVE T\nSEARCH .07\nL: STOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
-    "search-without-aoj": _warning("a SEARCH has no AOJ after it on any path", "SEARCH .07\nMOVE T"),
-    "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
+    "search-without-aoj": _warning(
+        "a SEARCH has no AOJ after it on any path through the program", "SEARCH .07\nMOVE T"
+    ),
+    "skip-at-end": _error("a SKIPE or SKIPN has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
-        "a skip would skip a modifier, but not the motion that it modifies",
-        "SKIPE 23\nSTOP [0 0 -50]\nMOVE T",
+        "a SKIPE or SKIPN would skip a modifier but not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
     ),
     "skips-one-only": _warning(
-        "several indented lines follow a skip, but it skips only the first",
+        "several indented lines follow a SKIPE or SKIPN, which skips only the first of them",
         "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
     ),
     "specific-without-general": _warning(
-        "a SPECIFIC has no GENERAL before it on any path", "LOOK V\nSPECIFIC BASE V"
+        "a SPECIFIC has no GENERAL before it on any path through the program", "LOOK V\nSPECIFIC BASE V"
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
@@ -186,7 +193,7 @@ CODES: Final[dict[str, Code]] = {
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "a test skips only the test after it, so that its error changes nothing",
+        "a test skips only another test, so the error of the first test has no effect on what follows",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test does not directly follow an action", "SKIPE 23\nPARK"),
@@ -204,9 +211,12 @@ CODES: Final[dict[str, Code]] = {
         "CLOSE .1\nTOUCH 3\nCHANGE Z -1",
     ),
     "travel-too-long": _warning(
-        "a TRAVEL has a minimum above the length of the motion before it", "CHANGE Z .6\nTRAVEL .7 .9"
+        "the minimum of a TRAVEL is greater than the length of the motion before it",
+        "CHANGE Z .6\nTRAVEL .7 .9",
     ),
-    "travel-without-change": _warning("a TRAVEL has no CHANGE before it on any path", "PARK\nTRAVEL .1 .2"),
+    "travel-without-change": _warning(
+        "a TRAVEL has no CHANGE before it on any path through the program", "PARK\nTRAVEL .1 .2"
+    ),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
     "unit-written": _error("a unit follows a number", "OPEN 1.5 in"),
@@ -231,7 +241,7 @@ CODES: Final[dict[str, Code]] = {
     "unreachable-code": _warning("a statement is never executed", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
     "unreadable-file": _error("a required file cannot be read", "REQUIRE pins.al\nPARK"),
-    "unterminated-macro": _error("a macro is not ended by a blank line", "PARK\nDEFINE A\nOPEN 1"),
+    "unterminated-macro": _error("no blank line ends a macro", "PARK\nDEFINE A\nOPEN 1"),
     "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
     "unused-label": _warning("no instruction jumps to a label", "L: PARK"),

@@ -20,8 +20,9 @@ LONGEST = 20
 INTRODUCTION = """\
 # What can be wrong with a program
 
-The checker finds {} kinds of mistake. This page has for each its code, an example, and the message for this example.
-`handeye explain CODE` shows the same, and the cure if there is one. An *error* prevents a plan; a *warning* does not.
+The checker finds {} kinds of mistake. For each kind, this page gives the code, an example, and the message for this
+example. `handeye explain CODE` prints the same for one code, and the cure if there is one. An *error* prevents a plan;
+a *warning* does not.
 """
 
 

@@ -56,7 +56,7 @@ def test_a_line_is_at_most_a_thousand_characters_long() -> None:
     assert codes(line) == []
     (found,) = diagnose(line + "X")
     assert (found.code, found.message) == ("line-too-long", "the line has 1001 characters")
-    assert found.help == "a line has at most 1000"
+    assert found.help == "a line can have at most 1000 characters"
 
 
 def test_nothing_more_is_said_of_a_line_that_is_too_long() -> None:

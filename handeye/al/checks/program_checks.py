@@ -223,7 +223,7 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
             continue
         if any(held for _, held in looks.get(before.text, [])):
             message = f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}"
-            help = "the earlier picture must be first"
+            help = "name the earlier picture first"
             yield problem("compared-without-hold", message, across(before, after), help=help)
         else:
             yield problem(
