@@ -35,8 +35,8 @@ plan = handeye.plan(handeye.scripts / "water_pump.al")
 plan
 
 # %% [markdown]
-# A step is a line of the script. Its `conditions` distinguish this program from a recording of motions: most motions
-# that touch something end when the hand *feels* something, not at a given place.
+# A step is a line of the script. The `conditions` of the steps distinguish this program from a recording of motions:
+# most motions that touch something end when the hand *feels* something, not at a given place.
 
 # %%
 for_pins = [step for step in plan.stages[3].steps if step.conditions]
@@ -70,8 +70,8 @@ run
 # During the rest of the working phase, the arm waits for the television camera, whose lens turret, pan, tilt and
 # focus have slow motors. As the paper of 1973 suggests, today's program lets these motors work while the arm moves,
 # where possible. So the camera takes less time than in 1973. Manipulation, however, takes minutes longer than in
-# 1973, and so does the whole run: the arm is slower than that of 1973, and the program measures more by touch. The
-# last stage, which inspects the pump, was not in the program of 1973.
+# 1973, because the arm is slower than that of 1973, and the program measures more by touch. The whole run therefore
+# also takes minutes longer. The last stage, which inspects the pump, was not in the program of 1973.
 #
 # ## Look at it
 #

@@ -102,7 +102,8 @@ print(f"{run.state.gap / 0.0254:.2f} in; by a person: {run.result.interventions}
 #
 # A program that must work in every world tests for possible failures. `STOP` ends the motion below it when the hand
 # presses on something. If the motion meets nothing, it raises error 23. `SKIPE 23` skips the next line if this error
-# was raised, and `SKIPN 23` if it was not. So an error is not an accident but a result, here *nothing is there*.
+# was raised, and `SKIPN 23` if it was not. So an error is not an accident but a result: here it means *nothing is
+# there*.
 
 # %%
 careful = """\
@@ -135,8 +136,8 @@ print(f"{run.state.why}: found at place {run.state.memory.place + 1}, ({x:.2f}, 
 #
 # According to the paper of 1973, adding one more screw to the program takes a few minutes. Here the pump has a
 # seventh hole, which the program does not know. The *macro* `SCREW` of the script fetches and drives a screw. Its
-# operands are the place of the screw, its hole, a saved sideways offset, and its number. These lines drive the last
-# four screws:
+# operands are the place of the screw, the place of its hole, a saved sideways offset, and the number of the screw.
+# These lines drive the last four screws:
 
 # %%
 text = (handeye.scripts / "water_pump.al").read_text()

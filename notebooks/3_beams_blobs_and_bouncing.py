@@ -27,9 +27,9 @@ import handeye
 # ## Six pictures
 #
 # The camera is a television camera. Its pictures have 256 lines of 333 pixels in sixteen levels of grey. They have
-# noise, so no two pictures are alike. A whole assembly takes six pictures: the wide view of the belt, the close-up
-# of the base, the base in its standard position without and with its gasket, and the finished pump before and after
-# the last time the arm pushes it.
+# noise, so no two pictures are alike. A whole assembly takes six pictures: the wide view of the belt; the close-up
+# of the base; the base in its standard position, first without and then with its gasket; and the finished pump,
+# before and after the last time the arm pushes it.
 
 # %%
 trace = handeye.open(handeye.demo)
@@ -95,7 +95,7 @@ print(f"{box}: {scan.beams} beams, {scan.points / wide.size:.0%} of the picture 
 
 # %% [markdown]
 # The window is the region where the program expects the base, because it knows the belt and the camera. The box
-# shows the place of the base to an inch or two, which is good enough to aim the long lens at the base.
+# shows the place of the base to within an inch or two, which is good enough to aim the long lens at the base.
 #
 # ## Bouncing
 #

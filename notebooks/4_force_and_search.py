@@ -104,8 +104,8 @@ print(
 # ## The rule
 #
 # `SEARCH s` tries places on a square grid with the step *s*, in a spiral. The worst place for a hole is in the
-# middle between four of these places, at a distance of *s* / √2 from each. So the search finds the hole wherever it
-# is if
+# middle between four of these places, at a distance of *s* / √2 from each. So the search finds the hole, wherever the
+# hole is, if
 #
 # **s / √2 ≤ clearance + chamfer + bevel.**
 #
@@ -176,7 +176,7 @@ catches = (0.05 + 1.0 + 0.35) / 25.4
 print(f"catches {catches:.3f} in; a step of .07 needs {0.07 / 2**0.5:.4f}")
 
 # %% [markdown]
-# The step satisfies the rule, with a tenth to spare for the errors of the arm. The drawing says which dimensions of
+# The step satisfies the rule, with a margin of a tenth for the errors of the arm. The drawing says which dimensions of
 # the cell were printed in 1973, and which we chose so that the program of 1973 can work.
 #
 # The next notebook, [5. What each sense is worth](5_what_each_sense_is_worth.ipynb), removes the senses one by one.

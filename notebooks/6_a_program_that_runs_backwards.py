@@ -28,9 +28,9 @@ import handeye
 # ## Taught by doing
 #
 # The arm works over a moving platter, with simulated physics. A line with `*` changes the objects on the platter by
-# hand; here it adds a stack of three blocks. `M` adds a move. If its position is undefined, you drive the arm there
-# with the teach box, and `RECORD` defines the position. The arm does each command at once, and the command becomes a
-# step of the program.
+# hand; here it adds a stack of three blocks. `M` adds a move to a position. If the position is undefined, you drive
+# the arm to the right place with the teach box, and `RECORD` defines the position. The arm does each command at once,
+# and the command becomes a step of the program.
 
 # %%
 session = handeye.TrigSession("purbrick")
@@ -112,8 +112,8 @@ session.type("RUN\n* CLEAR\nRUN -1000")
 # ## Loops, too
 #
 # The paper's second example moves a stack of blocks onto a pallet. A guarded move feels for the top of the stack, a
-# position advances with each block, and two loops count rows and columns. With the arm without physics, twenty
-# blocks take no time.
+# position advances with each block, and two loops count rows and columns. This arm is simulated without physics, so
+# twenty blocks take no time.
 
 # %%
 palletiser = handeye.TrigSession()
