@@ -121,7 +121,7 @@ def test_riddle_of_the_listing_explains_itself(stop: str) -> None:
     problem = only(f"TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP {stop}\nCHANGE [0 0 -1] .6")
     assert problem.code == "stop-beyond-arm"
     assert problem.notes[0].startswith(
-        "in the print of 1973, the second stop of the pin insertion can be read as 60"
+        "in the listing printed in 1973, the second stop of the pin insertion can be read as 60"
     )
 
 

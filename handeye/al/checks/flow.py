@@ -164,7 +164,7 @@ class _Flow:
         code, message, note = (
             "endless-loop",
             "this loop has no exit",
-            "only an error for which the program does not test can end this loop",
+            "only an error for which the program has no test can end this loop",
         )
         if not any(self.graph.steps[n].operation.takes_time for n in loop):
             code, message = "idle-loop", "this loop has no exit, and nothing moves in it"
@@ -187,7 +187,7 @@ class _Flow:
                 yield number, self.problem("test-of-no-effect", number, message, help=help)
 
     def rounds(self) -> Iterator[Finding]:
-        """Report the searches and counts that repeat the same round for ever."""
+        """Report the searches and counts that repeat the same round forever."""
         reported: dict[int, Span] = {}
         for jump, cause in stale_rounds(self.graph):
             word = self.word(jump).text
@@ -212,7 +212,7 @@ class _Flow:
             yield jump, self.problem(code, jump, message, there, help=help)
 
     def vain(self) -> Iterator[Finding]:
-        """Report the steps that can never have their effect, and the steps that always raise an error."""
+        """Report the stops and checks whose outcome is always the same."""
         for found in always_failing(self.graph):
             cause = () if found.cause is None else (Label(span=self.span(found.cause), text="the cause"),)
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
@@ -298,8 +298,8 @@ Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """Yield each jump back that repeats the same round of a search or count for ever, with the step that restarts the
-    search or count. The step is None if no MOVE in the round goes to the next place of the search.
+    """Yield the jumps that repeat the same round of a search or count, each with the step that restarts it. The
+    step is None if nothing advances the round.
     """
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))
@@ -319,8 +319,8 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """Yield the jump back if every round restarts the search or count. If another path leads to the end of the
-    program, or to the jump without a restart, yield nothing.
+    """Yield the jump back if it restarts the search or count in every round. If another path leads to the end,
+    yield nothing.
     """
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
         return
