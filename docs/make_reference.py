@@ -142,7 +142,8 @@ def happenings() -> Iterator[str]:
     yield from ("### Events", "", *told(PACKAGE["program.events.Event"]))
     yield from paragraph(
         "The seconds since a run began are `event.time - run.events[0].time`. A guard trips at the end of the servo "
-        "period in which it was met, so its `value` lies over its `limit`: N, N m, or the mask of the fingers."
+        "period in which its condition was met, so its `value` exceeds its `limit` (N or N m). A guard on touch is "
+        "different: its `value` is the mask of the closed finger switches, and its `limit` the mask of those selected."
     )
     yield from ("", "| `handeye.program.events` | fields | what happened |", "|---|---|---|")
     for event in get_args(events.CommonEvent):

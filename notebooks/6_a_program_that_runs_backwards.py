@@ -92,8 +92,8 @@ axes[2].set(xticks=[], yticks=[])
 told
 
 # %% [markdown]
-# No visible change remains. This world has no errors. In other worlds, blocks return to within a few tenths of a
-# millimetre of their places, as a referee measures ([TRIG](../docs/trig.md#jobs-in-seeded-worlds)).
+# No visible change remains. This world has no errors. In other worlds, a referee measures how far each block is from
+# its place after the undo: a few tenths of a millimetre ([TRIG](../docs/trig.md#jobs-in-seeded-worlds)).
 #
 # ## What cannot be undone
 #

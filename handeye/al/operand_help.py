@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from handeye.al.definition import MAX_NUMBER, Instruction, Operand, Refers
+from handeye.al.definition import DECLARATION, MAX_NUMBER, MODIFIER, MOTION, Instruction, Operand, Refers
 from handeye.al.syntax import Name, Number, Text, Vector
 
 _CALLED: Final = {
@@ -34,7 +34,8 @@ def origin(definition: Instruction, operand: Operand) -> str:
 
 def part(definition: Instruction) -> str:
     """Describe the role of an instruction, with its origin."""
-    role = definition.role.value
+    named = definition.role in (MOTION, MODIFIER, DECLARATION)
+    role = definition.role.value if named else "instruction"
     said = f"handeye adds this {role}." if definition.ours else f"Documents of the 1970s contain this {role}."
     modified = ", ".join(f"`{word}`" for word in definition.fits)
     return f"{said} It modifies {modified}." if modified else said

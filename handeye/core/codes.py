@@ -188,7 +188,7 @@ CODES: Final[dict[str, Code]] = {
         "a motion moves away from the surface that its STOP should meet", "STOP [0 0 -50]\nCHANGE Z 1"
     ),
     "stop-beyond-arm": _planning(
-        "a STOP has a threshold above the force or moment that the arm can exert",
+        "the force or moment of a STOP is greater than the arm can exert",
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
         "warning",
     ),
