@@ -133,8 +133,8 @@ print(f"{scan.beams} beams, {scan.points} of {close.size} points")
 #
 # The base has two large holes. The line through their centres gives the place and the rotation of the base; the
 # different sizes of the holes show which is which. The program then looks for the screw holes at the places that
-# this pose predicts, and accepts the pose only if they are there. The next cell prints the result of this run, and
-# the truth in the world of its seed:
+# this pose predicts, and accepts the pose only if they are there. The next cell prints the pose that the program found
+# in this run, and the true pose in the world of this run:
 
 # %%
 events = trace.table("events")
