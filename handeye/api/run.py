@@ -89,7 +89,7 @@ class Run:
     # -- running --------------------------------------------------------------------------------------
 
     def step(self, n: int = 1) -> State:
-        """Execute the next `n` steps, or fewer if a breakpoint, a call of the operator or the end stops the run.
+        """Execute the next `n` steps, or fewer if a breakpoint, a call to the operator or the end stops the run.
 
         Raises:
             InvalidInput: the run cannot continue, or `n` is not a whole number of 1 or more.
@@ -97,7 +97,7 @@ class Run:
         return self._go(steps=given_count(n, "steps"))
 
     def until(self, place: Place | None = None) -> State:
-        """Run to a place, or to the end if no place is given. A breakpoint or a call of the operator pauses the run
+        """Run to a place, or to the end if no place is given. A breakpoint or a call to the operator pauses the run
         earlier.
 
         Args:

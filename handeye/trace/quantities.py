@@ -227,7 +227,7 @@ _EVENTS: Final[Mapping[str, str]] = {
     "GuardTripped": "stop",
     "HandTold": "place of the hand",
     "OperatorAnswered": "operator's answer",
-    "OperatorCalled": "call of the operator",
+    "OperatorCalled": "call to the operator",
     "PartInspected": "part inspected",
     "PartMatched": "part matched",
     "PartSeen": "part seen",

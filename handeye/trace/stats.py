@@ -58,7 +58,7 @@ class Statistics(msgspec.Struct, kw_only=True):
 
     stages: list[StageFigures]
     total: Figures
-    operator: int  # calls of the operator
+    operator: int  # calls to the operator
     experiments: int
     messages: dict[str, int]  # on each channel of the trace
 

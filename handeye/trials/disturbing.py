@@ -36,7 +36,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
     stopped: bool = False  # A guard stopped it, and the brakes are on
     at: str = ""  # The statement that was being undone
     line: str = ""
-    message: str = ""  # The call of the operator, or the referee’s complaint
+    message: str = ""  # The call to the operator, or the referee’s complaint
     moved: float = 0.0  # Greatest movement, in one step, of a part that was not held, mm
     part: str = ""
     felt: float = 0.0  # Greatest force that the hand felt, N

@@ -70,7 +70,7 @@ class Head(Record, frozen=True, kw_only=True):
     program: str = ""
     camera: str = ""
     without: tuple[str, ...] = ()
-    on_stop: str = "abort"  # How calls of the operator are answered
+    on_stop: str = "abort"  # How calls to the operator are answered
     simulated_limit_s: float | None = None
     settings: dict[str, str] = msgspec.field(default_factory=dict)
     """Further settings that determine the trials, by their display names."""

@@ -77,7 +77,7 @@ def say(stepper: Stepper) -> Say:
 
 @pytest.fixture(scope="module")
 def whole(built: Runner) -> bytes:
-    """What happens up to the call of the operator when nobody interferes."""
+    """What happens up to the call to the operator when nobody interferes."""
     return history(through(reset(built)).events)
 
 

@@ -1,4 +1,4 @@
-"""Counts, searches, circles and calls of the operator, as the executor carries them out."""
+"""Counts, searches, circles and calls to the operator, as the executor carries them out."""
 
 import numpy as np
 import pytest

@@ -33,7 +33,7 @@ def values(runner: Runner) -> dict[str, int]:
 
 
 def answered(runner: Runner) -> Runner:
-    """The run, gone on with after its call of the operator, to its end."""
+    """The run, gone on with after its call to the operator, to its end."""
     advance(runner)
     runner.answer("proceed")
     advance(runner)

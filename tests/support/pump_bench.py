@@ -162,7 +162,7 @@ class Bench:
 
     @property
     def called(self) -> OperatorCalled:
-        """The call of the operator."""
+        """The call to the operator."""
         assert self.executor.state.stopped is not None, self.events[-5:]
         return self.executor.state.stopped
 

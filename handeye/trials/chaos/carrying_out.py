@@ -1,5 +1,5 @@
 """Executes a schedule: interrupts the run where the schedule says so, resumes it from disk, and answers its
-calls of the operator.
+calls to the operator.
 """
 
 import subprocess

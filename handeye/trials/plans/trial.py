@@ -42,7 +42,7 @@ class Trial:
     camera: str = "auto"
     without: tuple[str, ...] = ()
     on_stop: str = "abort"
-    """The rule that answers calls of the operator, in the words that `parse_policy` reads; it must not ask a
+    """The rule that answers calls to the operator, in the words that `parse_policy` reads; it must not ask a
     person.
     """
     simulated_limit_s: float = SIMULATED_LIMIT_S
@@ -138,7 +138,7 @@ class Watch:
 
 
 def answered(rows: Sequence[Row]) -> int:
-    """Return the number of trials in which calls of the operator were answered, however the trials ended."""
+    """Return the number of trials in which calls to the operator were answered, however the trials ended."""
     return sum(row.result is not None and bool(row.result.interventions) for row in rows)
 
 
