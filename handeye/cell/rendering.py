@@ -1,8 +1,8 @@
 """Two methods to compute the light on the camera's target: OpenGL off-screen, and ray casting.
 
 Within the resolution of a vidicon the two methods give the same picture: diffuse surfaces without texture or gloss,
-lights with shadows, an ambient level, and four samples per picture point with an edge. For one state of the scene, each method
-always gives the same values. Neither changes the state.
+lights with shadows, an ambient level, and four samples per picture point with an edge. For one state of the scene,
+each method always gives the same values. Neither changes the state.
 """
 
 from abc import ABC, abstractmethod

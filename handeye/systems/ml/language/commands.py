@@ -157,7 +157,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "edit": (
         ("ERASE", "n1 [n2]", "Erase statement n1, or all statements from n1 to n2.", "ERASE 500 550"),
         ("FILE", "t line word x ...", "Write consecutive words of a table.", "FILE MT 2 8 10"),
-        ("LIST", "[n1 [n2]]", "List the stored program, statement n1, or all statements from n1 to n2.", "LIST 100 200"),
+        ("LIST", "[n1 [n2]]", "List the program, statement n1, or all statements from n1 to n2.", "LIST 100 200"),
         ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the latest first.", "QPOINT"),
         ("QUERY", "t [line [word]]", "Show a table, a line of it, or a word.", "QUERY ST 5"),
     ),
