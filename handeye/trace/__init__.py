@@ -1,1 +1,3 @@
-"""Writes, reads and analyses traces. A trace is one MCAP file per run, which other robotics tools can open."""
+"""Writes, reads and analyses traces. A trace is the recording of one run: an MCAP file, which other robotics tools
+can open.
+"""

@@ -12,13 +12,14 @@ from handeye.program import events as happened
 from handeye.program.events import AnyEvent, SystemEvent
 from handeye.trace.sentences import inches, measures_of, sentence
 
-ASTRAY: Final = 0.02 * INCH  # farther than that from its goal, the end of a motion is worth a word
+ASTRAY: Final = 0.02 * INCH  # a motion that ends farther than this from its goal is reported
 _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """Return the account of a run as lines of text: its stages; the time, line, text and outcome of each step;
-    and how the run ended."""
+    """Return the account of a run as lines of text. It lists the stages, gives the time, line, text and outcome of
+    each step, and says how the run ended.
+    """
     teller = _Teller()
     for event in events:
         teller.tell(event)

@@ -23,11 +23,11 @@ from handeye.program.events import CommonEvent
 from handeye.trace.hand_message import channels_schema, hand_schema
 
 FORMAT: Final = "handeye trace"
-VERSION: Final = 4  # version of the format; a reader reads its own
+VERSION: Final = 4  # version of the format; a reader reads only this one
 METADATA: Final = "handeye"  # metadata record on what the file is and what the run depended on
 THINNED: Final = "thinned"  # its key in files that hold only some servo periods
 PLAN: Final = "plan.json"  # name of the attachment with the plan
-PACKED_PLAN: Final = "plan.json.zst"  # in a thinned trace, where it would be a quarter of the file
+PACKED_PLAN: Final = "plan.json.zst"  # in a thinned trace: compressed, or it would be a quarter of the file
 
 JOINTS: Final = "/joint_states"
 FRAMES: Final = "/tf"

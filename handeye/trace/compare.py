@@ -15,8 +15,9 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Repetition:
-    """The differences between two traces, in a sentence each. If both are None, the traces are identical, byte
-    for byte."""
+    """The first differences between two traces, each described in a sentence. If both are None, the traces are
+    identical, byte for byte.
+    """
 
     parts: str | None = None  # the first difference that is more than rounding
     rounded: str | None = None  # the first difference that is only in the last digits of numbers
@@ -50,8 +51,9 @@ def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) 
 
 
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
-    """Return the first difference of two traces as a sentence, even if it is only in the last digits. Returns
-    None if there is none. Arguments are those of `compared`."""
+    """Return a sentence on the first difference between two traces, even if only the last digits of a number
+    differ. Returns None if there is no difference. The arguments are those of `compared`.
+    """
     found = compared(a, b, events=events, unseen=unseen)
     return found.rounded or found.parts
 

@@ -24,8 +24,9 @@ def looks(truth: Truth, body: int) -> list[int]:
 
 
 def scene(truth: Truth, time: int) -> bytes:
-    """Encode all visible bodies at the start of a run, each with its shapes in the body's frame; `time` is in
-    ns."""
+    """Encode all visible bodies at the start of a run. The shapes of each body are given in the body's frame;
+    `time` is in ns.
+    """
     entities = []
     for body in range(truth.model.nbody):
         name = truth.model.body(body).name if body else WORLD
@@ -37,7 +38,7 @@ def scene(truth: Truth, time: int) -> bytes:
 
 
 def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
-    """Add a shape to its body's entity. The lamp, the only ball, is left out."""
+    """Add a shape to its body's entity. The lamp is left out; it is the only ball."""
     model = truth.model
     material = model.geom_matid[shape]
     r, g, b, a = _short(truth.drawn.mat_rgba[material] if material >= 0 else model.geom_rgba[shape])
@@ -77,8 +78,7 @@ Mask = NDArray[np.bool_]
 
 
 class Frames:
-    """The poses of a cell's bodies. They are those that the simulator computed last, one physics step before
-    the tick."""
+    """The poses of a cell's bodies, as the simulator computed them last: one physics step before the tick."""
 
     def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
         """Observe a cell. `joints` are the names of the arm's joints, in order."""

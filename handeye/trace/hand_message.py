@@ -46,7 +46,7 @@ class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):
     moment: Axes | UnsetType = UNSET  # moment of the hand on the world about its tool centre point, N m
     gap: float  # opening of the fingers, m
     finger_1: bool  # the switch in the finger on the +y side of the hand frame
-    finger_2: bool  # the switch in the other
+    finger_2: bool  # the switch in the other finger
     driver_torque: float  # torque of the screwdriver's motor, computed from its current, N m
     guards: tuple[GuardMessage, ...] = ()
 

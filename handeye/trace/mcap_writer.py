@@ -28,12 +28,12 @@ from handeye.trace.channels import (
 )
 
 CHUNK: Final = 1 << 20  # bytes of messages after which a chunk is closed
-_HARDEST: Final = 19  # level at which a plan is packed: a tenth of its size, in some tenths of a second
+_HARDEST: Final = 19  # compression level of a plan: takes a few tenths of a second, and leaves a tenth of the size
 
 
 @dataclass(slots=True)
 class _Sink:
-    """Output of the MCAP writer. It writes every byte at once, without a buffer, or raises OSError."""
+    """Output of the MCAP writer. It writes every byte immediately, without a buffer, or raises OSError."""
 
     handle: int
     count: int = 0
@@ -99,8 +99,9 @@ class GrowingFile:
                 self._writer.register_channel(channel.topic, channel.encoding, schema)
 
     def write(self, topic: str, time: int, data: bytes, *, boundary: bool = False) -> None:
-        """Write a message; `time` is in ns. A `boundary` ends the chunk. After a failed write, nothing is
-        written."""
+        """Write a message; `time` is in ns. A `boundary` ends the chunk. After a failed write, nothing more is
+        written.
+        """
         if self.broken:
             return
         with self._complaining():
@@ -145,8 +146,8 @@ class GrowingFile:
 
     @contextmanager
     def _complaining(self) -> Iterator[None]:
-        """Within this context, turn an error of the operating system into a CannotWrite. Nothing more is
-        written afterwards.
+        """Within this context, turn an error of the operating system into a CannotWrite. After such an error,
+        nothing more is written.
         """
         try:
             yield

@@ -93,7 +93,8 @@ def picture(time: int, levels: Picture) -> bytes:
 
 def log(time: int, level: Log.Level.ValueType, sentence: str, *, name: str, file: str, line: int) -> bytes:
     """Encode a sentence as a log message. `name` is the name of the program; `file` and `line` are the place in
-    the script (line 0 if there is none)."""
+    the script (line 0 if the sentence belongs to no line).
+    """
     message = Log(timestamp=stamp(time), level=level, message=sentence, name=name, file=file, line=line)
     return message.SerializeToString()
 
@@ -163,8 +164,8 @@ def _disc(mark: Disc, taken: int) -> CircleAnnotation:
 
 
 def _point(point: Point) -> Point2:
-    """Convert a point of a picture to the message's coordinates, whose origin is the corner of the first pixel.
-    Ours is the centre of the first pixel.
+    """Convert a point of a picture to the message's coordinates. Their origin is the corner of the first pixel;
+    the origin of our points is its centre.
     """
     u, v = point
     return Point2(x=u + 0.5, y=v + 0.5)

@@ -154,7 +154,7 @@ KINDS: Final = {
     ".png": Kind("PNG picture", rb"\x89PNG", ending=".png"),
     ".svg": Kind("SVG drawing", rb"<\?xml|<svg ", ending=".svg"),
     ".pdf": Kind("PDF drawing", rb"%PDF", ending=".pdf"),
-}  # kinds of files that a plot can be written to, by the ends of their names
+}  # kinds of files that a plot can be written to, by file extension
 _UNDATED: Final[dict[str, dict[str, Any]]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None},

@@ -261,8 +261,9 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
 
 
 def values_text(found: QuantityDifference, measures: Measures = INCHES) -> tuple[str, str]:
-    """Return both values as text with enough decimals to distinguish them. Units are those of 1973, or those of
-    `measures`."""
+    """Return both values as text, with enough decimals to distinguish them, in the units of `measures`; by
+    default, in those of 1973.
+    """
     numbers = [value for value in (found.a, found.b) if _is_number(value)]
     told = iter(_numbers(numbers, found.unit, measures))
     one, other = (

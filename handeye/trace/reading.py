@@ -81,7 +81,7 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
         raise BadFile(f"{path} is not a trace: it is not an MCAP file")
     start = front(data)
     if start.metadata.get("format") != FORMAT:
-        raise BadFile(f"{path} is not a trace of this program: it lacks “{FORMAT}”")
+        raise BadFile(f"{path} is not a trace of handeye: its metadata do not say “{FORMAT}”")
     version = start.metadata.get("version", "")
     if not re.fullmatch(r"[1-9][0-9]{0,8}", version):
         raise BadFile(f"{path} does not state its version of the trace format")

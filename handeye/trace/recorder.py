@@ -35,9 +35,9 @@ def part(path: Path) -> Path:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSource:
-    """Provides the pictures of a program and the marks on them, when an event concerns a picture."""
+    """Provides a program's picture, and the marks on it, when an event concerns a picture."""
 
-    picture: Callable[[str], Picture]  # the picture of a name, as it was taken last
+    picture: Callable[[str], Picture]  # the latest picture with this name
     found: Callable[[], tuple[str, Sequence[Mark]]]  # picture and marks that the present step found
 
 
@@ -60,14 +60,14 @@ class Recorder:
     ) -> None:
         """Begin a trace. An unfinished trace of another run at this path is replaced.
 
-        `plan` is the content of `plan.json`. `old` is the content of a trace to resume, complete or not, which
-        begins with the events `prefix`.
+        `plan` is the content of `plan.json`. To resume a trace, `old` is its content, which may be incomplete, and
+        `prefix` are the events with which it begins.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
         head = next((event for event in prefix if isinstance(event, RunStarted)), None)
         kept = known(old, prefix)
-        self.lost = len(prefix) - kept  # events that the old trace did not hold, and what was sensed between
+        self.lost = len(prefix) - kept  # events that the old trace lacked; the messages between them are lost
         self._writing = self._copied(old, kept, head)
         for event in prefix[self._writing.events :]:
             self._writing.event(event)

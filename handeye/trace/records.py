@@ -98,8 +98,9 @@ def front(data: bytes) -> Front:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """Decompress bytes. Raises DamagedTrace if they are damaged, or if the result would be too large for the
-    memory."""
+    """Decompress bytes. Raises DamagedTrace if the bytes are damaged, or if the result would be larger than
+    `LARGEST`.
+    """
     try:
         if not 0 <= frame_content_size(data) <= LARGEST:
             raise DamagedTrace("is damaged")
@@ -130,7 +131,7 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
 
 
 def _modest(chunk: Chunk) -> Chunk:
-    """Raise DamagedTrace if a decompressed chunk would be too large for the memory; return the chunk if not."""
+    """Return a chunk unchanged. Raises DamagedTrace if it would be larger than `LARGEST` when decompressed."""
     packed = chunk.compression == "zstd"
     size = max(chunk.uncompressed_size, frame_content_size(chunk.data) if packed else len(chunk.data))
     if size > LARGEST or not (packed or chunk.compression == ""):

@@ -133,7 +133,9 @@ class _StageSpan:
 
 
 class Replay:
-    """A run prepared for access at any time. It has at least one servo period."""
+    """A recorded run, prepared so that its state at any time can be looked up. The run has at least one servo
+    period.
+    """
 
     def __init__(
         self,

@@ -196,7 +196,8 @@ def _rubbing(event: happened.FrictionMeasured) -> str:
 def _faint(event: happened.GuardFaint) -> str:
     si, unit = (OUNCE_INCH, "ounce-inches") if event.guard is GuardKind.MOMENT else (OUNCE_FORCE, "ounces")
     limit, felt = f"{event.limit / si:.1f}", f"{event.friction / si:.1f}"
-    return f"a stop on {limit} {unit} is hard to distinguish from joint friction: {felt} can be felt in free air here"
+    hard = f"a stop on {limit} {unit} is hard to distinguish from joint friction"
+    return f"{hard}: up to {felt} {unit} can be felt here in free air"
 
 
 def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:

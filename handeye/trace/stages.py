@@ -43,7 +43,7 @@ class DoneStep:
     """A step, as it was executed."""
 
     started: StepStarted
-    events: list[AnyEvent] = field(default_factory=list)  # its end among them, if it ended
+    events: list[AnyEvent] = field(default_factory=list)  # including the step's end, if it ended
 
     @property
     def finished(self) -> bool:
@@ -102,8 +102,9 @@ def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 
 
 def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
-    """Return the stages in the order in which the arm went through them, forwards or, while undoing its work,
-    backwards."""
+    """Return the stages in the order in which the arm went through them: forwards, or backwards while it undid its
+    work.
+    """
     walk, time = _Walk(), 0.0
     for event in events:
         time = event.time

@@ -20,7 +20,7 @@ class Figures(msgspec.Struct, kw_only=True):
     """Statistics of a part of a run."""
 
     seconds: float = 0.0  # simulated, s
-    camera_s: float = 0.0  # share of these that the camera's mechanism took, s
+    camera_s: float = 0.0  # of these, s that the camera's mechanism took
     steps: int = 0
     motions: int = 0  # steps that moved the arm
     guards: int = 0  # motions that a force or torque ended

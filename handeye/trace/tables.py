@@ -22,7 +22,7 @@ from handeye.trace.stages import CLOCKS
 from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
 
-NO_STEP: Final = -1  # instead of the number of a step, and of its line, where none was under way
+NO_STEP: Final = -1  # number, of a step and of its line, if no step was in progress
 
 
 def table(trace: Trace, name: str) -> Table:
@@ -95,11 +95,11 @@ def _forces(trace: Trace) -> Table:
             about="value that the guard measures, in N or N m, or the finger switches",
             values=forces.value[rows],
         ),
-        Column(name="limit", about="its limit", values=forces.limit[rows]),
+        Column(name="limit", about="limit of the guard", values=forces.limit[rows]),
     ]
     task = known_any(trace.head.task)
     axes = AnyTask.force_axes if task is None else task.force_axes
-    about = f"What the hand felt, in the servo periods with an estimate or an active guard; {axes}."
+    about = f"What the hand felt, in the servo periods in which force was estimated or a guard was active; {axes}."
     return Table(name="forces", about=about, columns=(*_under_way(trace, forces.times[rows]), *columns))
 
 
@@ -121,7 +121,7 @@ def _events(trace: Trace) -> Table:
     columns = (
         _since(trace, times),
         *_places(_happening(events)),
-        Column(name="event", about="its kind", values=tuple(type(event).__name__ for event in events)),
+        Column(name="event", about="kind of event", values=tuple(type(event).__name__ for event in events)),
         Column(
             name="said", about="the event in a sentence", values=tuple(sentence(e, measures) for e in events)
         ),
@@ -171,7 +171,7 @@ def _under_way(trace: Trace, times: Array) -> tuple[Column, ...]:
 
 
 def _since(trace: Trace, times: Array) -> Column:
-    return Column(name="time", about="since the program began", unit="s", values=times)
+    return Column(name="time", about="time since the program began", unit="s", values=times)
 
 
 def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:

@@ -1,5 +1,6 @@
-"""Thins traces: keeps only the servo periods that are needed to show the run. All other periods can be
-interpolated linearly."""
+"""Thins traces: keeps only the servo periods that are needed to show the run. The others can be interpolated
+linearly from them.
+"""
 
 from collections.abc import Iterator
 from math import radians

@@ -32,8 +32,8 @@ from handeye.trace.records import RawMessage, event_data
 from handeye.trace.sentences import level_of, measures_of, sentence
 from handeye.vision.marks import Mark
 
-MOVED: Final = 1e-6  # change of a pose (m, or of a component of its quaternion) that is worth writing down
-PUT_AWAY: Final = -1.0  # m below which parts lie that have become something else; the floor is higher
+MOVED: Final = 1e-6  # least change of a pose that is written: m, or of a quaternion component
+PUT_AWAY: Final = -1.0  # height (m), below the floor: parts that something else represents now lie lower
 
 BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may be resumed
 
@@ -103,8 +103,8 @@ class TraceWriter:
             self.file.write(MACHINES, time, channels_message(period.sensed))
 
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
-        """Write the poses of the frames that moved or appeared since they were last written, or with `anew`, of
-        all frames.
+        """Write the poses of the frames that have moved since they were last written or have never been written;
+        with `anew`, those of all frames.
 
         Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
         has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.

@@ -34,7 +34,7 @@ _BLOCK: Final = 8  # side of an ignored block, points
 
 
 def webp(frames: Frames, held: int) -> bytes:
-    """Encode a looping animated WebP file. The last frame is held for `held` frame periods."""
+    """Encode an animated WebP file that loops. The last frame is held for `held` frame periods."""
     animation = cv2.Animation()
     animation.frames = [bgr(frame) for frame in settled(frames)]
     ends = np.arange(1, len(animation.frames) + 1)

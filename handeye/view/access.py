@@ -47,7 +47,8 @@ class Access:
         path, _, query = target.partition("?")
         own = [f"{name}:{self.port}" for name in _NAMES]
         if [*hosts] not in ([host] for host in own):
-            return Refusal(HTTPStatus.FORBIDDEN, "this server has a different name")
+            wrong = "this server does not answer to that host name; open the address that handeye printed"
+            return Refusal(HTTPStatus.FORBIDDEN, wrong)
         if [*origins] not in ([f"http://{host}"] for host in own) and (origins or path == LIVE):
             return Refusal(HTTPStatus.FORBIDDEN, "this server refuses requests from other web pages")
         if not self._has_token(query):

@@ -29,15 +29,15 @@ NEWS = PictureTaken | happened.PartSeen | happened.PartInspected | happened.Part
 
 @dataclass(frozen=True, eq=False)
 class Television:
-    """The picture on the television, with what vision found in it. It is a copy, which the run does not change."""
+    """A copy of the picture on the television, with what vision found in it. The run does not change the copy."""
 
     picture: SeenPicture | None = None
     """The last picture that the program took or examined, with its time; None if it has taken none."""
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
-        """Time and name of the picture and what vision found in it, by which two pictures are compared. None if
-        there is no picture.
+        """The time and the name of the picture, and what vision found in it. Two pictures with the same values
+        count as the same. None if there is no picture.
         """
         return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
 
@@ -111,7 +111,7 @@ class Moment:
 
 
 class Newest(Observer):
-    """Keeps the newest state and picture of a run for display. Other threads may read them."""
+    """Keeps the newest state and the newest picture of a run for display. Other threads may read both."""
 
     def __init__(self, runner: Runner) -> None:
         self.follow(runner)

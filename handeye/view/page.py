@@ -37,7 +37,9 @@ class Face:
 
 
 def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
-    """Return the page of a live cell, as one file that loads no other files. Without a cell, it shows no view."""
+    """Return the page of a live cell, as one file that loads no other files. If there is no cell, the page has no
+    view.
+    """
     model = (
         None if runner.system.cell is None else runner.task.shown(runner.setup.world, written(runner.setup))
     )

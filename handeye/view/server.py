@@ -1,4 +1,4 @@
-"""The server: a thread beside the run that delivers the page and sends messages to its viewers.
+"""The server: a thread, parallel to the run, that delivers the page and sends messages to the viewers.
 
 It sends the newest state of the run `MOMENTS_PER_S` times per second and drops all others. A viewer that falls
 too far behind is disconnected, so that no viewer can slow the run down.
@@ -64,8 +64,9 @@ class Server:
     """
 
     def __init__(self, link: Link, port: int = 0) -> None:
-        """Take a port, or any free port if `port` is 0. Raises InvalidInput if the port is in use or
-        unavailable."""
+        """Take the port with this number, or any free port if `port` is 0. Raises InvalidInput if the port is in
+        use or unavailable.
+        """
         self.link = link
         self._socket = _taken(port)
         self.access = Access(self._socket.getsockname()[1])
@@ -224,7 +225,7 @@ class Server:
                 if self._driver is not viewer:
                     return "another viewer has control: take control first"
                 if not self.link.say(line):
-                    return "too many lines at once"
+                    return "too many lines are waiting: send this line again later"
         return None
 
 

@@ -1,5 +1,6 @@
-"""Teaches positions in the browser: a page with buttons that move the arm, and the loop that executes the lines
-that they send."""
+"""Teaches positions in the browser: a page with buttons that send lines to move the arm, and the loop that
+executes these lines.
+"""
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager

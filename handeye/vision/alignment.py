@@ -1,4 +1,4 @@
-"""Aligns two pictures with the same view, and finds a lamp that is lit in only one of them.
+"""Aligns two pictures that have the same view, and finds a lamp that is lit in only one of them.
 
 A vidicon displaces each picture slightly. If two pictures are not aligned, their difference shows a trace of every
 edge, as in the picture differences of the paper. Alignment is our addition.
@@ -14,7 +14,7 @@ from handeye.core.pose import Array
 from handeye.ports.camera import Picture
 
 MAX_SHIFT: Final = 4  # points, along lines and across
-CHANGED: Final = 3.0  # difference in levels above which two points count as changed, and no more
+CHANGED: Final = 3.0  # levels: a greater difference of two points is a change, and counts no more than this
 AREA: Final = 11  # side of a square, points
 QUIET: Final = 1.2  # mean difference in it, levels, up to which nothing has changed
 CLEAR: Final = 15  # side of a square, points, clear of changes and of soft shadow edges
@@ -34,12 +34,12 @@ def aligned(picture: Picture, to: Picture) -> Levels:
 
 
 def shift(first: Picture, second: Picture, where: Points | None = None) -> Array:
-    """Measure the shift (columns, rows), shape (2,), of the second of two pictures relative to the first. Both
-    pictures have the same view.
+    """Measure how far the second of two pictures with the same view is shifted relative to the first: (columns,
+    rows), shape (2,).
 
-    First the shift in whole points is found at which most points agree. Then its fraction is computed from the
-    slopes at the points that agree. Only points of the first picture in the mask `where` count; by default all
-    points.
+    The function first finds the shift, in whole points, at which most points agree. It then computes the remaining
+    fraction of a point from the slopes where the pictures agree. Only those points of the first picture count that
+    are in the mask `where`; by default, all count.
     """
     a, b = smooth(first), smooth(second)
     counts = np.ones(first.shape, dtype=np.bool_) if where is None else where

@@ -79,7 +79,9 @@ def _rotated(outline: Rectangle, yaws: Array) -> Array:
 
 
 def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turns: Array) -> Array:
-    """Return the picture points of the bottom and top corners of the outline for each turn, shape (n, 8, 2)."""
+    """Return, for each turn, the picture points of the corners of the outline at the bottom and at the top of the
+    part, shape (n, 8, 2).
+    """
     assert part.outline is not None
     corners = _rotated(part.outline, part.at[3] + turns) + np.asarray(place)
     solid = np.empty((len(corners), 2, 4, 3))
@@ -107,8 +109,8 @@ class Failure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Rough position of a part, within an inch or two: its reference point (m in W). The x and y are measured in
-    the picture, and the rest is as planned.
+    """Rough position of a part, to within an inch or two: its reference point (m in W). Only x and y are measured
+    in the picture; the rest is as planned.
     """
 
     box: BoundingBox  # around it in the picture

@@ -1,7 +1,6 @@
-"""Beams: each finds the first discontinuity of intensity (edge) along a ray. All other primitives are built from
-beams and walks.
-
-A beam ends at its edge and reads no points beyond it.
+"""Beams. A beam finds the first discontinuity of intensity, an edge, along a ray. All other primitives are built
+from beams, and from walks, which are beams along one line or column of the picture. A beam ends at its edge and
+reads no points beyond it.
 """
 
 from typing import Final, Literal, NamedTuple

@@ -33,7 +33,7 @@ class BoundingBox(NamedTuple):
         return self.bottom - self.top + 1
 
     def with_piece(self, other: "BoundingBox") -> "BoundingBox | None":
-        """Return the box around this box and another, or None unless the two can be pieces of one blob.
+        """Return the box around this box and another. Returns None if the two cannot be pieces of one blob.
 
         A face in the shade may divide a lit blob into pieces. The pieces are then beside each other, separated by
         no more than the length of the smaller piece, and the larger piece is most of the blob.
@@ -147,15 +147,13 @@ def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
 
 
 class _Side:
-    """One side of a growing box. The side works on the picture turned so that outwards is the direction of greater
-    line numbers.
-    """
+    """One side of a growing box. The side sees the picture turned, so that line numbers increase outwards."""
 
     def __init__(self, scan: Scan, side: int) -> None:
         """`side` is the index of the side among the four numbers of a box."""
         self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
         self._clear: tuple[int, int, int] | None = None
-        """Line, and range on it, beyond which only background was found."""
+        """A line and a range on it. Farther out than this range, only background was found."""
         self._image, self._read = self._turned(scan.image), self._turned(scan.read)
         across, along, offset = scan.sides.T
         self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
@@ -193,8 +191,8 @@ class _Side:
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """Return the sides of the window as this side sees them: increments per line outwards and per point along
-        the line, and offset.
+        """Return the sides of the window as this side of the box sees them: the increment per line outwards, the
+        increment per point along the line, and the offset.
         """
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:

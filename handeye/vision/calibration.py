@@ -2,8 +2,8 @@
 fitted to the spots in the pictures.
 
 The arm holds the lamp at known places, and the camera sees the lamp through both lenses. The fit uses these
-sightings and priors that correspond to the accuracy of a careful mechanic. It is limited by the error of the arm,
-about a tenth of an inch, which shows in the residual.
+sightings, and priors that correspond to the accuracy of a careful mechanic. The error of the arm, about a tenth of
+an inch, limits the accuracy of the fit, and shows in the residual.
 """
 
 from collections.abc import Sequence
@@ -37,7 +37,7 @@ class CalibrationLook:
 PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets
 TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll
 SCALE_PRIOR: Final = 0.01  # sigma, of the focal lengths
-SIGHT_ERROR: Final = 0.13 * INCH  # sigma: .1 in of the arm and .07 deg of the pots at 65 in
+SIGHT_ERROR: Final = 0.13 * INCH  # .1 in of the arm, and .07 deg of the potentiometers at 65 in
 """Standard deviation of a sighting, m. The three constants above are weak priors (vision study, section 3)."""
 MIN_SIGHTINGS: Final = 6
 """Least number of sightings for each lens. With fewer, the priors dominate; 12 to 20 are good."""
@@ -65,8 +65,8 @@ class Calibration:
 
 
 def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibration:
-    """Fit the camera model to the sightings, starting from the design. A lens without sightings keeps its design
-    values.
+    """Fit the camera model to the sightings, starting from the values of the design. A lens without sightings
+    keeps these values.
     """
     from scipy.optimize import least_squares
 

@@ -77,8 +77,8 @@ class CameraModel:
         return View(model=self, lens=self.lens(focal_length), pan=pan, tilt=tilt)
 
     def aim(self, point_W: Array | tuple[float, float, float], focal_length: float) -> tuple[float, float]:
-        """Return the potentiometer readings (pan, tilt), rad, that bring a point, shape (3,), m, to the centre of
-        the picture.
+        """Return the potentiometer readings (pan and tilt, in rad) that bring a point in W (in metres, shape (3,))
+        to the centre of the picture.
         """
         pan, tilt = 0.0, 0.0
         for _ in range(6):  # the offset of the lens from the axes makes the solution slightly implicit
@@ -118,15 +118,17 @@ class View:
         return pose(np.column_stack([right, down, forward]), centre)
 
     def project(self, points_W: Array) -> Array:
-        """Project points in W, shape (n, 3), m, to picture points (u, v), shape (n, 2). The points must be in front
-        of the camera.
+        """Project points in W (in metres, shape (n, 3)) to picture points (u, v), shape (n, 2). The points must be
+        in front of the camera.
         """
         X_WC, focal = self.X_WC, self.focal
         p = (np.atleast_2d(points_W) - X_WC[:3, 3]) @ X_WC[:3, :3]
         return np.asarray(p[:, :2] / p[:, 2:] * focal + CENTRE)
 
     def back_project(self, uv: Array, z: float) -> Array:
-        """Return the points in W, shape (n, 3), m, at height `z` (m) that appear at `uv`, shape (n, 2)."""
+        """Return the points in W (in metres, shape (n, 3)) that are at the height `z` (m) and appear at the
+        picture points `uv`, shape (n, 2).
+        """
         X_WC = self.X_WC
         rays = self.rays(uv)
         return np.asarray(X_WC[:3, 3] + rays * ((z - X_WC[2, 3]) / rays[:, 2:]))
@@ -141,8 +143,8 @@ class View:
         return np.asarray(in_camera @ self.X_WC[:3, :3].T)
 
     def resolution(self, point_W: Array) -> tuple[float, float]:
-        """Return the picture points per metre of a horizontal plane through `point_W`, along the picture lines and
-        across them.
+        """Return the number of picture points per metre of a horizontal plane through `point_W`: along the picture
+        lines, and across them.
         """
         uv = self.project(point_W) + np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
         around = self.back_project(uv, float(np.ravel(point_W)[2]))

@@ -69,7 +69,7 @@ def _first(line: list[float], polarity: Polarity, step: float, beyond: float) ->
 
 
 def _rise(line: list[float], i: int) -> float:
-    """Return the sum of SPAN points from index `i` on minus the sum of the SPAN points before them."""
+    """Return the sum of the SPAN points that begin at index `i`, minus the sum of the SPAN points before them."""
     return sum(line[i + SPAN : i + 2 * SPAN]) - sum(line[i : i + SPAN])
 
 
@@ -148,8 +148,8 @@ def _chord(
 def rim(
     scan: Scan, centre: tuple[float, float], step: float, reach: float, *, rays: int = RAYS, beyond: float = 0.0
 ) -> Array:  # fmt: skip
-    """Find border points (u, v) around a centre with wide beams. Returns shape (`rays`, 2), in order of angle, with
-    NaN for a beam that finds no edge.
+    """Find border points (u, v) around a centre, using wide beams. Returns shape (`rays`, 2), in order of angle,
+    with NaN for a beam that finds no edge.
     """
     borders = rims(
         scan, np.array([centre]), step, np.array([reach]), rays=rays, inner=np.zeros(1), wide=True, beyond=beyond
@@ -191,11 +191,10 @@ def _spokes(rays: int) -> Array:
 
 
 def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[float, float] | None:
-    """Fit a circle of known diameter (m) at height `z` (m) to its border points, shape (n, 2). Returns its centre
-    (x, y), m, or None if too few points remain.
+    """Fit a circle of known diameter (m) at height `z` (m) to its border points, shape (n, 2).
 
-    Points that are NaN or that disagree with the others (shadows, noise) are dropped. At least half of the points
-    must remain.
+    Points are dropped that are NaN, or that disagree with the others because of shadows or noise. Returns the
+    centre (x and y, in metres), or None if fewer than `RAYS` / 2 points remain.
     """
     met = points[~np.isnan(points[:, 0])]
     if len(met) < RAYS // 2:

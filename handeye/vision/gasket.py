@@ -39,11 +39,11 @@ RIM_SHIFT: Final = 0.10 * INCH
 """Greatest permitted error of the centre and of the rim, m. This value and the three values below are from the
 vision study, section 4.
 """
-BESIDE: Final = 0.3 * INCH  # from a hole's border to where the difference is measured, m
+BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the difference is measured
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""BEFORE_STEP and BRIGHT are fractions for the picture taken before: of the contrast, above which a step is a
-border, and of the intensity of the face, above which a point belongs to the face.
+"""Both constants apply to the picture taken before. There, a step of more than BEFORE_STEP of the contrast is a
+border, and a point brighter than BRIGHT of the face's intensity belongs to the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
@@ -75,8 +75,8 @@ class GasketInspection:
 
 
 def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
-    """Return |after - before| at every point of the first picture, with the unchanged parts of the two pictures
-    aligned.
+    """Return |after - before| at every point of the first picture, after aligning the unchanged parts of the two
+    pictures.
     """
     from handeye.vision.alignment import aligned  # takes OpenCV, without which plans are made
 
@@ -88,9 +88,9 @@ def inspect(
 ) -> GasketInspection:
     """Compare pictures of a part at `pose` (x, y in m, yaw in rad), taken before and after a gasket was laid on it.
 
-    Both pictures must be taken with the same aim, target voltage and arm position, because the shadow of the arm
-    disturbs most. The second picture is aligned with the first by the parts that have not changed. The part must
-    have two holes.
+    Both pictures must be taken with the same aim and target voltage, and with the arm at the same position,
+    because the shadow of the arm is the greatest disturbance. The second picture is aligned with the first by the
+    parts that have not changed. The part must have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("two holes are needed to inspect a gasket, but the program gives fewer")
@@ -125,8 +125,8 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
-    """Return the positions of the base's holes, shape (2, 3), m, corrected by the error of the largest hole in the
-    picture taken before.
+    """Return the positions of the base's holes (in metres, shape (2, 3)), corrected by the position error of the
+    largest hole in the picture taken before.
 
     The aim of the mount may differ from its potentiometers by more than the width of a hole's border, while the arm
     knows the position of the base more precisely. If the hole is not found, the positions are not corrected.
@@ -211,7 +211,7 @@ def _ring(view: View, place: Array, hole: Hole) -> Array:
 def _centre(
     scan: Scan, view: View, place: Array, hole: Hole, step: float, beyond: float = 0.0
 ) -> tuple[float, float] | None:
-    """Find the centre (x, y), m, of the hole expected at `place`, shape (3,), m.
+    """Find the centre (x and y, in metres) of the hole that is expected at `place` (in metres, shape (3,)).
 
     The characteriser finds the hole, as for the base, and a circle is fitted around the result. If an aligning pin
     blocks one of the characteriser's four beams, the circle is fitted around the expected place.
@@ -224,13 +224,15 @@ def _centre(
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
-    """Return a place as a picture point, and the greatest distance (points) of the border of its hole from there."""
+    """Return a place as a picture point, and the greatest distance (points) from there to the border of its hole.
+    """
     u, v = view.project(place)[0].tolist()
     return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """Measure the bulge (m) of the border in the difference, about the base's hole at `centre`, shape (3,), m.
+    """Measure the bulge (m) of the border in the difference, around the base's hole at `centre` (in metres, shape
+    (3,)).
 
     The bulge is measured from the median radius of the border, because half of the border of a union of two discs
     is nearly undisturbed. A ray counts only if the border of the base is visible on it in the picture taken before,

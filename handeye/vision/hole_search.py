@@ -62,8 +62,8 @@ def classify(found: list[Candidate], part: Part) -> Pair | None:
 
 
 def placed(centres: Array, part: Part) -> tuple[float, float, float]:
-    """Compute the pose (x, y, yaw) of the frame of the part, m and rad, from the centres of its two holes, shape
-    (2, 2), m.
+    """Compute the pose of the part's frame (x and y in metres, yaw in rad) from the centres of its two holes (in
+    metres, shape (2, 2)).
     """
     model = np.array([[hole.x, hole.y] for hole in part.holes[:2]])
     seen, drawn = centres[1] - centres[0], model[1] - model[0]
@@ -74,8 +74,8 @@ def placed(centres: Array, part: Part) -> tuple[float, float, float]:
 
 
 def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = False) -> Array:
-    """Return the centres of the large holes of a part at a pose, or if `screws` is True, of its screw holes, shape
-    (n, 3), m in W.
+    """Return the centres, in W (in metres, shape (n, 3)), of the large holes of a part at a pose, or of its screw
+    holes if `screws` is True.
     """
     x, y, yaw = pose
     c, s = math.cos(yaw), math.sin(yaw)
@@ -183,8 +183,8 @@ class HoleFinder:
         self._step, self._bright = levels.step(search), search.face * levels.face
 
     def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
-        """Find candidates near the expected place: the largest hole, for a reference point of the part at `place`
-        (x, y), m, and holes around it.
+        """Find candidates near the places that are expected if the part's reference point is at `place` (x and y,
+        in metres): first the largest hole, then holes around it.
 
         The second hole is found by beams from the first, at all angles by which the part may be turned. If `shaded`
         is True, a circle of the size of the first hole is fitted, because a shadow blocks one of the four beams of
@@ -276,8 +276,8 @@ class HoleFinder:
         return Candidate(blob, x, y, size)
 
     def refined(self, pair: Pair) -> Array | None:
-        """Find the centres of both holes by fitting circles, shape (2, 2), m. Returns None if a border is not seen
-        well enough.
+        """Find the centres of both holes (in metres, shape (2, 2)) by fitting circles. Returns None if a border is
+        not seen well enough.
         """
         blobs = [candidate.blob for candidate in pair]
         middles = np.array([(blob.u, blob.v) for blob in blobs])
@@ -295,7 +295,7 @@ class HoleFinder:
 
 
 def _lines(box: BoundingBox, spacing: int) -> tuple[Array, Array, Array]:
-    """Return the starts, directions and lengths of beams along rows and, half as dense, along columns."""
+    """Return the starts, directions and lengths of beams that lie along rows and, half as dense, along columns."""
     left, top, right, bottom = box
     rows = np.array([[left, v] for v in range(top + spacing, bottom, spacing)]).reshape(-1, 2)
     columns = np.array([[u, top] for u in range(left + spacing, right, 2 * spacing)]).reshape(-1, 2)

@@ -1,9 +1,9 @@
 """Marks in picture points that show the findings in a picture.
 
 The box of general location is white; holes have a red cross and a yellow box, with a line between their centres.
-The line of the first grasp is blue; picture 10 of the paper shows these two lines. Expected centres of a gasket's
-holes are red crosses, found centres are discs, green if the gasket is right. If a part is checked again, its
-outline is green if the part stands as before, and red if not.
+The line of the first grasp is blue; picture 10 of the paper shows these two lines. The expected centres of a
+gasket's holes are red crosses. The centres found are discs, which are green if the gasket is right. If a part is
+checked again, its outline is green if the part stands as before, and red if not.
 """
 
 from dataclasses import dataclass
@@ -21,8 +21,8 @@ GraspLine = tuple[tuple[float, float], tuple[float, float]]  # two ends (u, v)
 
 
 def grasp_line(view: View, X_WT: Pose, gap: float, z: float) -> GraspLine | None:
-    """Return the line on which fingers `gap` (m) apart cross the height `z` (m) below a hand. Returns None unless
-    the line lies within the picture.
+    """Return the line between two fingers `gap` (m) apart, projected down from the hand to the height `z` (m in
+    W). Returns None unless this line lies within the picture.
     """
     ends = X_WT[:3, 3] + np.array([[-0.5], [0.5]]) * gap * X_WT[:3, 1]
     ends[:, 2] = z

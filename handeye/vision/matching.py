@@ -22,20 +22,21 @@ from handeye.vision.camera_model import View, in_picture
 MOVED: Final = 0.03 * INCH
 """Greatest apparent movement (m) of a part that still counts as no movement.
 
-Two pictures of a pump at rest show .02 to .07 mm. If the pump is pushed against its blocks between the two
-pictures, they show .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). A base that is .05 in off its
-place is wrong (reference test 59).
+Two pictures of a pump at rest show .02 to .07 mm. Two pictures show .13 to .16 mm if the pump is pushed against
+its blocks between them (worlds of seeds 3 and 15 at the nominal level). A base that is .05 in off its place is
+wrong (reference test 59).
 """
 SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6
 """Mean difference in a square, in levels of the smoothed pictures, above which the centre of the square counts as
 changed.
 
-The noise of two pictures gives a mean of .3 (median of 17,500 squares). The greatest square of a pump at rest, or
-pushed by up to .15 mm, has a median of .88 and was 1.06 at most in 90 pairs of pictures (seed 15, OpenGL), 1.08 in 36
-pairs by ray casting. The greatest of many values has a Gumbel distribution, here of location .86 and scale .05, so the
-limit is reached once in a million pairs. A screw whose head is missing gives 3.7 to 5.6. A screw that stands 2.5 mm
-high gives .8 to 2.0, so most such screws are missed; a screw behind the crank is not visible at all.
+The noise of two pictures gives a mean of .3 (median of 17,500 squares). If the pump is at rest, or was pushed by
+up to .15 mm, the greatest square of a pair of pictures has a median of .88. Its maximum was 1.06 in 90 pairs (seed
+15, OpenGL), and 1.08 in 36 pairs by ray casting. The greatest of many values has a Gumbel distribution, here of
+location .86 and scale .05, so the limit is reached once in a million pairs. A screw whose head is missing gives
+3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so most such screws are missed; a screw behind the
+crank is not visible at all.
 """
 BESIDE: Final = 12
 """Width (points) of a strip around the part that counts neither as part nor as surroundings.

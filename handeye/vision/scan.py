@@ -17,7 +17,9 @@ MARGIN: Final = 1  # border points that no beam enters, so that it can be three 
 
 
 def numbers(given: object, said: str) -> Array:
-    """Convert an argument to an array of finite numbers. Raises BadArgument, whose sentence begins with `said`."""
+    """Convert an argument to an array of finite numbers. If that is impossible, raises BadArgument with a message
+    that begins with `said`.
+    """
     try:
         found = np.asarray(given)
         sound = found.dtype.kind in "uif" and bool(np.isfinite(found).all())
@@ -145,8 +147,8 @@ class Scan:
         return np.asarray((self._heights(places) > 0).all(axis=1))
 
     def border(self, places: Array, width: float) -> NDArray[np.bool_]:
-        """Return a mask of those places within the window, shape (n, 2), that lie less than `width` (points) from
-        its border.
+        """Return a mask, shape (n,), of the places (u, v), shape (n, 2), that lie within the window and less than
+        `width` (points) from its border.
         """
         away = self._heights(places) / np.hypot(*self.sides[:, :2].T)
         nearest = away.min(axis=1)
@@ -179,7 +181,8 @@ class Scan:
         return math.floor(back), math.floor(ahead)
 
     def _heights(self, places: Array) -> Array:
-        """Return the signed distances of places from the sides of the window, not normalised, shape (n, sides)."""
+        """Return the signed distances, not normalised, of places from the sides of the window, shape (n, sides).
+        """
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:

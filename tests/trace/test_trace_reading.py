@@ -80,7 +80,7 @@ def test_a_file_that_is_cut_short_is_refused(path: Path, data: st.DataObject) ->
     [
         (b"", "is not a trace: it is not an MCAP file"),
         (b'{"event":"RunStarted"}', "is not a trace: it is not an MCAP file"),
-        (_mcap({}, "something else"), "is not a trace of this program: it lacks “handeye trace”"),
+        (_mcap({}, "something else"), "is not a trace of handeye: its metadata do not say “handeye trace”"),
         (_mcap({"format": FORMAT}), "does not state its version of the trace format"),
         (
             _mcap({"format": FORMAT, "version": "soon"}),

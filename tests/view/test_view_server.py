@@ -281,7 +281,7 @@ def test_a_flood_of_lines_is_answered_line_by_line_and_fills_nothing(theatre: Th
     viewer = theatre.viewer()
     for _ in range(150):
         say(viewer, do="say", line="step")
-    assert heard(viewer, "refused")["refused"] == "too many lines at once"
+    assert heard(viewer, "refused")["refused"] == "too many lines are waiting: send this line again later"
 
 
 def test_rubbish_in_the_place_of_a_request_is_survived(theatre: Theatre) -> None:

@@ -21,11 +21,11 @@ def cache(
 ) -> int:
     """List the kept camera calibrations, or remove them.
 
-    Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the results,
-    and uses them in later runs with the same world, kind of pictures and versions: these runs give the same bytes
-    without the wait. `--calibrate` measures again. One calibration takes about 6 kB, all together at most 16 MB; the
-    oldest are removed first. The environment variable HANDEYE_CACHE names another folder; if it is empty, nothing is
-    kept.
+    Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the
+    results, and uses them in later runs with the same world, kind of pictures and versions. Such a run starts
+    without the wait, and gives the same bytes as if it had measured. `--calibrate` measures again. One calibration
+    takes about 6 kB. All calibrations together take at most 16 MB; to keep this limit, the oldest are removed. The
+    environment variable HANDEYE_CACHE names another folder; if it is empty, nothing is kept.
     """
     from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 

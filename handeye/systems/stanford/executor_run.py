@@ -255,7 +255,7 @@ class RunningPlan(RunningSystem):
             yield FrictionMeasured(time=self.time, joints=frictions, links=links, seconds=seconds)
 
     def _calibrate(self, eye: CameraSetup) -> None:
-        """Calibrate the camera. The arm then holds its present position."""
+        """Calibrate the camera. Afterwards, the arm holds the position that it has reached."""
         cell, drive = self._cell.devices, self.state.drive
         assert self._cell.camera is not None
         try:
@@ -270,7 +270,7 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _take_calibration(self) -> None:
-        """Use the calibrated camera model or, if there is none, the camera model of the design."""
+        """Use the calibrated camera model or, if there is none, the model of the camera as designed."""
         if self.state.calibration is not None:
             self.context.camera = self.state.calibration.model
         elif self._eye is not None:
