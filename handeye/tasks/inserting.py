@@ -1,5 +1,6 @@
-"""Defines the interface of a task with one hole, which the trials of insertion use. Its cell has a witness,
-which records what really happened in each insertion."""
+"""Defines the interface of a task with one hole, as the trials of insertion use it. The cell of such a task has a
+witness, which records what really happened in each insertion.
+"""
 
 from __future__ import annotations
 
@@ -26,10 +27,10 @@ SPREAD: Final = 1.0  # standard deviation of the hole's position error along eac
 class InsertionTruth:
     """What really happened in an insertion. The program cannot know it."""
 
-    peak: float  # greatest resultant of all contacts between the two in any physics step, N
+    peak: float  # greatest resultant of all contacts between pin and plate in any physics step, N
     first: float | None  # time of the first contact, s on the cell's clock
-    seated: float | None  # time at which it was first seated, s on the cell's clock
-    right: bool  # whether it is seated now
+    seated: float | None  # time at which the pin was first seated, s on the cell's clock
+    right: bool  # whether the pin is seated now
 
 
 class InsertionTask(Task):
@@ -39,8 +40,9 @@ class InsertionTask(Task):
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """Return the greatest position error of the hole (m) at which the pin still enters it, for a clearance
-        (m) and a chamfer (m)."""
+        """Return the greatest position error (m) of a hole with this clearance (m) and chamfer (m) at which the
+        pin still enters the hole.
+        """
 
     @abstractmethod
     def hole(self, clearance: float, chamfer: float) -> dict[str, float]:

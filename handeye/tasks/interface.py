@@ -35,8 +35,7 @@ if TYPE_CHECKING:  # types only: plans are made and checked without a simulator
 
 
 class CameraSetup(Record, frozen=True, kw_only=True):
-    """The television camera of a cell as designed, before calibration, and the views from which it is
-    calibrated."""
+    """The television camera of a cell, as designed, and the views from which it is calibrated."""
 
     drawing: CameraModel
     looks: tuple[CalibrationLook, ...]  # how the arm shows its lamp to it, in order
@@ -85,14 +84,16 @@ class AnyTask(ABC):
     name: str
     words: Words
     camera: str = "studio"
-    """Name of the camera that shows the whole cell. Pictures are taken with it unless another camera is named."""
+    """Name of the camera that shows the whole cell. Photographs are taken with this camera unless another is
+    named.
+    """
     photographs: tuple[str, ...] = ()  # cameras of the scene that photograph the end of a run
 
     force_axes: str = "world axes"  # axes of the hand's force in traces
     measures: Measures = INCHES  # display units for runs of the task
     holds_from: Mapping[str, int] = MappingProxyType({})
-    """Number of the stage of the task's own program after which a finding must already hold, by the beginning
-    of the finding's name.
+    """Findings that must hold before the work is finished. The key is the beginning of the finding's name; the
+    value is the number of the stage, in the task's own program, after which the finding must hold.
     """
     judges_stopped = False
     """True if the referee also measures the work of a program that has stopped before its end."""
@@ -115,7 +116,7 @@ class AnyTask(ABC):
 
     @abstractmethod
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        """Return the scene of a world in its initial state. It is only for pictures and is never simulated.
+        """Return the scene of a world in its initial state. The scene is only for pictures and is never simulated.
 
         The scene must have the cameras that the task names, and shapes in the geom groups that pictures show
         (`handeye/cell/looks.py`); `shown` checks this.
@@ -181,8 +182,8 @@ class Task(AnyTask):
     elsewhere.
     """
     other_scripts: tuple[str, ...] = ()
-    """Further programs of the task, given in the same way as `script`. Commands find each by its file name
-    without the ending.
+    """Further programs of the task, given in the same way as `script`. Commands find each by its file name without
+    the extension.
     """
     eye: CameraSetup | None = None
     period: HistoricalTiming | None = None

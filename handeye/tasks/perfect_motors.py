@@ -1,4 +1,4 @@
-"""Defines the tasks of programs on perfect motors. No errors are drawn, and there is no referee."""
+"""Defines the task for a program that runs on perfect motors. No errors are drawn, and there is no referee."""
 
 from __future__ import annotations
 

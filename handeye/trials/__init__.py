@@ -1,4 +1,4 @@
-"""Executes whole runs, and computes statistics over many runs."""
+"""Executes whole runs, and computes statistics over many of them."""
 
 from typing import TYPE_CHECKING, Any
 

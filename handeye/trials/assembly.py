@@ -83,8 +83,9 @@ def run_on(
     halt: Callable[[], bool] = lambda: False,
     operator: Operator = NOBODY,
 ) -> FinishedRun:
-    """Continue a run from a checkpoint, which may be that of its beginning, and let the referee judge it.
-    Arguments are those of `run_plan`."""
+    """Continue a run from a checkpoint, which may be the one at the beginning of the run, and let the referee
+    judge the result. The arguments are those of `run_plan`.
+    """
     metered = meter or Meter()
     runner = Runner(
         start,
@@ -100,7 +101,9 @@ def run_on(
 
 
 def brakes_hold(cell: SimulatedCell) -> bool:
-    """Return True if the brakes are on and commanded to stay on, and no motor of the arm has a torque command."""
+    """Return True if the brakes are on, the command for the brakes is also on, and no motor of the arm has a
+    torque command.
+    """
     state = cell.truth.states[cell.arm.name]
     assert isinstance(state, ArmState)
     return state.braked and state.command is None and not cell.truth.data.ctrl[cell.arm.motors].any()

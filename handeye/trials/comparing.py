@@ -18,7 +18,7 @@ class Difference(Record, frozen=True, kw_only=True):
     """The difference between two batches in a measured value, over the pairs of trials that both succeeded."""
 
     pairs: int
-    more: float  # Median of the value in this batch minus the value in the first
+    more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch
     p: float
     """Two-sided p-value of Wilcoxon's signed-rank test: the probability of differences at least this one-sided if
     neither batch is better.
@@ -31,7 +31,7 @@ class PairedBatch(Record, frozen=True, kw_only=True):
     name: str
     pairs: int
     right: int
-    first_right: int  # Right trials of the first batch among the same pairs
+    first_right: int  # Pairs in which the trial of the first batch was right
     only_first: int  # Pairs in which only the first was right
     only_this: int
     p: float  # Two-sided p-value of McNemar's exact test

@@ -1,5 +1,5 @@
-"""Runs trials on dask workers: either processes on this computer, or workers of a cluster whose scheduler has a
-given address.
+"""Runs trials on dask workers: on processes of this computer, or on the workers of a cluster, which is given by
+the address of its scheduler.
 """
 
 from collections.abc import Generator, Iterator, Sequence

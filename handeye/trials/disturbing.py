@@ -71,7 +71,7 @@ class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DisturbanceWork:
-    """For each case: executes a plan, disturbs its product, and lets the arm undo the work."""
+    """For each case, executes a plan, disturbs the product, and lets the arm undo the work."""
 
     plan: Plan
     world: WorldSpec  # World of every case, without its seed
@@ -124,8 +124,8 @@ def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
 
 
 def _moved(runner: Runner) -> tuple[float, str]:
-    """Execute a step. Returns the greatest displacement (mm) of a part that the hand holds neither before nor
-    after the step, and the part's name.
+    """Execute a step. Of the parts that the hand holds neither before nor after the step, finds the one that moved
+    farthest: returns its displacement (mm) and its name.
     """
     work = task(runner.setup.task)
     before = work.bystanders(runner.cell.truth)

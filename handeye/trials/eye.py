@@ -38,7 +38,7 @@ EYE: Final = Sweep(
     sentence=lambda row: f"seed {row.seed:4}  {row.detail}",
     shared_worlds=True,
 )
-"""Sweep of attempts in many worlds; `eye_sweep` makes the sweep of one trial of a task."""
+"""A sweep of attempts in many worlds. `eye_sweep` derives from it the sweep for one trial of a task."""
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:

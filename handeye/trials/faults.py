@@ -30,7 +30,7 @@ Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "
 """The outcome of a run with a fault.
 
 - recovered: the pump is right, and the fault may remain unnoticed
-- stopped: brakes on, with an error that names the fault, in a correct stage
+- stopped: by an error that names the fault, in a correct stage, and with the brakes on
 - misnamed: stopped, but by another error or in another stage
 - unnoticed: the pump is right, but the fault should have been noticed
 - unbraked: stopped, but the brakes were not on
@@ -91,10 +91,10 @@ class FaultTrial(Record, frozen=True, kw_only=True):
 
     name: str  # The fault, as it would be typed
     outcome: Outcome
-    stage: str | None  # Stage in which it stopped; None: it finished, or never began
-    message: str  # The call to the operator, or the referee’s complaints
+    stage: str | None  # Stage in which the run stopped; None: the run finished, or never began
+    message: str  # The call of the operator, or the referee’s complaints
     error: int | None
-    line: str | None  # Line of the script where it stopped in a stage
+    line: str | None  # Line of the script at which the run stopped within a stage
     exit_code: Annotated[int, msgspec.Meta(ge=0)]
 
 
@@ -122,8 +122,8 @@ class FaultRow(TrialRow, frozen=True, kw_only=True):
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """Return the faults with these names or in these groups, or by default those of the matrix. Raises
-    InvalidInput for an unknown name.
+    """Return the faults with these names or in these groups; without names, the faults of the task's matrix, which
+    are tried by default. Raises InvalidInput for an unknown name.
     """
     found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())
@@ -158,8 +158,9 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
     def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
-        """Return the start of a run with these faults. If possible, it is the stored state before the stage in
-        which the faults begin."""
+        """Return the start of a run with these faults: if possible, the stored state before the stage with which
+        the faults begin.
+        """
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         if self.sound is None or stage is None:
             return Checkpoint(
@@ -171,8 +172,9 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Return the faults at their usual sizes, by the form in which users type them. Faults that can begin
-    during a run begin with `stage`; `stages` is the number of stages."""
+    """Return the faults at their usual sizes. The keys are the faults in the form in which users type them. Faults
+    that can begin during a run begin with `stage`; `stages` is the number of stages of the program.
+    """
     first = [None if kind.from_start else stage or min(kind.usual_stage or 0, stages) for kind in kinds]
     found = [kind.usual(each or None) for kind, each in zip(kinds, first, strict=True)]
     return {catalogue.written(fault): fault for fault in found}

@@ -100,7 +100,7 @@ class Failure(Record, frozen=True, kw_only=True):
 
 
 class Cause(Record, frozen=True, kw_only=True):
-    """Failures that happened in the same stage and have the same cause."""
+    """The failures that happened in one stage and have one cause."""
 
     stage: str
     cause: str
@@ -120,7 +120,7 @@ class Figures(Record, frozen=True, kw_only=True):
     uncounted: int
     killed: int  # How often the process of a trial was killed
     wilson95: tuple[float, float] | None  # Wilson's interval of the probability that a trial is right
-    p_s: float | None  # Lower bound of the same, 95 % one-sided, exact
+    p_s: float | None  # Lower bound of this probability, 95 % one-sided, exact
     outcomes: dict[str, int]
     measures: dict[str, Spread]
     conditions: tuple[ConditionFigures, ...]  # If there are several conditions

@@ -1,5 +1,6 @@
-"""Reads and writes the folder of a batch, which contains a head with the batch's settings, its plan, and one
-line for each finished trial."""
+"""Reads and writes the folder of a batch. The folder contains a head with the settings of the batch, the plan, and
+one line for each finished trial.
+"""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -65,7 +66,7 @@ class Head(Record, frozen=True, kw_only=True):
     kind: str
     world: WorldSpec
     """The world of trial 0. The seed of trial k is greater by k, unless `seeds` gives it, or trials share worlds."""
-    seeds: tuple[Seed, ...] = ()  # Of the trials, if they do not follow each other
+    seeds: tuple[Seed, ...] = ()  # Seeds of the trials, if they are not consecutive
     plan: str = ""  # Digest of the plan; empty: there is none
     program: str = ""
     camera: str = ""
@@ -106,7 +107,7 @@ def head_of(
 
 
 class BatchFolder(Generic[R]):
-    """A folder into which the trials of a batch are written when they end."""
+    """A folder into which each trial of a batch is written when it ends."""
 
     def __init__(
         self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False

@@ -1,8 +1,7 @@
 """The insertion bench: inserts one pin into one hole, in many worlds and with many position errors of the hole.
 
-A trial begins when the program holds the pin above the hole, and consists of search, insertion and check. The
-pin is fetched once per world. Several trials start from this state, each with a different position error of the
-hole.
+A trial begins when the hand holds the pin above the hole. It consists of search, insertion and check. The pin is
+fetched once per world. Several trials start from this state, each with a different position error of the hole.
 """
 
 import math
@@ -39,11 +38,11 @@ from handeye.trials.sweep import Case, Details, Sweep, TrialRow
 
 Search = Literal["gentle", "1973"]
 TASK: Final = "insertion"
-TRIALS_A_WORLD: Final = 10  # Trials that share one fetched pin; fetching takes a second of a processor
+TRIALS_A_WORLD: Final = 10  # Trials for which the pin is fetched once; fetching takes a second of CPU time
 _WRITTEN_STEP: Final = "SEARCH  .07"
 _STEP_SHARE: Final = 0.92
-"""The search step as a fraction of the greatest step with which every hole is found. This fraction gives .07 in for
-the hole of the Factory benchmark.
+"""The search step as a fraction of the greatest step with which every hole is found. For the hole of the Factory
+benchmark, this gives a step of .07 in.
 """
 _PLACE: Final = 0.005  # in, to which it is rounded down
 
@@ -202,7 +201,7 @@ def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[
 
 
 def trials_in_world(condition: Condition, last: InsertionTrial) -> list[InsertionTrial]:
-    """Execute the trials of a condition in one world, up to the one with the number of `last`."""
+    """Execute the trials of a condition in one world: all up to the trial `last`."""
     begun = fetched(condition.plan, last.seed)
     return [tried(condition, begun, replace(last, number=number)) for number in range(last.number + 1)]
 

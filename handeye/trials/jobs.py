@@ -74,7 +74,9 @@ class JobWork(Generic[J]):
 
 
 def job_sweep(job: str, row: type[J], sentence: Callable[[Mapping[str, float]], str]) -> Sweep[J]:
-    """Return the kind of sweep for the trials of a job; `sentence` words the means of its figures."""
+    """Return the kind of sweep for the trials of a job. `sentence` returns a sentence on the means of the job's
+    figures.
+    """
     return Sweep(
         kind=job,
         row=row,
@@ -86,7 +88,7 @@ def job_sweep(job: str, row: type[J], sentence: Callable[[Mapping[str, float]], 
 
 
 def _most(rows: Sequence[JobRow]) -> dict[str, float]:
-    """Return the greatest error of each kind."""
+    """Return the greatest value of each measured error."""
     most: dict[str, float] = {}
     for row in rows:
         for name, value in row.measures.items():

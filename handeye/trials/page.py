@@ -71,7 +71,7 @@ def _interval(each: ConditionFigures | Figures) -> Markup:
 
 
 def _details(details: Details) -> Markup:
-    """Return a table that the kind of sweep defines. If the kind also defines bars, each line ends with a bar."""
+    """Return a table that the kind of sweep defines. If the kind also defines bars, each row ends with a bar."""
     numbers = [details.number(column) for column in range(len(details.heads))]
     headings = [
         (figure_heads if each else heads)(name)[0] for name, each in zip(details.heads, numbers, strict=True)

@@ -70,10 +70,10 @@ class Results(Sequence[Result]):
         of the referee."""
         findings = {name: each for result in self.each for name, each in result.referee.items()}
         columns = (
-            Column(name="seed", about="of the world", values=np.array([each.seed for each in self.each])),
-            _words("world", "how it was generated", (str(each.world) for each in self.each)),
+            Column(name="seed", about="seed of the world", values=np.array([each.seed for each in self.each])),
+            _words("world", "how the world was generated", (str(each.world) for each in self.each)),
             _words("verdict", "assembled, stopped or not right", (_verdict(each)[0] for each in self.each)),
-            _words("why", "what is wrong", map(why, self.each)),
+            _words("why", "why the result is not right", map(why, self.each)),
             _seconds("working", (each.timing.working_s for each in self.each)),
             _seconds("lens", (each.timing.lens_s for each in self.each)),
             *(_found(name, check, self.each) for name, check in findings.items()),
@@ -127,7 +127,7 @@ def assemble_each(
         trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, own_referee=own_referee)
         return Results(Several(trial(world=spec).result for spec in specs))
     if search is not None or own_referee is not None:
-        raise BadArgument("code that replaces a part needs one process: leave out jobs=...")
+        raise BadArgument("code that replaces a part needs one process: leave out `jobs=...`")
     found = list(in_processes(partial(_result, record, camera, limits), specs, jobs))
     return Results(Several(sorted(found, key=lambda result: specs.index(result.world))))
 
@@ -137,8 +137,9 @@ def _result(record: Plan, camera: str, limits: Limits | None, world: WorldSpec) 
 
 
 def why(result: Result) -> str:
-    """Return the reason why a result is not right, with the first of several failed findings. Empty if the
-    result is right."""
+    """Return the reason why a result is not right; if several findings failed, the first of them. Empty if the
+    result is right.
+    """
     if not result.completed:
         return f"{result.stopped_at or ''}: {result.message}"
     wrong = [each.told for each in result.referee.values() if each.refuses]

@@ -24,7 +24,7 @@ from handeye.tasks import task
 from handeye.trials.workers import in_processes
 
 EVERY: Final = 3  # Steps from one checkpoint to the next
-NEAR_END: Final = 36  # Steps before the end of a program of one stage where no schedule begins any more
+NEAR_END: Final = 36  # If a program has only one stage, no schedule begins within this many steps of its end
 _WHOLE: Final = "whole"  # A file that says that the run reached its end
 
 
@@ -34,8 +34,8 @@ class SoundRun:
 
     world: WorldSpec
     store: CheckpointStore
-    starts: tuple[int, ...]  # Steps done where a schedule can begin
-    stages: tuple[int, ...]  # Numbers, from 1, of the stages that these begin in
+    starts: tuple[int, ...]  # Numbers of steps done at which a schedule can begin
+    stages: tuple[int, ...]  # Stage, numbered from 1, in which each of these lies
 
     def at(self, position: int) -> Checkpoint:
         """Return the last stored state with at most `position` steps done. Raises InvalidInput if there is

@@ -34,8 +34,8 @@ Standing = Literal["right", "wrong", "silent", "uncounted"]
 
 FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
-"""A process is ended when its CPU time reaches this multiple of the limit, because the process then hangs in code
-that does not check the limit.
+"""A process is ended when its CPU time reaches this multiple of the limit. Such a process hangs in code that does
+not check the limit.
 """
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
@@ -51,9 +51,9 @@ _BROKEN_OFF: Final[Mapping[str, str]] = {
 class Case(Record, frozen=True, kw_only=True):
     """One or more trials that are executed together in one world."""
 
-    trials: tuple[int, ...]  # Their numbers among the trials of the condition, from 0
+    trials: tuple[int, ...]  # Numbers of the trials, among those of the condition, from 0
     seed: Seed
-    condition: str = ""  # Condition under which they run; empty: there is only one
+    condition: str = ""  # Condition under which the trials run; empty: there is only one condition
 
     def __post_init__(self) -> None:
         """Check the seed. Raises BadArgument if it is out of range."""
@@ -109,8 +109,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def cause(self) -> str:
-        """Cause of the failure, in words. Failures with equal causes have equal words, so that they can be
-        counted."""
+        """Cause of the failure, in words. Equal causes have equal words, so that failures can be counted by cause."""
         return self.detail
 
     @property
@@ -185,7 +184,7 @@ class Sweep(Generic[R]):
     kind: str  # Its folders say so; of several words, the first is what `sweep_of` looks up
     row: type[R]
     outcomes: Mapping[str, Standing]
-    success: str  # The word for trials that are right
+    success: str  # The word for a right trial
     noun: str = "trial"
     sentence: Callable[[R], str] | None = None
     """The text printed as each trial ends, unless empty. None: failures are listed at the end."""
@@ -195,7 +194,7 @@ class Sweep(Generic[R]):
     """Further entries for the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
-    """Executes the trials of a case, if that takes no options; such a kind needs no command of its own."""
+    """Executes the trials of a case, if this kind has no options. Such a kind needs no command of its own."""
     shared_worlds: bool = False
     """True if several trials share a world, so that the seed of a trial does not follow from its number."""
 

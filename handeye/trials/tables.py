@@ -35,17 +35,17 @@ def trials(sweep: Sweep[R], rows: Sequence[R], camera: str = "") -> Table:
     failed = [sweep.standing(row) != "right" for row in rows]
     columns = [
         column("trial", "number of the trial", [row.trial for row in rows]),
-        column("seed", "of its world", [row.seed for row in rows]),
+        column("seed", "seed of the world", [row.seed for row in rows]),
         column("condition", "condition of the trial", [row.condition for row in rows]),
         column("verdict", ", ".join(sweep.outcomes), [row.verdict for row in rows]),
         column(
             "stage",
-            "in which it failed",
+            "stage in which the trial failed",
             [row.stage * bad for row, bad in zip(rows, failed, strict=True)],
         ),
         column(
             "cause",
-            "why it failed",
+            "why the trial failed",
             [row.cause * bad for row, bad in zip(rows, failed, strict=True)],
         ),
     ]

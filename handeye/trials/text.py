@@ -87,8 +87,9 @@ def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
 
 
 def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, str]:
-    """Return the confidence interval and the lower bound of a rate as text. Both are empty if there were no
-    trials."""
+    """Return the confidence interval and the lower confidence bound of a rate as text. Both are empty if there
+    were no trials.
+    """
     return ("", "") if wilson95 is None or p_s is None else (percent(*wilson95), percent(p_s))
 
 

@@ -20,8 +20,8 @@ from handeye.core.signals import ENDING, break_in, heard
 Item = TypeVar("Item")
 T = TypeVar("T")
 
-_OVERDUE: Final = getattr(signal, "SIGPROF", 0)  # Ends a process that has had the processor for too long
-TRIES: Final = 2  # Times that a trial is begun whose process is killed
+_OVERDUE: Final = getattr(signal, "SIGPROF", 0)  # Signal that ends a process which has used too much CPU time
+TRIES: Final = 2  # Times that a trial is begun if its process is killed
 LONGEST_LIMIT_S: Final = 1e8  # Longest limit that a system is asked to enforce: three years
 SHORTEST_LIMIT_S: Final = 1e-6  # Shortest limit that a system distinguishes from no limit
 
@@ -38,12 +38,12 @@ class Answer(Generic[Item, T]):
     value: T | None = None
     error: BaseException | None = None
     killed: int = 0  # How often its process was killed
-    overdue: bool = False  # Its process was ended because it took too much of the processor
+    overdue: bool = False  # Its process was ended because it used too much CPU time
     wall_s: float = 0.0  # Duration of the last attempt
 
     @property
     def lost(self) -> bool:
-        """True if the process of the item was killed. The item may be repeated once."""
+        """True if the process that worked on the item was killed. The item may be repeated once."""
         return self.value is None and self.error is None and not self.overdue
 
 
@@ -137,11 +137,11 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
 @contextmanager
 def deaf_to_interrupts() -> Iterator[None]:
     """Within this context, processes are started so that they ignore Ctrl-C at the terminal. The parent process
-    handles Ctrl-C and ends them silently.
+    handles Ctrl-C, and ends these processes silently.
 
-    Threads started here, and processes started by them, ignore Ctrl-C permanently. An interrupt of the parent
-    is delayed until all processes have started, because the parent cannot yet end a partly started process,
-    which would print an error.
+    Threads that are started in this context, and processes that these threads start, ignore Ctrl-C permanently. An
+    interrupt of the parent is delayed until all processes have started, because the parent cannot yet end a partly
+    started process, which would print an error.
     """
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield
@@ -171,7 +171,7 @@ def _heard(workers: list[Worker]) -> list[Worker]:
 
 
 def _answer(worker: Worker) -> Answer[Any, Any]:
-    """Return the answer of a worker. The worker is then idle, unless it was lost."""
+    """Return the answer of a worker. Afterwards the worker is idle, unless its process was lost."""
     given = worker.given
     assert given is not None
     wall_s = given.timer.wall_s

@@ -1,6 +1,7 @@
 """Beams. A beam finds the first discontinuity of intensity, an edge, along a ray. All other primitives are built
-from beams, and from walks, which are beams along one line or column of the picture. A beam ends at its edge and
-reads no points beyond it.
+from beams, and from walks, which are beams along one line or column of the picture.
+
+A beam ends at its edge and reads no points beyond it.
 """
 
 from typing import Final, Literal, NamedTuple

@@ -36,8 +36,8 @@ ABSENT: Final = 2.2  # mean difference, levels, below which there is no gasket
 STEP: Final = (1.8, 0.3)  # least step across a border of the gasket: levels, and fraction of its difference
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
-"""Greatest permitted error of the centre and of the rim, m. This value and the three values below are from the
-vision study, section 4.
+"""Greatest permitted error (m) of the rim; CENTRE_SHIFT is that of the centre. RIM_SHIFT and the three values
+below are from the vision study, section 4.
 """
 BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the difference is measured
 BEFORE_STEP: Final = 0.38
@@ -224,8 +224,7 @@ def _centre(
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
-    """Return a place as a picture point, and the greatest distance (points) from there to the border of its hole.
-    """
+    """Return a place as a picture point, and the greatest distance (points) from there to the border of its hole."""
     u, v = view.project(place)[0].tolist()
     return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 

@@ -1,4 +1,4 @@
-"""A TRIG session that is used from Python: lines are typed, and both displays show the resulting program."""
+"""A TRIG session for use from Python: a program types lines, and both displays show the resulting TRIG program."""
 
 from typing import Final, get_args
 

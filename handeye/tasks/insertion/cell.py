@@ -27,10 +27,10 @@ HOLE: Final = (25 * INCH, 38 * INCH)
 HOLDER: Final = (15 * INCH, 35 * INCH)
 """Position of the holder with the pin (m): as in the pump's cell."""
 FACE: Final = base_top()  # height of the face around the hole, m
-CORNERS: Final = 48  # corners of a section of the nose, which is .005 mm slimmer between them
+CORNERS: Final = 48  # corners of a section of the nose; between two corners, the nose is .005 mm slimmer
 WEDGES: Final = 24
-"""Number of wedges around the hole, which is .02 mm wider between two wedges. With the rounded nose, the play is
-.057 to .063 mm instead of .057 mm.
+"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider. With the rounded nose of the
+pin, the play is .057 to .063 mm instead of .057 mm.
 """
 PUSH: Final = "push"
 """Name of the sensor for the resultant force of all contacts between plate and pin (N), in W; no device reads
@@ -73,8 +73,8 @@ def _add_room(shaper: Shaper) -> None:
 
 
 def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
-    """Add a face with the hole: the pin's nose touches wedges around the hole, and its shoulder touches a flat
-    land, as on the pump's base.
+    """Add a face with the hole. As on the pump's base, the pin's nose touches wedges around the hole, and its
+    shoulder touches a flat land.
     """
     d = dimensions()
     at = [HOLE[0] + world.plate[0], HOLE[1] + world.plate[1], 0.0]
@@ -175,7 +175,7 @@ def shoulder(data: mujoco.MjData) -> float:
 
 
 def off_holder(data: mujoco.MjData) -> tuple[float, float]:
-    """Return the distance of the pin from its position in the holder (m), and the tilt of the pin (rad)."""
+    """Return how far the pin is from its position in the holder (m), and the tilt of the pin (rad)."""
     pin = data.body("pin")
     return float(np.linalg.norm(pin.xpos - in_holder())), math.acos(min(1.0, float(pin.xmat[8])))
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 
 HOLDER_PLACE: Final = 3.0
-"""Greatest distance (mm) of a returned pin from its original position: the clearance of the holder's hole and
-its chamfer, as in the pump's cell.
+"""Greatest distance (mm) of a returned pin from its original position: the clearance plus the chamfer of the
+holder's hole, as in the pump's cell.
 """
 HOLDER_LEAN: Final = 10.0  # deg: it stands in the holder, and does not lean out
 

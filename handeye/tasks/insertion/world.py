@@ -1,4 +1,6 @@
-"""The worlds of the insertion bench: arm and hand with the errors of all cells of the Stanford arm, and one hole."""
+"""The worlds of the insertion bench. Arm and hand have the errors that they have in every cell of the Stanford
+arm; the bench adds one hole.
+"""
 
 from dataclasses import dataclass
 from typing import Final, Self

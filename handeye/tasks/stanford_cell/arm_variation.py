@@ -1,5 +1,6 @@
-"""Quantities in which the Stanford arm and its hand differ from the controller's model. Joints are numbered
-from 1."""
+"""The quantities in which the Stanford arm and its hand differ from the controller's model of them. Joints are
+numbered from 1.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
@@ -137,8 +138,8 @@ def _friction() -> Iterator[Quantity]:
     """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, varied by a quarter. Without this error, the friction of a joint is its "
-        "mean; a value of 0 means no friction."
+        "Coulomb friction of the joints, varied by a quarter. Without this error, a joint has its mean friction; a "
+        "value of 0 means no friction."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
@@ -147,9 +148,10 @@ def _friction() -> Iterator[Quantity]:
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
-        f"{what} Inferred from the paper, where the released arm stays in place: joints 2 and 3 hold half a step of "
-        f"their torques and the gravity that remains after the arm has weighed its links (at the parked posture, "
-        "in the worst of 200 worlds, .25 N m and .7 N); the joints of the wrist hold half a step of their torques.",
+        f"{what} Inferred from the paper, in which a released arm stays in place. The friction of joints 2 and 3 "
+        "therefore withstands half a converter step of their torques plus the gravity that remains after the arm has "
+        "weighed its links (at the parked posture, in the worst of 200 worlds, .25 N m and .7 N); the friction of the "
+        "wrist joints withstands half a converter step of their torques.",
         nominal=means[1:], least=0.0,
     )  # fmt: skip
 

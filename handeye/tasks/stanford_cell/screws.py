@@ -1,5 +1,5 @@
-"""Pins, screws, tapped holes, and the bit that drives the screws, as `handeye/cell/threads.py` needs them. They
-serve every scene whose parts have styles of this file. Places and lengths are in mm, with z up.
+"""Pins, screws, tapped holes, and the bit that drives the screws, in the form that `handeye/cell/threads.py`
+needs. A scene can use them if its parts have the styles of this file. Places and lengths are in mm, with z up.
 """
 
 from math import cos, nan, pi, sin, sqrt
@@ -116,7 +116,7 @@ def add_box(
     low: float,
     colour: str = "",
 ) -> mujoco.MjsGeom:
-    """Add a box around a place, between the height `low` and the height of its size over that (mm)."""
+    """Add a box of a size around a place; its underside is at the height `low` (mm)."""
     x, y, z = (each * MM for each in size)
     geom = shaper.box(
         body,
@@ -134,7 +134,7 @@ def add_ring(
     shaper: Shaper, body: mujoco.MjsBody, mesh: str, style: str, at: Place, top: float, radius: float, depth: float,
     *, below: float = 0.0, outer: float = LAND,
 ) -> None:  # fmt: skip
-    """Add a hole whose mouth is at the height `top` (mm), and show it."""
+    """Add a hole whose mouth is at the height `top` (mm), and discs that make it visible."""
     bore = Bore(
         radius=radius * MM,
         outer=outer * MM,
@@ -206,8 +206,9 @@ def _screw_shapes(
 
 
 def add_hung_screw(shaper: Shaper, dispenser: mujoco.MjsBody, number: int, at: Place, top: float) -> None:
-    """Add a hole to a dispenser whose upper side is at `top`, a screw that hangs in it by its head, and the place out
-    of sight for the body of the screw while it is in a thread. The origin of a screw is its point.
+    """Add a hole to a dispenser whose upper side is at `top`, and a screw that hangs in the hole by its head. Also
+    add a place, out of sight, for the screw's own body while a carrier represents the screw in a thread. The
+    origin of a screw is its point.
     """
     add_ring(shaper, dispenser, "dispenser_hole", "bore", at, top, HUNG_BORE, 10)
     add_box(shaper, dispenser, "seat", at, (16, 16, 10), top - 10)
@@ -233,7 +234,7 @@ def add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 def _turned(rows: list[tuple[float, float]], sides: int = 16) -> Array:
-    """Return the corners of a turned body, m, from its rings of (radius, height), mm."""
+    """Return the corners (m) of a body of revolution. `rows` are its rings: (radius, height) of each, in mm."""
     angles = 2 * pi * np.arange(sides) / sides
     return (
         np.concatenate(
@@ -244,8 +245,8 @@ def _turned(rows: list[tuple[float, float]], sides: int = 16) -> Array:
 
 
 def add_bit(shaper: Shaper, driver: mujoco.MjsBody, at: float) -> None:
-    """Add the bit of a screwdriver, at a height in its frame: a flat face inside a ring, and the poles of a magnet. The
-    screwdriver needs a site `driver`.
+    """Add the bit of a screwdriver: a flat face inside a ring, and the poles of a magnet. `at` is the height of
+    the bit in the screwdriver's frame (mm). The screwdriver needs a site `driver`.
     """
     bit = driver.add_body(name="bit", pos=[0, 0, at * MM], gravcomp=driver.gravcomp)
     body_inertia(bit, 0.03, (0.0, 0.0, 0.02), (4e-6, 4e-6, 1e-6))
@@ -266,7 +267,9 @@ def add_bit(shaper: Shaper, driver: mujoco.MjsBody, at: float) -> None:
 
 
 def add_motors(spec: mujoco.MjSpec) -> None:
-    """Add the motor of the spindle, the drive of the threads, which acts back on the hand, and the magnet."""
+    """Add the spindle's motor, the magnet, and the drive of the threads. The torque of this drive also acts back
+    on the hand.
+    """
     spin = spec.add_actuator(name="spindle", trntype=mujoco.mjtTrn.mjTRN_JOINT, target="spindle")
     spin.set_to_velocity(kv=0.02)
     spin.forcelimited = True

@@ -27,8 +27,8 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:
     """Build the cell of a world.
 
-    By default, parts at rest sleep and clamped parts are welded, to save computing time. If `rest` is False,
-    neither is done: the physics is the same, but the simulation is slower.
+    To save computing time, parts at rest sleep, and clamped parts are welded together. If `rest` is False, neither
+    is done: the physics is the same, but the simulation is slower.
 
     `camera` is the renderer: `auto`, `gl` or `ray`, or a function that makes one. Raises InvalidInput if this
     renderer does not work here.
@@ -72,8 +72,9 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
 
 
 def carrying(screws: int) -> Carrying:
-    """List the pairs of bodies that may touch while the simulator takes long steps: the hand and any loose
-    part, which the hand then holds, and the screwdriver and its screw."""
+    """List the pairs of bodies that may touch while the simulator takes long steps: the hand and a loose part that
+    it holds, and the screwdriver and its screw.
+    """
     hand, driver, fastened = f"{ARM}link6", "driver", [f"screw{k}" for k in range(screws)]
     loose = ("base", "gasket", "top", "pin0", "pin1", driver, *fastened)
     held = [(hand, part) for part in loose]

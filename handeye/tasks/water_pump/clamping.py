@@ -7,11 +7,11 @@ turn the thread carriers in the base. Here the driver and the base may sleep: th
 while the bit is on the carrier's screw head, and that contact wakes the base; a driver whose motor is switched
 on is woken explicitly.
 
-*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on,
-welds hold the two layers, and the contacts between them are switched off, because they take most of the stack's
-computing time. The contacts are switched on again if a hand, a shank or any other body pushes a layer sideways with
-more than the friction force or lifts it with more than the clamping force, or if fewer than two screws clamp the
-layers.
+*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on, welds
+hold the two layers, and the contacts between them are switched off, because they take most of the stack's
+computing time. The contacts are switched on again in three cases: if a hand, a shank or any other body pushes a
+layer sideways with more than the friction force; if such a body lifts a layer with more than the clamping force;
+or if fewer than two screws clamp the layers.
 """
 
 from typing import Final
@@ -27,7 +27,7 @@ from handeye.core.pose import Array, inverse, pose
 from handeye.core.record import Record
 
 SCREWS: Final = 2
-CLAMP: Final = 40.0  # N, each: with friction .2 the two hold 16 N sideways. Chosen.
+CLAMP: Final = 40.0  # N per screw: two screws hold 16 N sideways if the friction is .2. Our choice.
 
 _MOTORED: Final = ("base", "driver")
 _LAYERS: Final = ("gasket", "top")

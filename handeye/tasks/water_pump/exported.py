@@ -1,5 +1,4 @@
-"""Exports the pump's cell to other programs, with readable names, with the screws in their holes, and without
-mechanisms.
+"""Exports the pump's cell to other programs, with readable names, the screws in their holes, and no mechanisms.
 
 In the simulated cell, a carrier represents a screw in its thread, and the screw itself lies on a tray below the
 floor (`cell/threads.py`). In the export, the screw is in its hole, at the pose of the carrier, welded to the
@@ -45,7 +44,7 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     """Return the scene of a world with every object where it really is. Arguments are those of `Task.exported`."""
     model, data = truth.copy()
     spec = specification(world)
-    model.eq_data[:] = spec.compile().eq_data  # of bonds that are left out
+    model.eq_data[:] = spec.compile().eq_data  # as drawn: these bonds are left out below
     spec.copy_back(model)
     add_textures(spec)
     threaded = {

@@ -1,2 +1,3 @@
-"""Chaos trials: faults, interruptions and operator's answers are drawn from a seed, and invariants are checked
-after each run."""
+"""Chaos trials: faults, interruptions and answers of the operator are drawn at random from a seed, and invariants
+are checked after each run.
+"""

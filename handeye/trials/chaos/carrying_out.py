@@ -1,5 +1,5 @@
-"""Executes a schedule: interrupts the run where the schedule says so, resumes it from disk, and answers its
-calls to the operator.
+"""Executes a schedule: interrupts the run where the schedule says so, resumes the run from disk, and answers when
+the run calls the operator.
 """
 
 import subprocess
@@ -90,7 +90,9 @@ class ScheduleRunner:
         self._lost: list[str] = []
 
     def carry_out(self, stops: Sequence[StopCondition], *, broken: bool) -> ScheduleRun:
-        """Execute the whole schedule until one of `stops`. Its interruptions are made only with `broken`."""
+        """Execute the schedule until one of `stops`. The interruptions of the schedule are made only if `broken`
+        is True.
+        """
         runner = pause = None
         for interruption in self._schedule.breaks if broken else ():
             runner, pause = self._interrupted(interruption, stops)
@@ -110,7 +112,7 @@ class ScheduleRunner:
         return ScheduleRun(self._place, runner, pause, self._unbraked, self._lost)
 
     def _waits(self, pause: Pause) -> bool:
-        """Return True if the pause is that of an interruption, and does not end the schedule."""
+        """Return True if the pause belongs to an interruption, so that it does not end the schedule."""
         return isinstance(pause.met, Interruption)
 
     def _interrupted(
@@ -150,12 +152,12 @@ class ScheduleRunner:
 
 
 class Interruption(ReachedPosition, frozen=True, kw_only=True):
-    """Pause for an interruption of the schedule."""
+    """Pause at the point where the schedule interrupts the run."""
 
 
 def kill_resumed(folder: Path, events: int) -> None:
-    """Resume a run in a separate process, and kill the process when the run has written this number of further
-    events, unless the run ends earlier.
+    """Resume a run in a separate process. Unless the run ends earlier, the process is killed when the run has
+    written this number of further events.
     """
     journal = folder / EVENTS
     enough = _lines(journal) + events + 1  # and the one that tells that it was resumed

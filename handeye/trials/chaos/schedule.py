@@ -1,8 +1,8 @@
 """Defines a schedule: where a run begins, which faults and interruptions it has, and which answers the operator
 gives.
 
-The text form of a schedule consists of words `NAME=VALUE`, separated by blanks. A word may be left out if its
-list is empty or its number is the smallest possible.
+As text, a schedule consists of words `NAME=VALUE`, separated by blanks. A word may be left out if its value is an
+empty list or the smallest possible number.
 """
 
 import random
@@ -47,8 +47,8 @@ class Schedule(Record, frozen=True, kw_only=True):
 
     seed: int
     level: Level = "nominal"
-    start: Annotated[int, msgspec.Meta(ge=0)]  # Steps of the fault-free run that are done when it begins
-    steps: Count | None = None  # Most steps before it ends; None: until the end of its first stage
+    start: Annotated[int, msgspec.Meta(ge=0)]  # Steps of the fault-free run that are done when this run begins
+    steps: Count | None = None  # Greatest number of steps; None: the run ends with its first stage
     faults: tuple[str, ...] = ()  # As they would be typed
     breaks: tuple[Break, ...] = ()
     answers: tuple[Answer, ...] = ()  # Answers of the operator in order, then abort
@@ -73,8 +73,9 @@ class Schedule(Record, frozen=True, kw_only=True):
                 yield msgspec.structs.replace(self, **{name: (*things[:number], *things[number + 1 :])})
 
     def given(self, catalogue: Catalogue) -> tuple[Fault, ...]:
-        """Return the faults of the schedule. Raises InvalidInput if a fault is unknown, or if no stage is given
-        with which it begins."""
+        """Return the faults of the schedule. Raises InvalidInput if a fault is unknown, or if the schedule does
+        not say with which stage the fault begins.
+        """
         found = faults(catalogue, self.faults, by_number)
         for fault in found:
             if fault.stage is None:
@@ -123,8 +124,9 @@ def draw(
     number: int, seed: int, worlds: Sequence[tuple[int, Level]], starts: Sequence[Sequence[int]], catalogue: Catalogue,
     stage_of: Sequence[Sequence[int]],
 ) -> Schedule:  # fmt: skip
-    """Draw the schedule with this number in the series of a seed. `starts` and `stage_of` contain one list for
-    each world."""
+    """Draw one schedule: the one with this number in the series that belongs to a seed. `starts` and `stage_of`
+    contain one list for each world.
+    """
     chance = random.Random(f"{seed} {number}")  # noqa: S311 - choices, not secrets
     which = chance.randrange(len(worlds))
     place = chance.randrange(len(starts[which]))

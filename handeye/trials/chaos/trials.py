@@ -1,5 +1,5 @@
-"""Executes schedules and checks invariants after each. A failing schedule is reduced to the fewest elements
-with which it still fails.
+"""Executes schedules, and checks invariants after each. If a schedule fails, elements of it are removed as long as
+it still fails.
 """
 
 import tempfile
@@ -73,8 +73,8 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
-    """Return the failed findings that should hold after `done` of the program's stages. All findings must hold
-    after the last stage; `holds_from` names those that must hold after an earlier stage.
+    """Return the findings that should hold after the first `done` stages of the program, but fail. All findings
+    must hold after the last stage; `holds_from` names those that must already hold after an earlier stage.
     """
     return [
         f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
@@ -170,7 +170,7 @@ def _sound(carried: ScheduleRun) -> Iterator[Violation]:
 
 
 def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
-    """Yield failed findings on work that the program considers right.
+    """Yield the failed findings on work that the program considers right.
 
     A completed stage is judged by the findings that must hold from its end on. If such a finding fails, the run
     continues, because a later check of the program may notice the failure. The failure is silent only if the
@@ -214,7 +214,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
-    """The same trial, reduced to the fewest elements that still fail; None if it does not fail."""
+    """The same trial with a schedule that was reduced as far as it still fails; None if the trial does not fail."""
 
     @property
     def outcome(self) -> str:
@@ -233,7 +233,7 @@ class ChaosWork:
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:
-        """Execute a schedule. If it fails, reduce it to the fewest elements with which it still fails."""
+        """Execute a schedule. If it fails, reduce it as far as it still fails."""
         schedule = parse_schedule(case.condition)
         sound = sound_run(self.folder, self.setup, WorldSpec(seed=schedule.seed, level=schedule.level))
         drawn = try_schedule(schedule, sound)

@@ -12,7 +12,7 @@ from handeye.trials.figures import rate
 from handeye.trials.plans.row import Row
 from handeye.trials.sweep import Details
 
-ALIKE: Final = 1e-3  # Fraction of their mean by which margins may vary and still count as equal
+ALIKE: Final = 1e-3  # Margins that vary by less than this fraction of their mean count as equal
 
 
 class StageTime(Record, frozen=True, kw_only=True):
@@ -30,7 +30,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
     at: str
     n: int
-    found: int  # How many found the right place
+    found: int  # Number of searches that found the right place
     median: float
     p95: float
     most: int
@@ -47,8 +47,8 @@ class Margin(Record, frozen=True, kw_only=True):
     worst: float  # Negative: beyond the limit
     worst_seed: int
     deviations: float | None
-    """Mean margin in standard deviations: the finding with the smallest value is the most likely to fail next.
-    None: the values hardly vary.
+    """Mean margin in standard deviations. The finding for which this is smallest is the most likely to fail next.
+    None: the margins hardly vary.
     """
 
 

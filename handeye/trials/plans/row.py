@@ -26,7 +26,7 @@ class SearchEnd(Record, frozen=True, kw_only=True):
     """How one search of a trial ended."""
 
     at: str  # The position around which the program searched
-    places: int  # tried, the first included
+    places: int  # number of places tried, including the first
     found: bool  # True if the last place was the right one
 
 
@@ -82,14 +82,14 @@ def _goals(program: Program, events: Sequence[AnyEvent]) -> Iterator[str]:
 
 
 OUTCOMES: Final[Mapping[str, Standing]] = {"assembled": "right", "silent": "silent", "stopped": "wrong"}
-"""Outcomes of an assembly: the referee accepts the work; the program reported success but the work is wrong; the
-program called the operator.
+"""Outcomes of an assembly. In this order: the referee accepted the work; the program reported success, but the
+work is wrong; the program called the operator.
 """
 APART: Final[Mapping[str, Standing]] = {
     "apart": "right", "silent": "silent", "stopped": "wrong", "not built": "uncounted",
 }  # fmt: skip
-"""Outcomes of a dismantling: everything is back in place; the program reported success but it is not; the program
-called the operator; nothing had been built.
+"""Outcomes of a dismantling. In this order: everything is back in its place; the program reported success, but
+something is out of place; the program called the operator; nothing had been built.
 """
 
 
@@ -98,7 +98,7 @@ class Row(TrialRow, frozen=True, kw_only=True):
 
     result: Result | None = None
     place: str | None = None  # Line of the script where the program stopped
-    events: str = ""  # Sixteen hexadecimal digits that stand for everything that happened
+    events: str = ""  # Digest of all events: sixteen hexadecimal digits
     contacts: tuple[Contact, ...] = ()
     searches: tuple[SearchEnd, ...] = ()
     force: float | None = None

@@ -29,8 +29,8 @@ from handeye.trials.plans.distributions import details, margin_details
 from handeye.trials.plans.row import APART, OUTCOMES, Row, contacts, searches
 from handeye.trials.sweep import Case, Ended, Sweep
 
-SIMULATED_LIMIT_S: Final = 3600.0  # Of the cell's clock: five times what a whole pump takes
-CPU_LIMIT_S: Final = 1800.0  # Of a processor: thirty times what a whole pump takes
+SIMULATED_LIMIT_S: Final = 3600.0  # Seconds on the cell's clock: five times what a whole pump takes
+CPU_LIMIT_S: Final = 1800.0  # Seconds of CPU time: thirty times what a whole pump takes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,7 +138,7 @@ class Watch:
 
 
 def answered(rows: Sequence[Row]) -> int:
-    """Return the number of trials in which calls to the operator were answered, however the trials ended."""
+    """Return the number of trials in which calls of the operator were answered, no matter how the trials ended."""
     return sum(row.result is not None and bool(row.result.interventions) for row in rows)
 
 

@@ -61,7 +61,8 @@ def test_a_base_is_within_where_the_paper_says_and_not_farther(
 ) -> None:
     for error, within in (((0.33, -0.24), 3), ((0.34, 0.0), 0), ((0.0, 0.26), 0)):
         bases(monkeypatch, error=(error[0] * INCH, error[1] * INCH, DEGREE))
-        assert f"{within} within 0.33 x 0.25 in" in command("trials", "base", "--n", "3", "--jobs", "1")[1]
+        told = command("trials", "base", "--n", "3", "--jobs", "1")[1]
+        assert f"{within} within 0.33 inches along x and 0.25 inches along y" in told
 
 
 def test_a_base_that_was_not_found_says_why_and_counts_as_tried(
@@ -85,4 +86,4 @@ def test_poses_are_shared_out_among_worlds_and_told_as_json(
     told = json.loads(out)
     assert [(a["seed"], a["number"]) for a in told["attempts"]] == [(3, 0), (3, 1), (3, 2), (4, 0), (4, 1)]
     assert (told["worlds"], told["tried"], told["found"], told["eye"]) == (2, 5, 5, "lamp")
-    assert err.startswith("seed    3  found, +0.000 in")
+    assert err.startswith("seed    3  found, off by x +0.000 in")

@@ -20,11 +20,11 @@ ArmKind = Annotated[
     Literal["none", "purbrick"],
     Parameter(
         name="--arm",
-        help="The arm: `none` has no physics; `purbrick` is the simulated arm of the paper.",
+        help="The arm: `none` is an imaginary arm without physics; `purbrick` is the paper's arm, simulated.",
     ),
 ]
 TrigFile = Annotated[
-    Path, Parameter(help="A script of typed lines (.trig), or a program written by W (.trig.json).")
+    Path, Parameter(help="A script of typed lines (.trig), or a program that the command W wrote (.trig.json).")
 ]
 ALL: Final = 1_000_000_000  # steps: more than can be recorded
 

@@ -47,8 +47,8 @@ class KeptOptions:
         Path | None,
         Parameter(
             name=["--out", "-o"],
-            help="Folder for the run: trace, checkpoints, result, outcome of the job (job.json), its program, and a "
-            "report (report.html). `handeye resume` and `handeye dismantle` continue from there.",
+            help="Folder for the run: trace, checkpoints, result, outcome of the job (job.json), program, and report "
+            "(report.html). `handeye resume` and `handeye dismantle` continue the run in this folder.",
         ),
     ] = None
     video: Annotated[
@@ -87,9 +87,9 @@ def palletise(
 ) -> int:
     """Move a stack of blocks into a pallet, and back: the paper's second example, with physics, in a random world.
 
-    The 26 lines of the example are typed into a new editor by a simulated person, whose taught positions are off by
-    .3 mm. Then the program runs forwards and a referee judges it; it runs backwards, and the referee judges again.
-    Twenty blocks take some minutes.
+    The 26 lines of the example are typed into a new editor by a simulated person, whose taught positions are off
+    by .3 mm. Then the program runs forwards, and a referee judges the result; it runs backwards, and the referee
+    judges again. Twenty blocks take some minutes.
 
     Exit code 0: every block was placed and taken back; 1: the arm stopped before that; 3: done, but the referee
     disagrees; 2: bad input; 130: interrupted.
@@ -111,9 +111,9 @@ def bucket(
 ) -> int:
     """Drop a block into a bucket, and put another block in its place: the paper's first example, with physics.
 
-    The program is taught and run in a random world, and a referee judges it. It is not run backwards, because a block
-    in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows where the
-    attempt stops).
+    The program is taught and run in a random world, and a referee judges the result. It is not run backwards,
+    because a block in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back`
+    shows where the attempt stops).
 
     Exit code 0: done and right; 1: the arm stopped before that; 3: done, but the referee disagrees; 2: bad input;
     130: interrupted.
@@ -231,7 +231,7 @@ def pallet_trials(
     seed: FirstSeed = 0,
     blocks: Annotated[WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20.")] = 7,
     interrupt: Annotated[
-        bool, Parameter(help="Interrupt each run after a random number of steps, and undo it from there.")
+        bool, Parameter(help="Interrupt each run after a random number of steps, and undo the work from there.")
     ] = False,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,

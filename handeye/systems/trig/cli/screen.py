@@ -1,8 +1,8 @@
 """The user interface with a full screen: live displays, and keys for the teach box.
 
 The session runs in a thread of its own, so that the screen can read keys while the arm moves. The displays are
-drawn by whichever thread may read the program at that time: the screen's thread while the session waits, and
-the session's thread while it works.
+drawn by the thread that may read the program at that time: by the screen's thread while the session waits, and by
+the session's thread while the session works.
 """
 
 from collections import deque
@@ -156,7 +156,7 @@ class Screen(Desk):
         self._lines.put(line)
 
     def put_button(self, button: Button | None) -> None:
-        """Pass an action on the teach box to the session, or None if the user has put the teach box down."""
+        """Pass an action on the teach box to the session. None means that the user has put the teach box down."""
         if not isinstance(button, Jog):
             self.mode = "busy"
         self._buttons.put(button)

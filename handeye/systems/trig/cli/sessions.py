@@ -72,7 +72,7 @@ class _ProgressDesk(Script):
 
 
 def interrupting(halted: Callable[[], bool]) -> Halted:
-    """Return a halt function for typing a script, with which Ctrl-C interrupts everything."""
+    """Return the halt function that is used while a script is typed. With it, Ctrl-C interrupts everything."""
 
     def ask() -> bool:
         if halted():

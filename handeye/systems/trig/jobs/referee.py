@@ -26,7 +26,7 @@ Poses = Mapping[str, Pose]  # of blocks over the platter, by name
 
 
 def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings:
-    """Check that the uppermost blocks of a stack lie at their places in order, and that all other blocks are
+    """Check that the blocks from the top of a stack lie at `places`, in this order, and that all other blocks are
     where they were before.
     """
     taken = list(before)[::-1][: len(places)]
@@ -51,8 +51,9 @@ def judge_back(before: Poses, now: Poses) -> Findings:
 
 
 def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pose) -> Findings:
-    """Check that one block lies in a bucket, with its centre at `inside` (x, y, m), and that another block lies
-    at `place` (m)."""
+    """Check that one block lies in a bucket whose centre is at `inside` (x and y, in metres), and that another
+    block lies at `place` (in metres).
+    """
     aside = float(np.max(np.abs(X[:2, 3] - inside)))
     return {
         "below_its_rim": at_most(float(X[2, 3]) * _MM, RIM, "mm", "height of the centre of block A"),

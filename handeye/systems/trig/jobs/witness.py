@@ -24,8 +24,8 @@ class ObservedScene(Record, frozen=True, kw_only=True):
     """The true scene at one moment."""
 
     blocks: dict[str, tuple[float, ...]]
-    """Poses relative to the platter, by block, lower blocks first: the three rows of a rotation matrix, then the
-    position, m.
+    """Poses of the blocks relative to the platter, lower blocks first. Each has the three rows of a rotation
+    matrix, then the position (m).
     """
     hand: tuple[float, ...]  # m and rad
 
@@ -43,7 +43,7 @@ class ObservedScene(Record, frozen=True, kw_only=True):
 
 
 class InitialScene(ObservedScene, frozen=True, kw_only=True):
-    """The scene before a run, and, once there is one, the scene before the run's reversal."""
+    """The scene before a run. Once the run's reversal has begun, also the scene before the reversal."""
 
     taught: dict[str, Place]  # taught positions
     turned: ObservedScene | None = None  # scene before the reversal, if recorded

@@ -82,7 +82,7 @@ VARIATION: Final = Variation(
 WEAK, HEAVY, SLIPPERY = "hand.weak", "blocks.heavy", "platter.slippery"
 FAULTS: Final = Catalogue(
     FaultKind(
-        name=WEAK, meaning="The hand presses only with this force; the usual force is 30 N.", when="before",
+        name=WEAK, meaning="The hand presses with only this force; the normal force is 30 N.", when="before",
         size=Size(unit="N", usual=0.1, limits=(0.001, 30.0)),
     ),
     FaultKind(
@@ -115,8 +115,8 @@ class BlocksWorld:
         return next((fault.value for fault in faults if fault.name == name), None)
 
     def normal(self, name: str, quantity: str) -> float:
-        """Draw the normally distributed number called `name`. Its standard deviation is the world's value of
-        `quantity`, and it is clipped at two standard deviations.
+        """Draw the normally distributed number called `name`. The standard deviation is the world's value of
+        `quantity`; the number is clipped at two standard deviations.
         """
         return 0.0 if self.spec is None else VARIATION.value(quantity, self.spec) * self._drawn(name)
 

@@ -24,15 +24,15 @@ from handeye.systems.trig.language.trig_arm import (
     TrigArm,
 )
 
-APPROACH: Final = 5e-3  # m of vertical approach when setting down: a slanted path would push over a stack
+APPROACH: Final = 5e-3  # m over which the hand sets down vertically: a slanted path would push over a stack
 DEEPER: Final = 2e-3
 """Distance below a place (m) within which the arm must find support when it puts an object back. Places are
 taught with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released, and have been
 grasped that much too high.
 """
 AGAIN: Final = 1.5
-"""Permitted force during a reversal, as a multiple of the force met in the move itself. It is the same as for
-the pump. A hand that presses an object onto a support senses a change of force of that size when it rises.
+"""Permitted force during a reversal, as a multiple of the force met in the move itself. It is the same as for the
+pump. When a hand that presses an object onto a support rises, it senses a change of force of about this size.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 

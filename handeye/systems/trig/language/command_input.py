@@ -1,9 +1,9 @@
 """Executes typed lines as commands, from a terminal or a script. An invalid line is refused with a one-sentence
 message.
 
-A script has the lines that a user would type at a terminal. These are commands, with or without the prompt,
-and, after a command, the actions on the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the command's
-questions, with or without the question. Remarks begin with `;`.
+A script has the lines that a user would type at a terminal. These are the commands, and after each command the
+actions on the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the command's questions. The prompt before a
+command, and the question before an answer, may be included. Remarks begin with `;`.
 """
 
 from collections import deque
@@ -93,8 +93,9 @@ class Script(Desk):
         halted: Halted = lambda: False,
         slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
-        """Read these lines. `slip` gives the teaching error (m) of a jog of X, Y or Z, from the number of such
-        jogs before it."""
+        """Read these lines. `slip` returns the teaching error (m) of a jog of X, Y or Z; its argument is the
+        number of such jogs that came before.
+        """
         self._lines, self._halted = enumerate(lines, 1), halted
         self._told, self._slip, self._jogs = tell, slip, 0
         self._pressed = deque[Button]()

@@ -144,8 +144,9 @@ class Tabletop(ABC):
 
 
 def arrange(table: Tabletop, line: str) -> str:
-    """Execute a line that describes the table, and return a sentence about what is on the table then. Raises
-    BadArgument."""
+    """Execute a line that describes the table. Returns a sentence on what the table then holds. Raises
+    BadArgument.
+    """
     words = line.removeprefix(MARK).upper().split()
     match words:
         case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MAX_STACK:

@@ -1,10 +1,10 @@
 """Draws the two displays of a program, which share a layout.
 
-A chain of steps is a column. The normal son of a guarded step stands below it, in the same column; the guarded
-son begins a column farther right, one row below. The lines to these columns never cross, because the chains of
-later guarded steps are placed first. The full display shows the program in miniature, one character per step,
-with the active step in brackets; it is drawn from left to right, because a screen is wider than high. The
-partial display shows the steps around the active one, one row each, in as much detail as fits.
+A chain of steps is a column. The normal son of a guarded step stands below it, in the same column; the guarded son
+begins a column farther right, one row below. The lines that lead to these columns never cross, because the chains
+of later guarded steps are placed first. The full display shows the program in miniature: one character per step,
+with the active step in brackets. It is drawn from left to right, because a screen is wider than high. The partial
+display shows the active step and the steps around it, one row per step, in as much detail as fits.
 """
 
 from dataclasses import dataclass, field
@@ -49,8 +49,8 @@ class Elbow:
 
 @dataclass(slots=True)
 class _Chain:
-    """A chain of steps, with the chains to its right. Those chains are listed by the row of their guarded step,
-    and `shift` has their column offsets.
+    """A chain of steps, with the chains to its right. Each of those is listed under the row of the guarded step
+    that it belongs to; `shift` has its column offset.
     """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)
@@ -190,7 +190,7 @@ def _put_elbow(grid: _Grid, elbow: Elbow, symbols: Symbols) -> None:
 
 
 def _line(grid: _Grid, row: int, left: int, width: int, symbols: Symbols) -> Line:
-    """Return one line of the display. A mark shows where the program continues beyond an end of the line."""
+    """Return one line of the display. A mark at either end shows that the program continues beyond it."""
     last = max((x for y, x in grid if y == row), default=-2)
     line = [grid.get((row, x), ("", " ")) for x in range(left, min(last, left + width - 1) + 1)]
     if line and left > -1 and any((row, x) in grid for x in range(left)):

@@ -1,5 +1,5 @@
-"""The graph of a program's steps, with its loops and deletions. Each step has one or two sons and any number of
-fathers.
+"""The graph of a program's steps, with its loops and deletions. Each step has one or two sons, which are the steps
+that may follow it, and any number of fathers, from which it is reached.
 
 One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other
 edges to the step are links. The own edges form a tree that starts at the top and contains every step. A loop
@@ -79,8 +79,9 @@ class Graph:
     # -- looking ---------------------------------------------------------------------------------------
 
     def order(self) -> list[int]:
-        """Return all nodes in drawing order. Each node comes before its own sons, and the normal son before the
-        guarded one."""
+        """Return all nodes in drawing order. Each node comes before the sons that are drawn below it, and the
+        normal son before the guarded one.
+        """
         found, waiting = [], [TOP]
         while waiting:
             id = waiting.pop()
@@ -113,7 +114,9 @@ class Graph:
         return found
 
     def step_at(self, id: int) -> int:
-        """Return the first node, at this node or below it, that is not a bloop. NONE if there is none."""
+        """Return this node or, if it is a bloop, the first node below it that is not a bloop. NONE if there is no
+        such node.
+        """
         while id != NONE and self[id].type == "bloop":
             id = self[id].sons[0]
         return id
@@ -161,8 +164,8 @@ class Graph:
         self[son].last_father = father
 
     def insert(self, after: int, branch: int, node: Node) -> None:
-        """Insert a node below another node. The son that was there becomes a son of the new node; if the new
-        node is guarded, on its normal branch.
+        """Insert a node below another node. The son that was there becomes the son of the new node, on the normal
+        branch if the new node is guarded.
         """
         self.nodes[node.id] = node
         son = self[after].sons[branch]
@@ -265,8 +268,9 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one edge that is not a link. A node keeps its old one if that is still connected
-    to the top."""
+    """Give every node exactly one edge that is not a link. A node keeps its old own edge if that edge is still
+    connected to the top.
+    """
     placed = {TOP}
     _follow(graph, TOP, placed)
     while len(placed) < len(graph.nodes):

@@ -1,8 +1,8 @@
-"""An imaginary arm, which reaches every place at once and exactly.
+"""An imaginary arm, which reaches every place immediately and exactly.
 
-With blocks, it can be used to try out a program without an arm. The blocks do not fall, and they exert a force only
-on top: a guarded move stops on top of a block if its vector responds to upward force. All other moves pass through
-blocks.
+With imaginary blocks, it serves to try out a program without a real arm. The blocks do not fall, and they exert a
+force only on top: a guarded move stops on top of a block if the force vector of the move responds to upward force.
+All other moves pass through blocks.
 """
 
 import math

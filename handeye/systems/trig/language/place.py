@@ -1,5 +1,5 @@
-"""Places of the hand, which have six components along and about the arm's axes, and positions, which are places
-that programs name.
+"""Places of the hand, with six components along and about the arm's axes; and positions, which are places that a
+program names.
 """
 
 import math

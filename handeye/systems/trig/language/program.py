@@ -1,4 +1,4 @@
-"""A TRIG program, with its cursor and the history of executed steps."""
+"""A TRIG program, with the cursor and the history of executed steps."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -43,7 +43,7 @@ class TrigProgram:
     cursor: int = TOP  # the active step
     trail: deque[RecordedStep] = field(default_factory=lambda: deque(maxlen=REMEMBERED))
     forgotten: bool = False  # earlier steps were dropped
-    taken: int | None = None  # the branch taken by the active step since the cursor is there
+    taken: int | None = None  # the branch that the active step has taken since the cursor came to it
     cut: HaltedMove | None = None
     paused: int = NONE  # the step before which a run was halted
     ended_at: Place | None = None  # end of the last step
@@ -97,8 +97,9 @@ class TrigProgram:
         self.forgotten, self.taken, self.cut, self.paused = False, None, None, NONE
 
     def relative_by_default(self) -> bool:
-        """Return True if a new move is relative by default, like the nearest move above. The active step counts
-        as above."""
+        """Return True if a new move is relative by default: if the nearest move at or above the active step is
+        relative.
+        """
         id, seen = self.cursor, {TOP}
         while id not in seen:
             seen.add(id)

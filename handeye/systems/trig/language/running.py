@@ -1,10 +1,10 @@
 """Runs the steps of a program, forwards and backwards.
 
-A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the
-last step first, regardless of later edits and of the cursor. It returns a move to its start, the hand to its
-earlier state, and positions and counts to their old values. Where a hold began or ended, the fingers must have
-the same gap again. An object that was taken up must find support again. An object that a guarded step met must
-still be there.
+A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the last
+step first, regardless of later edits and of the cursor. It brings the arm back to the start of each move, the hand
+to its earlier state, and positions and counts to their old values. Where the hand closed on an object or let it
+go, the fingers must have the same gap again. An object that was taken up must find support again. An object that a
+guarded step met must still be there.
 """
 
 import math
@@ -81,7 +81,7 @@ def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -
 
 
 def _hand_back(done: RecordedStep, arm: TrigArm) -> HoldOff | None:
-    """Restore the hand. The gap must be the same as at the start or end of the hold."""
+    """Restore the hand. The gap must be the same as when the hand closed on the object or let it go."""
     before, after = done.gaps
     off = _off_hold(after, arm)
     if off is None:
@@ -101,8 +101,8 @@ class RunResult:
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]
-    """Why the run ended, in this order: the number of steps was reached, the program ended, a key was pressed,
-    nothing was left to undo, the history of earlier steps was dropped, a step was deleted, or an obstacle
+    """Why the run ended. In the order of the values: the number of steps was reached, the program ended, a key was
+    pressed, nothing was left to undo, the history of earlier steps was dropped, a step was deleted, or an obstacle
     stopped the arm.
     """
     obstacle: Obstacle | None = None  # met while reversing the active step

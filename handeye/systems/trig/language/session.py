@@ -1,4 +1,4 @@
-"""A session, in which typed lines change program, cursor and arm at once."""
+"""A session, in which each typed line immediately changes the program, the cursor or the arm."""
 
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,5 +1,5 @@
 """Commands that add a step below the active step, and commands that change or delete steps. Moves and hand steps
-are executed at once when they are added.
+are executed as soon as they are added.
 """
 
 from collections.abc import Callable

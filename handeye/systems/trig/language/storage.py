@@ -1,5 +1,6 @@
-"""Stores programs as JSON. It defines which properties belong to each kind of step, and checks the invariants
-of a program in every file."""
+"""Stores programs as JSON. Defines which properties each kind of step has, and checks the invariants of the
+program in every file.
+"""
 
 import re
 from collections import Counter

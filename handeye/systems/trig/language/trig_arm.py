@@ -32,7 +32,7 @@ class HoldOff(Record, frozen=True, kw_only=True, tag="hold_off"):
 
 
 class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
-    """An axis, numbered from 0 as in AXES, lags behind its goal (m or rad)."""
+    """An axis lags behind its goal (by m or rad). Axes are numbered from 0, as in AXES."""
 
     axis: int
     off: float
@@ -93,7 +93,7 @@ class TrigArm(ABC):
 
     @abstractmethod
     def here(self) -> Place:
-        """Return the commanded place, which does not include the sag of the servos."""
+        """Return the commanded place. The true place differs from it by the sag of the servos."""
 
     @property
     @abstractmethod

@@ -103,7 +103,9 @@ def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
-    """Return True if a run is a finished and judged job whose reversal was not ordered by a user."""
+    """Return True if a run is a job that has ended and, if its program was completed, has been judged. A run whose
+    reversal a user ordered does not count.
+    """
     system = runner.system
     if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):
         return False

@@ -1,5 +1,5 @@
-"""Palletising trials: a job is taught, executed, reversed and judged in many worlds, either completely or with
-an interruption.
+"""Palletising trials: in many worlds, a job is taught, executed, reversed and judged. It is executed either
+completely or until an interruption.
 """
 
 from collections.abc import Mapping, Sequence

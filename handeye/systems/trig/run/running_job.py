@@ -327,8 +327,9 @@ class RunningJob(RunningSystem):
         self._state.note(self.job.session.program, self.job.arm.memory)
 
     def _hand(self) -> tuple[Vector3, float]:
-        """Return the position of the hand relative to the platter, measured by the potentiometers (m), and the
-        gap between the fingers (m)."""
+        """Return the position of the hand relative to the platter, as the potentiometers measure it (m), and the
+        gap between the fingers (m).
+        """
         x, y, z = (round(float(value), 6) for value in self.job.axes.read().q[:3])
         return (x, y, z), round(self.job.arm.gap, 6)
 

@@ -1,2 +1,3 @@
-"""Faults of the pump's cell that are present before a run, that begin during a run, or that are made between
-the work and its reversal."""
+"""Faults of the pump's cell. They are present before a run, begin during a run, or are made between the work and
+its reversal.
+"""

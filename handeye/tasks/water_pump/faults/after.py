@@ -1,8 +1,9 @@
 """Faults after a run: changes that a person makes to a finished pump before the arm undoes its work. The arm
 does not know of them.
 
-The person's hand is not simulated. A removed part is put on the tray below the floor, where nothing touches it.
-A moved part is put elsewhere, at rest. Glued parts are welded. A screw is tightened by a torque.
+The person's hand is not simulated. A part that is removed is put on the tray below the floor, where nothing
+touches it. A part that is moved is placed elsewhere, at rest. Parts that are glued are welded. A screw is
+tightened by a torque.
 """
 
 from collections.abc import Callable, Mapping

@@ -1,5 +1,4 @@
-"""Faults that are present before a run: parts of the pump and its cell that are missing, of a wrong size, or
-misplaced.
+"""Faults that are present before a run: parts of the pump or its cell are missing, misplaced, or of a wrong size.
 
 The scene contains the faulty part from the beginning. All devices work correctly.
 """
@@ -44,8 +43,8 @@ _SMOOTH: Final = "bit.smooth"
 _CARD_HALF_M: Final = 0.08
 _FOREMOST: Final = 3  # priority in a contact, over all shapes of the scene
 METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
-"""Stiffness of the end of a blocked hole. Measured: with MuJoCo's own joint limit, a thread drives its screw
-straight through.
+"""Stiffness of the end of a blocked hole. We measured that a thread drives its screw straight through a joint
+limit with MuJoCo's default stiffness.
 """
 _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
 
@@ -89,7 +88,7 @@ def _base() -> Iterator[PartFault]:
         Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
     )  # fmt: skip
     yield _fault(
-        "base.far", "The belt has carried the base too far by this distance: out of the arm's reach, or out of sight.",
+        "base.far", "The belt has carried the base this much too far: out of the arm's reach, or out of sight.",
         partial(_shift, "base", (0.0, 1.0)),
         ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=(detect.UNSEEN,)),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),

@@ -1,9 +1,9 @@
 """Faults that begin during a run: mishaps, caused by a person's hand or by chance.
 
-Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost is put on the tray
-below the floor, where nothing touches it; the hand that takes it is not simulated. A push is a force. The hand
-that moves the base is a spring to a point that moves at constant speed, and friction carries along the parts on
-the base.
+Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost is put on the tray below
+the floor, where nothing touches it; the hand that takes it is not simulated. A push is modelled as a force. A hand
+that moves the base is modelled as a spring between the base and a point that moves at constant speed; friction
+carries along the parts on the base.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -35,8 +35,8 @@ from handeye.tasks.water_pump.faults.mishap import Mishap, MishapFault, MishapSt
 PUSH_S: Final = 2.0
 MOVE_S: Final = 1.0
 HAND: Final = (4000.0, 60.0, 150.0)
-"""Spring (N/m), damper (N s/m) and greatest force (N) of the hand that moves the base; measured: the base ends 2 mm
-short.
+"""Stiffness (N/m), damping (N s/m) and greatest force (N) of the hand that moves the base. As measured, the base
+then ends 2 mm short of its goal.
 """
 LIFTED_M: Final = 0.02  # a part that has come up by this is held by the hand, and not by what it stood in
 
@@ -88,7 +88,7 @@ def _take_away(scene: Scene, _: MishapState) -> bool:
 
 
 def _lose(part: str, scene: Scene, state: MishapState) -> bool:
-    """Take a part out of the hand as soon as it has been lifted."""
+    """Take a part out of the hand as soon as the hand has lifted the part."""
     assert state.place is not None
     if scene.place(part)[2] < state.place[2] + LIFTED_M:
         return False
@@ -127,7 +127,7 @@ def _base() -> Iterator[MishapFault]:
     expected = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
         calls=(detect.NOT_WHERE_SEEN, detect.PUMP_ASTRAY, detect.OR_PUMP),
-        harmless="The hand searches for the base around where the camera saw it.",
+        harmless="The hand searches for the base around the place where the camera saw it.",
     )
     for number, axis in enumerate("xy"):
         meaning = (

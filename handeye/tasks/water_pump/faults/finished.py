@@ -23,8 +23,9 @@ _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 
 
 def _loose(screw: int, turns: float | None, scene: Scene, _: MishapState) -> bool:
-    """Loosen a screw by some turns, or take it away if `turns` is None, as soon as it is in its thread and the
-    bit has left it."""
+    """As soon as a screw is in its thread and the bit has left it, loosen the screw by `turns`, or take it away if
+    `turns` is None.
+    """
     assert scene.threads is not None
     if not scene.threads.loosen(screw, turns):
         return False

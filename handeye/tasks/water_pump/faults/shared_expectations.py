@@ -28,13 +28,13 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls of the operator for a joint that read wrong from the beginning. They name neither table nor blocks. The
-joint's two sensors agree, and the camera is calibrated with the joint, so that only the parts in the cell
-reveal the error.
+"""Calls of the operator for a joint that has read wrong from the beginning. These calls name neither table nor
+blocks. The joint's two sensors agree, and the camera is calibrated with the wrong readings, so only the parts in
+the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
-"""Calls of the operator for a place that is not where it should be or was before, and for a hole or pin that is
-not found. Either the place is wrong, or the gear or potentiometer of a joint.
+"""Calls of the operator for a place that is not where it should be, or not where it was, and for a hole or pin
+that is not found. Either the place is wrong, or the gear or the potentiometer of a joint is faulty.
 """
 UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
 NOT_WHERE_SEEN: Final = (
@@ -61,8 +61,8 @@ PUMP_CHANGED: Final = (
     "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT, OR THE CAMERA OR THE LIGHT HAS CHANGED"
 )
 OR_PUMP: Final = "{what}, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
-"""Calls of the operator for a part of the pump that the hand does not feel where it was before. The part, the
-pump, or a joint of the arm is wrong.
+"""Calls of the operator for a part of the pump that the hand does not feel where the part was before. The part or
+the pump has moved, or a joint of the arm reads wrong.
 """
 SCREW_IN_NO_HOLE: Final = (
     "SCREW {number} FINDS NO HOLE AT {hole}: POINT OR HOLE IS WRONG, OR A JOINT READS WRONG"
@@ -76,8 +76,9 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Errors with which a program that tries every step once, like that of 1973, reports a fault that the careful
-program names by a call; error and call count as one name.
+"""Each of these errors stands for the calls beside it. The careful program names the fault with one of these
+calls; a program that tries every step only once, like that of 1973, reports it with the error. Error and call
+count as one name.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN"
@@ -98,7 +99,9 @@ LATE_LIGHT: Final = ExpectedDetection(
 
 
 def names(expected: ExpectedDetection) -> set[int | str]:
-    """Return the calls and errors that name a fault. An error counts only if no call is made for it."""
+    """Return the calls and errors that name a fault. An error is left out if it counts as one name with a call
+    that is returned (see `ONCE`).
+    """
     told = {number for number in expected.errors if not {*ONCE.get(number, ())} & {*expected.calls}}
     return {*expected.calls, *told}
 

@@ -20,11 +20,10 @@ def commanded(truth: Truth) -> list[str]:
 
 
 def _arm_driven(truth: Truth) -> bool:
-    """Return True if the arm has a torque command while its brakes are set, or a torque command that does not
+    """Return True if the arm has a torque command although its brakes are set, or if its torque command does not
     hold it still.
 
-    The check allows for a drive that is too weak by some factor, and for friction that carries a part of the
-    load.
+    The check allows for a drive that is too weak by some factor, and for friction that carries a part of the load.
     """
     model, arm = truth.model, truth.states[ARM.removesuffix("/")]
     assert isinstance(arm, ArmState)

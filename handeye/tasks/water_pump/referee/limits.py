@@ -16,19 +16,20 @@ under the layer; assembly study.
 
 SCREW_GAP: Final = 0.2
 """Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high; assembly study."""
-SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 56 to 298 N
+SCREW_CLAMP: Final = 40.0  # N per screw: more than the 19 N of a hand's pull; seated screws end at 56 to 298 N
 SCREW_TURNED: Final = 400.0
-"""Greatest force of a head when its screw was last turned (N). In pumps that the arm has made, it is at most
+"""Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most
 250 N. The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world;
 twice the clutch's torque gives 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
-"""Greatest force under a head (N). Screws that are tightened later shift the load; in pumps that the arm has
-made, it is at most 298 N.
+"""Greatest force under a head at the end (N). It may exceed SCREW_TURNED, because screws that are tightened later
+shift the load. In pumps that the arm has made, it is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Least torque to turn a screw back (N m): the friction torque of a clean thread without clamp. With a clamp of
-40 N it is at least .026 N m in any world; without friction, the clamp itself would turn the screw out.
+"""Least torque to turn a screw back (N m): the friction torque of a clean thread without clamp. With a clamping
+force of 40 N, this torque is at least .026 N m in any world. Without friction, the clamping force itself would
+turn the screw out.
 """
 SCREW_SIZE: Final = 0.35
 """Greatest deviation of any length or radius from the design (mm): the play of a screw's point in a tapped
@@ -39,8 +40,8 @@ SCREW_THREAD: Final = 6.35
 has 6.93 mm.
 """
 SCREW_PLACE: Final = 0.12
-"""Greatest distance of a screw's axis from its hole's (mm): the loosest fit of a 1/4-20 thread of class 2,
-pitch diameters .2127 in and .2224 in; ASME B1.1.
+"""Greatest distance (mm) between the axes of a screw and its hole: the loosest fit of a 1/4-20 thread of class 2,
+with pitch diameters of .2127 in and .2224 in; ASME B1.1.
 """
 SCREW_LEAN: Final = 1.0  # deg: a head 11 mm wide that leans farther gapes by SCREW_GAP
 SCARS: Final = 0

@@ -105,10 +105,10 @@ def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[n
 def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number: int, at: Point) -> None:
     """Add the bore and the thread.
 
-    The thread is a carrier body, whose frame is that of the screw in it, with the origin at the screw's point.
-    The pitch couples the carrier's slide to its turn. Head and shank touch nothing until the cell engages a
-    screw, but they are compiled with the widest contact bits, because these can be narrowed at run time but not
-    widened.
+    The thread is a carrier body, whose frame is that of the screw in it, with the origin at the screw's point. The
+    pitch couples the carrier's slide to its turn. Head and shank touch nothing until the cell engages a screw.
+    They are nevertheless compiled with the widest contact bits, because contact bits can be narrowed at run time
+    but not widened.
     """
     top, depth, (x, y) = base_top(), d("base.screw_holes.depth"), at
     tap = Bore(

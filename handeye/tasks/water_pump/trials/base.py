@@ -24,14 +24,14 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.base import Failure
 from handeye.vision.hole_search import hole_places
 
-WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of the eye by the paper, in x and in y
+WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of the eye according to the paper, along x and along y
 WRONG_BEYOND_PX: Final = 5.0  # a hole found farther off is something else, whatever the camera's error
 
 
 class BaseAttempt(Attempt, frozen=True, kw_only=True):
     """One attempt to locate the base."""
 
-    error: Vector3 | None  # error of x, y (m) and yaw (rad) as found; None: not found
+    error: Vector3 | None  # error of x, y (m) and yaw (rad); None: the base was not found
     wrong: bool = False  # something else was taken for it
     failure: str | None = None  # why it was not found, or the camera could not be calibrated
 
@@ -72,8 +72,8 @@ class BaseTrial(Trial[BaseAttempt]):
         if attempt.error is None:
             return attempt.failure or "not found"
         x, y, turn = attempt.error
-        off = f"{x / INCH:+.3f} in, {y / INCH:+.3f} in, {turn / DEGREE:+.2f} deg"
-        return f"something else was found instead, {off}" if attempt.wrong else f"found, {off}"
+        off = f"x {x / INCH:+.3f} in, y {y / INCH:+.3f} in, yaw {turn / DEGREE:+.2f} deg"
+        return f"something else was found, off by {off}" if attempt.wrong else f"found, off by {off}"
 
     def outcome(self, attempt: BaseAttempt) -> Literal["right", "missed", "wrong"]:
         return "wrong" if attempt.wrong else "missed" if attempt.error is None else "right"
@@ -87,8 +87,8 @@ class BaseTrial(Trial[BaseAttempt]):
             figures={"tried": tried, "found": found, "wrong": wrong, "within": within, "rms": rms},
             lines=(
                 f"found {found} of {tried}, {wrong} of them wrong",
-                f"{within} within {WITHIN[0] / INCH:.2f} x {WITHIN[1] / INCH:.2f} in",
-                f"rms error {x / INCH:.3f} in, {y / INCH:.3f} in, {turn / DEGREE:.2f} deg",
+                f"{within} within {WITHIN[0] / INCH:.2f} inches along x and {WITHIN[1] / INCH:.2f} inches along y",
+                f"rms error: x {x / INCH:.3f} in, y {y / INCH:.3f} in, yaw {turn / DEGREE:.2f} deg",
             ),
             wrong=wrong,
         )

@@ -23,7 +23,7 @@ _HAND_ANGLE: Final = 135 * DEGREE
 
 
 _ALL: Final = (0, 1, 2, 3, 4, 5)
-_TRIANGLE: Final = (0, 2, 4)  # places of a grid of six: two rows of three
+_TRIANGLE: Final = (0, 2, 4)  # three of the places in a grid of two rows of three
 
 
 def _looks(

@@ -44,8 +44,8 @@ class Placing:
     roll: float = 0.0
 
     def about(self, x: float, y: float, z: float = 0.0) -> Pose:
-        """Return the error as a pose that moves everything fixed to the part: the displacement of this error, and
-        its turns about the point (x, y, z) (m).
+        """Return this error as a pose that moves everything fixed to the part: it displaces the part, and turns it
+        about the point (x, y, z) (m).
         """
         R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
         p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])
@@ -57,9 +57,7 @@ class PumpWorld(ArmWorld):
     """One drawn world of the pump."""
 
     base: Placing
-    """The pump base on the belt, in W: its reference point, and the direction of the line between its hole centres.
-
-    """
+    """The pump base on the belt, in W: its reference point, and the direction of the line between its holes."""
     camera: CameraErrors
     light: Light
     fixtures: dict[str, Placing]  # error of each fixture

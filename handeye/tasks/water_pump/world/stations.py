@@ -14,8 +14,9 @@ from handeye.tasks.stanford_cell.dimensions import dimensions
 
 
 class Station(StrEnum):
-    """Names of the stations that do not consist only of boxes. Their bodies and their errors have the same
-    names."""
+    """Names of the stations that do not consist only of boxes. The bodies and the errors of these stations have
+    the same names.
+    """
 
     BLOCKS = "blocks"
     PIN_HOLDER = "pin_holder"
