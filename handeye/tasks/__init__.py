@@ -152,7 +152,7 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """Import places of handeye's own tasks and of those of systems, by name."""
+    """Return where handeye's own tasks and the tasks of its systems are imported from, by the name of the task."""
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 
 
@@ -167,7 +167,7 @@ def _loaded(words: str) -> AnyTask:
     if not all(part.isidentifier() for part in (*module.split("."), name)):
         raise BadArgument(f"name a task as MODULE:NAME, such as my_task:TASK, not {quoted(words)}")
     if module.partition(".")[0] != "handeye" and os.getcwd() not in sys.path:
-        sys.path.append(os.getcwd())  # last: nothing there takes the place of what is installed
+        sys.path.append(os.getcwd())  # as the last entry, so that no file there hides an installed module
     found = loaded(words, "the task ")
     if not isinstance(found, AnyTask):
         raise BadArgument(f"{quoted(words)} is not a task: an instance of a class derived from handeye.Task")

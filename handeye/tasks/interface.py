@@ -38,7 +38,7 @@ class CameraSetup(Record, frozen=True, kw_only=True):
     """The television camera of a cell, as designed, and the views from which it is calibrated."""
 
     drawing: CameraModel
-    looks: tuple[CalibrationLook, ...]  # how the arm shows its lamp to it, in order
+    looks: tuple[CalibrationLook, ...]  # the views in which the arm shows its lamp to the camera, in order
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
@@ -57,7 +57,7 @@ class ExportedScene(Record, frozen=True, kw_only=True):
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Names of the bodies that can be exported separately, by the name of the whole that they form."""
     densities: Mapping[str, float] = field(default_factory=dict)
-    """Densities (kg/m3), of solids that consist of one metal, by their names."""
+    """Densities (kg/m3) of the solids that consist of one metal, by the names of the solids."""
 
 
 class Disturbance(Record, frozen=True, kw_only=True):
@@ -66,7 +66,7 @@ class Disturbance(Record, frozen=True, kw_only=True):
     name: str
     meaning: str  # what is changed, in a sentence
     make: Callable[[SimulatedCell], None]  # makes the change in a cell
-    after: int | None = None  # number of the stage after which it is made; None: the last
+    after: int | None = None  # number of the stage after which the change is made; None: the last
 
 
 class Words(Record, frozen=True, kw_only=True):
@@ -188,7 +188,9 @@ class Task(AnyTask):
     eye: CameraSetup | None = None
     period: HistoricalTiming | None = None
     contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})
-    """Positions at which the hand, or the object that it holds, makes contact, by the name of the operation."""
+    """For each contact operation, by its name: the positions at which the hand, or the object that it holds, makes
+    contact.
+    """
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
@@ -197,8 +199,9 @@ class Task(AnyTask):
 
     @property
     def trials(self) -> Mapping[str, Trial[Any]]:
-        """Trials that repeat one part of the task in many worlds without running a program, by name; none by
-        default."""
+        """Trials, by name, that repeat one part of the task in many worlds without running a program; none by
+        default.
+        """
         return {}
 
     def fixtures(self) -> Mapping[str, Fixture]:
@@ -222,7 +225,7 @@ class Task(AnyTask):
         return ()
 
     def bystanders(self, truth: Truth) -> Mapping[str, Array]:
-        """Return the positions of the parts that the hand does not hold, by name (m, shape (3,) each)."""
+        """Return, by name, the positions (in metres, shape (3,)) of the parts that the hand does not hold."""
         return {}
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:

@@ -73,7 +73,7 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
     if rows.start == rows.stop:
-        raise Refused(f"{trace.name} contains no motion in this part to plot")
+        raise Refused(f"{trace.name} contains no motion to plot in this part")
     return Plot(
         title=f"{trace.head.program}, {trace.head.world}",
         begin=begin,

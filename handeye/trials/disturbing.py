@@ -33,7 +33,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 
     name: str
     built: bool  # The pump was built as far as the disturbance needs; if not, the other fields mean nothing
-    stopped: bool = False  # A guard stopped it, and the brakes are on
+    stopped: bool = False  # A guard stopped the arm, and the brakes are on
     at: str = ""  # The statement that was being undone
     line: str = ""
     message: str = ""  # The call to the operator, or the referee’s complaint

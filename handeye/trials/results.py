@@ -103,9 +103,8 @@ def assemble_each(
         camera: renderer of the TV camera: `auto`, `gl` or `ray`.
         search: search pattern, as for `handeye.begin`.
         referee: referee or limits, as for `handeye.begin`.
-        jobs: number of parallel processes. With more than 1, the calling program must be guarded by `if
-            __name__ ==
-            "__main__":`, and `search` and `referee` cannot be Python code, but `referee` can be limits.
+        jobs: number of parallel processes. If there is more than one, the calling program must be guarded by
+            `if __name__ == "__main__":`, `search` cannot be Python code, and `referee` can only be limits.
 
     Returns:
         a table of results in the order of the worlds.

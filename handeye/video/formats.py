@@ -167,7 +167,8 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """Return the format for a file name. Raises BadArgument if the ending of the name is not that of a video."""
+    """Return the format for a file name. Raises BadArgument if the file extension is not that of a video format.
+    """
     ending = path.suffix.lower()
     if ending == ".mp4":
         try:

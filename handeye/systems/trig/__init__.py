@@ -1,5 +1,6 @@
-"""TRIG (MIT, 1982): the user teaches a program by doing the task, and the program is displayed as it grows, and
-can be run forwards and backwards."""
+"""TRIG (MIT, 1982): the user teaches a program by doing the task. The program is displayed as it grows, and can be
+run forwards and backwards.
+"""
 
 from handeye.core.entries import Entry
 

@@ -38,7 +38,7 @@ _TRIED: Final = {
     "rotor": ("jammed", "stops", "turned"),
     "driver": ("fallen",),
     "arm": ("pushed.y",),
-}  # by what is broken: one of those alike in joints, pins, screws and holes
+}  # by what is broken; of joints, pins, screws and holes that are alike, only one is tried
 MATRIX: Final = tuple(f"{broken}.{how}" for broken, hows in _TRIED.items() for how in hows)
 
 

@@ -61,8 +61,8 @@ RACK_TILT: Final = 5.0  # deg: what the play of the guides allows, and no more t
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.1
-"""Greatest torque to turn the rotor all the way round, in both directions, N m: twice its friction of .05 N m,
-which is the same in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. The check of
+"""Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
+which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. The check of
 the reference, 40 oz at the crank, is .35 N m, at which a rotor binds.
 """
 

@@ -148,7 +148,9 @@ def drilled(
 
 
 def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold:
-    """Return the solid of revolution about z of a profile, given by (radius, z) corners in order (m)."""
+    """Return the solid that a profile forms when it is revolved about z. The profile is a list of (radius, z)
+    corners in order (m).
+    """
     return Manifold.revolve(CrossSection([profile]), segments)
 
 

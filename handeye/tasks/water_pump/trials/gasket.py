@@ -129,7 +129,9 @@ _CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
 
 
 def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:
-    """Return a place changed at random by at most `amount` inches in x and y, and by at most .3 degrees."""
+    """Return a place that is changed at random: by at most `amount` inches along x and along y, and by at most .3
+    degrees.
+    """
     x, y, z, turn = place
     dx, dy = rng.uniform(-amount, amount, 2) * INCH
     return x + float(dx), y + float(dy), z, turn + float(rng.uniform(-0.3, 0.3)) * DEGREE

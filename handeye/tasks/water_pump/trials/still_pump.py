@@ -1,5 +1,5 @@
 """The pump's cell in its initial state, for trials of vision: parts are placed at given poses, and located with
-the camera. The locating uses parts and camera as the program knows them.
+the camera. Parts and camera are described as the program knows them.
 """
 
 import math

@@ -63,7 +63,9 @@ class PumpWorld(ArmWorld):
     fixtures: dict[str, Placing]  # error of each fixture
     parts: dict[str, Placing]  # error of each part's place on its fixture, by its body; pins have none
     holes: dict[str, tuple[Point, ...]]
-    """Error of each screw hole of a part (m), by the names in DRILLED; for the base, of the tapped holes."""
+    """Errors (m) of the screw holes of each part in DRILLED, by the name of the part. In the base, these are the
+    tapped holes.
+    """
     part_mass: float  # scale of the masses of base and top
     thread_phase: tuple[float, ...]  # angle at which each thread starts, rad
 

@@ -95,9 +95,9 @@ def _camera() -> Iterator[Quantity]:
             "Noise of the pan and tilt readings. In the vision study, .07 to .10 deg reproduces the errors of 1973."),
         *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
-            "Shape of the raster: the inward shift of a corner as a fraction of its distance from the centre, and "
-            "the shift of the middle of the lines and of the field as a fraction of half their length. Honesty "
-            "study, finding 10: 1 % at the corners."),
+            "Shape of the raster. `pincushion`: inward shift of a corner, as a fraction of its distance from the "
+            "centre. `lines`: shift of the middle of each line along the line, as a fraction of half its length. "
+            "`field`: the same, but down the picture. Honesty study, finding 10: 1 % at the corners."),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
             "Shift of each picture from the previous one, as a fraction of half its width and height: half a pixel. "
             "The paper mentions a slight shift between two pictures; vision study, section 4: up to one pixel."),
@@ -153,9 +153,8 @@ def _parts() -> Iterator[Quantity]:
     )
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Position within the play of its guides or hole, uniformly distributed. The position stays within the play "
-        "at the level `high`, too. A pin "
-        "has no play, because the bevel of its hole centres it."
+        "Position within the play that guides or hole allow, uniformly distributed. The position stays within the "
+        "play at the level `high`, too. A pin has no play, because the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
