@@ -10,9 +10,7 @@ True
 Names are loaded on first use, so `import handeye` itself takes only milliseconds.
 """
 
-TYPE_CHECKING = (
-    False  # as type checkers read it; `typing` would take most of the time, in which Ctrl-C is not ours yet
-)
+TYPE_CHECKING = False  # type checkers take it as True; importing `typing` would delay the handling of Ctrl-C
 if TYPE_CHECKING:
     from handeye import tasks, trials, vision
     from handeye.api.begin import assemble, begin
@@ -120,7 +118,7 @@ _HOMES = {
 """The module that defines each public name."""
 _MODULES = ("tasks", "trials", "vision")
 
-if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
+if not TYPE_CHECKING:  # with this function, type checkers would accept every name
 
     def __getattr__(name: str) -> object:
         """Load a public name from its module when the name is first used."""

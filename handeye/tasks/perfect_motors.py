@@ -31,7 +31,7 @@ class PerfectMotors(AnyTask):
         return Variation()
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        raise Refused("perfect motors cannot be seen")
+        raise Refused("perfect motors have no scene that could be shown")
 
     def judge(self, truth: Truth) -> Findings:
         return {}

@@ -61,7 +61,7 @@ class Journal:
         self._owed: WentBack | None = None  # there was no room for it
         self._file = LineFile(path, "another run", again=again)
         lacking = effective(read_events(path))[: len(events)] != list(events)
-        self.lost = again and lacking  # started again, as events were missing
+        self.lost = again and lacking  # True if the journal was started again because events were missing
         if lacking:
             self._file.clear()
             for event in events:

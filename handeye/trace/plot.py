@@ -63,7 +63,7 @@ _MARKED: Final[Mapping[str, type[AnyEvent]]] = {
     "saved": happened.Saved,
     "picture": happened.PictureTaken,
     "operator": happened.OperatorCalled,
-}  # events that are marked, by what they are called
+}  # the events that are marked, by their names in the plot
 
 
 def plot(trace: Trace, stage: str | None = None) -> Plot:

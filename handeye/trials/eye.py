@@ -16,7 +16,7 @@ class EyeRow(TrialRow, frozen=True, kw_only=True):
     """One attempt of a trial."""
 
     attempt: dict[str, Any] = msgspec.field(default_factory=dict)
-    """The record of the attempt, whose class belongs to the trial."""
+    """The attempt, as the fields of the class that its trial defines."""
     came: str = "missed"
     told: str = ""
 
@@ -42,7 +42,7 @@ EYE: Final = Sweep(
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
-    """Return the sweep for a task's trial, which is called `name`."""
+    """Return the sweep for the trial that a task calls `name`."""
 
     def attempts(rows: Sequence[EyeRow]) -> list[Attempt]:
         found = [msgspec.convert(row.attempt, trial.attempt) for row in rows if row.attempt]

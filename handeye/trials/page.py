@@ -58,8 +58,8 @@ def _rates(found: Figures) -> Iterator[Markup]:
         label="Success rate with confidence intervals",
     )  # fmt: skip
     yield note(
-        "Wilson’s intervals, 95 %; “at least” is the exact one-sided bound. A silent failure is a failed trial that "
-        "the program reported as a success."
+        "Wilson’s intervals, 95 %; “at least” is the exact lower bound, one-sided, 95 %. A silent failure is a failed "
+        "trial that the program reported as a success."
     )
 
 
@@ -131,7 +131,7 @@ def _measures(rows: Sequence[R], found: Figures) -> Markup:
                 figures = (f"{value:.3g}" for value in (spread.median, spread.p95, spread.most))
                 lines.append([cell(name), cell(condition), _bars(strip), *map(figure_cell, figures)])
     return table(
-        [*heads("", "", "each trial; red line: zero"), *figure_heads("median", "95 %", "most")],
+        [*heads("", "", "each trial; red line: zero"), *figure_heads("median", "95 %", "maximum")],
         lines,
         label="Measures",
     )

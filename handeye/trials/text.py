@@ -74,7 +74,7 @@ def _rates(sweep: Sweep[R], conditions: Sequence[ConditionFigures]) -> PlainTabl
 
 def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
     """Return the table of the distributions of measured values, by condition or over all trials."""
-    table = PlainTable(("measure",), "trials", "median", "95 %", "most")
+    table = PlainTable(("measure",), "trials", "median", "95 %", "maximum")
     for each in figures:
         name = f"{each.condition}: " if isinstance(each, ConditionFigures) else ""
         for measure, found in each.measures.items():

@@ -70,7 +70,7 @@ class CameraModel:
             if math.isclose(lens.focal_length, focal_length, rel_tol=1e-6):
                 return lens
         known = " and ".join(f"{lens.focal_length * 1000:.0f} mm" for lens in self.lenses)
-        raise BadArgument(f"no lens of {focal_length * 1000:.0f} mm in the turret; it has {known}")
+        raise BadArgument(f"the turret has no {focal_length * 1000:.0f} mm lens; it has {known}")
 
     def view(self, focal_length: float, pan: float, tilt: float) -> "View":
         """Return the view through the lens with this focal length (m) at these potentiometer readings (rad)."""

@@ -26,7 +26,7 @@ def numbers(given: object, said: str) -> Array:
     except (TypeError, ValueError):  # rows of different lengths, values that are no arrays
         sound = False
     if not sound:
-        raise BadArgument(f"{said}, finite, and not {' '.join(repr(given).split()):.60}")
+        raise BadArgument(f"{said}, in finite numbers, not {' '.join(repr(given).split()):.60}")
     return found.astype(np.float64)
 
 

@@ -138,7 +138,7 @@ def test_a_new_lens_must_be_focused_again():
 
 
 def test_a_lens_that_is_not_there_is_refused():
-    with pytest.raises(InvalidInput, match=r"^no lens of 75 mm"):
+    with pytest.raises(InvalidInput, match=r"^the turret has no 75 mm lens"):
         camera().lens(0.075)
 
 

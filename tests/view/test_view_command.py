@@ -59,7 +59,7 @@ def test_a_folder_without_a_run_is_told_in_a_sentence(command: Command) -> None:
     assert sentences["empty"] == "handeye: empty holds no run"
     assert sentences["begun"] == "handeye: the run in begun has not begun"
     assert sentences["none.mcap"] == "handeye: none.mcap: there is no such file"
-    assert sentences["broken"].startswith("handeye: broken/trace.mcap is not a trace of this program")
+    assert sentences["broken"].startswith("handeye: broken/trace.mcap is not a trace of handeye")
 
 
 @pytest.mark.parametrize("option", [("--seed", "3"), ("--out", "x"), ("--fault", "jaw"), ("--camera", "ray")])

@@ -56,7 +56,7 @@ def test_tilt_turns_the_camera_down():
 
 
 def test_a_lens_that_is_not_in_the_turret_is_refused():
-    with pytest.raises(InvalidInput, match=r"^no lens of 35 mm in the turret; it has 25 mm and 50 mm$"):
+    with pytest.raises(InvalidInput, match=r"^the turret has no 35 mm lens; it has 25 mm and 50 mm$"):
         DRAWING.view(0.035, 0, 0)
 
 

@@ -40,7 +40,7 @@ VARIATION: Final = Variation(*arm(), *hand(), *rubbing(_RUBBING), *_hole())  # t
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWorld(ArmWorld):
-    """One drawn world of the insertion bench."""
+    """One world of the insertion bench, with the values drawn for it."""
 
     clearance: float  # diameter of the hole over that of the pin's nose, m
     chamfer: float  # width of the chamfer around the hole, m

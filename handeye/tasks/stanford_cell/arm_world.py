@@ -15,7 +15,7 @@ from handeye.tasks.stanford_cell.arm_variation import ARM_CENTRE, ARM_PERIOD, JO
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmWorld:
-    """One drawn world of a cell with the Stanford arm."""
+    """One world of a cell with the Stanford arm, with the errors drawn for it."""
 
     drawn: World
     arm: ArmErrors

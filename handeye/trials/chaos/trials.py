@@ -69,7 +69,7 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
     if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
         yield "the state differs from the state without interruptions"
     if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
-        yield f"it ended with {carried.pause.kind}, but without interruptions with {unbroken.pause.kind}"
+        yield f"the run ended with {carried.pause.kind}; without interruptions, it ended with {unbroken.pause.kind}"
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:

@@ -107,7 +107,7 @@ def details(rows: Sequence[Row]) -> tuple[Details, ...]:
     return (
         Details(
             name="operations", title="Contact operations", rows=tuple(operations(rows)),
-            heads=("contact operation", "done", "of", "from", "rate", "to", "at least"),
+            heads=("contact operation", "succeeded", "of", "from", "rate", "to", "at least"),
             span=("low_share", "rate_share", "high_share"),
         ),
         Details(
@@ -116,7 +116,7 @@ def details(rows: Sequence[Row]) -> tuple[Details, ...]:
         ),
         Details(
             name="searches", title="Searches", rows=tuple(search_places(rows)),
-            heads=("search around", "searches", "found", "places: median", "95 %", "most"),
+            heads=("search around", "searches", "found", "places: median", "95 %", "maximum"),
         ),
         margin_details(rows),
     )  # fmt: skip

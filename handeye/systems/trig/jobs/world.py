@@ -78,7 +78,7 @@ VARIATION: Final = Variation(
         0.1,
         "Standard deviation of the nonlinearity of rotary potentiometers. No source: our choice.",
     ),
-)  # quantities of the bench: sigmas of errors, of which each has a stream of its own, and the friction
+)  # quantities of the bench: the friction, and sigmas of errors; each error has a stream of its own
 WEAK, HEAVY, SLIPPERY = "hand.weak", "blocks.heavy", "platter.slippery"
 FAULTS: Final = Catalogue(
     FaultKind(

@@ -51,7 +51,7 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; if it is not defined, teach it as absolute or relative, like the previous position",
+        help="move to a position; one that is not defined is taught: absolute or relative, like that of the last move",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
@@ -78,7 +78,7 @@ TABLE: Final = (
     TrigCommand(usage="UNGRASP", group=STEPS, act=step_commands.hand(False), help="open the hand"),
     TrigCommand(
         usage="SAVPOS POS [n|g]", group=STEPS, takes=("position", "branch"), needs=1, act=step_commands.save,
-        help="set a position to the arm's place during the run",
+        help="during a run, set a position to the place where the arm is",
     ),
     TrigCommand(
         usage="LOOP STEP COUNT", group=STEPS, takes=("step", "count"), needs=2, act=step_commands.loop,
@@ -133,7 +133,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="ENDCAL POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.end_way,
-        help="give a name to the move from the place of CALPOS to the present place of the arm",
+        help="give a name to the move from the place remembered by CALPOS to the present place of the arm",
     ),
     TrigCommand(
         usage="N [COUNT]", group=CURSOR, takes=("count",), act=program_commands.next_step, help="go down COUNT steps"

@@ -43,7 +43,7 @@ class TrigProgram:
     cursor: int = TOP  # the active step
     trail: deque[RecordedStep] = field(default_factory=lambda: deque(maxlen=REMEMBERED))
     forgotten: bool = False  # earlier steps were dropped
-    taken: int | None = None  # the branch that the active step has taken since the cursor came to it
+    taken: int | None = None  # the branch that the active step has taken since the cursor is on it
     cut: HaltedMove | None = None
     paused: int = NONE  # the step before which a run was halted
     ended_at: Place | None = None  # end of the last step

@@ -51,8 +51,9 @@ straight (SCREW_LEAN) and has its length of thread (SCREW_THREAD). But a person 
 of the scar, because a thread that was cut twice strips sooner.
 """
 SOFT: Final = 0.03
-"""Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank pressed
-on a bore with 4 to 32 N went .02 mm into it, with 64 N .033 mm. A shank that cuts metal goes farther.
+"""Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank that was
+pressed on a bore went into it by .02 mm at 4 to 32 N, and by .033 mm at 64 N. A shank that cuts metal goes
+farther.
 """
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel

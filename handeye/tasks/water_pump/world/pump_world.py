@@ -54,7 +54,7 @@ class Placing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PumpWorld(ArmWorld):
-    """One drawn world of the pump."""
+    """One world of the pump, with the errors drawn for it."""
 
     base: Placing
     """The pump base on the belt, in W: its reference point, and the direction of the line between its holes."""
@@ -71,7 +71,7 @@ class PumpWorld(ArmWorld):
 
     @classmethod
     def of(cls, world: World) -> Self:
-        """Sort the values of a drawn world by device and part."""
+        """Sort the values that were drawn for a world by device and part."""
         numbers = range(1, round(world[SCREWS]) + 1)
         return cls(
             **arm_values(world, RUBBING),

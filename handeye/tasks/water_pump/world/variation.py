@@ -1,4 +1,4 @@
-"""The quantities in which worlds of the pump differ from the plan.
+"""The quantities in which the cell of a world differs from the cell that the plan assumes.
 
 The program overcomes these errors with vision, touch and search. Joints, holes and screws are numbered from 1.
 """
