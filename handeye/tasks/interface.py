@@ -104,7 +104,7 @@ class AnyTask(ABC):
     @property
     @abstractmethod
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """The arm's joints by name, each `revolute` or `prismatic`."""
+        """The kind of each joint of the arm, `revolute` or `prismatic`, by the name of the joint."""
 
     @abstractmethod
     def variation(self) -> Variation:
@@ -194,7 +194,7 @@ class Task(AnyTask):
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """The arm's joints by name, each `revolute` or `prismatic`."""
+        """The kind of each joint of the arm, `revolute` or `prismatic`, by the name of the joint."""
         return {joint.name: joint.kind for joint in self.arm.joints}
 
     @property

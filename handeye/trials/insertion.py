@@ -269,7 +269,7 @@ def _beginning(condition: Condition, begun: Runner, trial: InsertionTrial, plan:
 
 
 def _told(runner: Runner) -> str:
-    """Return the text of the call to the operator."""
+    """Return the text with which the program called the operator."""
     if runner.call is None:
         return runner.trouble or ""
     return call_sentence(runner.call.message, runner.call.error, runner.call.cause)

@@ -43,7 +43,9 @@ class Television:
 
     @cached_property
     def message(self) -> str:
-        """The picture as a message for pages. Without a picture, the markup in the message is empty."""
+        """The picture, encoded as a message for the viewers' pages. Without a picture, the markup in the message
+        is empty.
+        """
         shown = "" if self.picture is None else figure(self.picture, self.picture.name)
         return msgspec.json.encode({"television": str(shown)}).decode()
 

@@ -44,7 +44,7 @@ def beams(
         beyond: least intensity beyond the edge; edges to lower intensities are passed over.
 
     Raises:
-        BadArgument: an argument is of another kind or shape, or not a finite number.
+        BadArgument: an argument has the wrong type or shape, or is not finite.
     """
     _scan(scan)
     from_where, ways = _points(starts, "starts"), _points(directions, "directions")
@@ -88,7 +88,7 @@ def localise(
         tries: greatest number of boxes to grow.
 
     Raises:
-        BadArgument: an argument is of another kind or shape, or not a finite number.
+        BadArgument: an argument has the wrong type or shape, or is not finite.
     """
     _scan(scan)
     corners = quadrilateral(window)
@@ -130,7 +130,7 @@ def characterise(
             border of the hole.
 
     Raises:
-        BadArgument: an argument is of another kind or shape, or not a finite number.
+        BadArgument: an argument has the wrong type or shape, or is not finite.
     """
     _scan(scan)
     place = places(seed, "the seed is a place (u, v)")

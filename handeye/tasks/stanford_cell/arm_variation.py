@@ -123,7 +123,7 @@ def arm() -> Iterator[Quantity]:
             "Relative deviation of a link's true mass from the controller's value.", least=-90.0,
             unsourced=f"the masses were published without a tolerance. The arm weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-            "Distance of a link's centre of mass from its joint: relative deviation of the true value from the "
+            "Relative deviation of the true distance between a link's centre of mass and its joint from the "
             "controller's value.", least=-90.0,
             unsourced="the centres of mass were also published without a tolerance. The arm weighs its links. "
                 f"{DOUBLED}"),

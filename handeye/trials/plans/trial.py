@@ -101,7 +101,7 @@ def events_digest(events: list[AnyEvent]) -> str:
 
 
 def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
-    """Return the fields that the rows of all runs have."""
+    """Return the fields that the row of every kind of run has."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
     return {
         "ended": ended,

@@ -118,7 +118,7 @@ class PalletJob(_Job):
 
 
 class BucketJob(_Job):
-    """The first example: drop a block into a bucket, and put another one in its place."""
+    """The first example: drop a block into a bucket, and put another block where the first one was."""
 
     task, undoable = BUCKET_TASK, False
 

@@ -93,10 +93,12 @@ class Pallet(_BlocksTask):
 
 
 class Bucket(_BlocksTask):
-    """Drop a block into a bucket, and put another one in its place."""
+    """Drop a block into a bucket, and put another block where the first one was."""
 
     name = "bucket"
-    words = Words(product="the bucket", done="The block is in the bucket, and another block is in its place.")
+    words = Words(
+        product="the bucket", done="The block is in the bucket, and another block is where the first one was."
+    )
 
     def judge(self, truth: Truth) -> Findings:
         seen = initial_scene(truth)

@@ -25,7 +25,9 @@ _MIN_MOTION: Final = 1e-6  # m that give a step a direction
 
 
 def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Reverse the last step, which stays on the trail. Returns the reason if the reversal was stopped, or None."""
+    """Reverse the last step. The caller removes the step from the trail. Returns the reason if the reversal was
+    stopped, or None.
+    """
     done = program.trail[-1]
     node = program.graph[done.node]
     match node.type:

@@ -71,8 +71,8 @@ ROTOR_PLACE: Final = 0.1  # mm from its bearing, and of its crank: the bearing i
 ROTOR_LEAN: Final = 0.1  # deg against the top, which it is drawn square to
 
 STILL: Final = 1.0
-"""Greatest speed of any point of a part or of the arm (mm/s). While contacts come to rest, parts at rest move
-at up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, .01 mm/s at the hand.
+"""Greatest speed of any point of a part or of the arm (mm/s). While contacts come to rest, parts at rest move at
+up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, which is .01 mm/s at the hand.
 """
 
 REST: Final = 0.25

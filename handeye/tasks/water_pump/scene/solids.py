@@ -1,4 +1,5 @@
-"""Makes exact solids of the pump's parts from the dimensions with manifold3d, for display and for clearances.
+"""Makes exact solids of the pump's parts, with manifold3d and from their dimensions, for display and for
+clearances.
 
 Making a solid takes longer than compiling the whole scene. Surfaces that are the same in all worlds are
 therefore kept for the next world.

@@ -46,7 +46,7 @@ def variation() -> Variation:
         *_make(), *_belt(), *arm(), *hand(),
         *group(
             "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
-            "Noise of the screwdriver's motor current, as torque.",
+            "Noise of the screwdriver's motor current, expressed as a torque.",
             unsourced="the noise is about a hundredth of the torque at which the clutch of the screwdriver slips. "
                 "Bound: .02 N m, the torque of a clean thread, which the program can feel.",
         ),
