@@ -32,7 +32,7 @@ def main() -> None:
 
 
 def _hear(number: int) -> bool:
-    """Make a signal end the program immediately. Returns False if the signal is ignored, as it is after `nohup`."""
+    """Make a signal end the program immediately. Returns False if the signal is ignored, as after `nohup`."""
     if signal.getsignal(number) == signal.SIG_IGN:
         return False
     signal.signal(number, lambda *_: os._exit(130))

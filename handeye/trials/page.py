@@ -58,8 +58,8 @@ def _rates(found: Figures) -> Iterator[Markup]:
         label="Success rate with confidence intervals",
     )  # fmt: skip
     yield note(
-        "Wilson’s intervals, 95 %; “at least” is the exact lower bound, one-sided, 95 %. A silent failure is a failed "
-        "trial that the program reported as a success."
+        "Wilson’s intervals, 95 %; “at least” is the exact lower bound, one-sided, 95 %. A silent failure is a "
+        "failed trial that the program reported as a success."
     )
 
 

@@ -224,7 +224,7 @@ def _centre(
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
-    """Return a place as a picture point, and the greatest distance (points) from there to the border of its hole."""
+    """Return a place as a picture point, and the greatest distance from there to its hole's border (points)."""
     u, v = view.project(place)[0].tolist()
     return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 

@@ -53,7 +53,7 @@ def match(
     Both pictures must be taken with the same aim, target voltage and arm position. The part must have an outline.
     """
     if part.outline is None:
-        raise BadArgument("to compare pictures of a part, vision needs its outline, which the program does not give")
+        raise BadArgument("to compare pictures of a part, vision needs its outline; the program gives none")
     x, y, yaw = pose
     (corners,) = silhouettes(view, part, (x, y), np.array([yaw - part.at[3]]))
     hull = cv2.convexHull(corners.astype(np.float32))[:, 0]

@@ -181,7 +181,7 @@ class Scan:
         return math.floor(back), math.floor(ahead)
 
     def _heights(self, places: Array) -> Array:
-        """Return the signed distances, not normalised, of places from the sides of the window, shape (n, sides)."""
+        """Return the signed distances of places from the sides of the window, not normalised: shape (n, sides)."""
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:

@@ -138,8 +138,8 @@ def _friction() -> Iterator[Quantity]:
     """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, varied by a quarter. Without this error, a joint has its mean friction; a "
-        "value of 0 means no friction."
+        "Coulomb friction of the joints, varied by a quarter. Without this error, a joint has its mean "
+        "friction; a value of 0 means no friction."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
@@ -149,9 +149,9 @@ def _friction() -> Iterator[Quantity]:
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
         f"{what} Inferred from the paper, in which a released arm stays in place. The friction of joints 2 and 3 "
-        "therefore withstands half a converter step of their torques plus the gravity that remains after the arm has "
-        "weighed its links (at the parked posture, in the worst of 200 worlds, .25 N m and .7 N); the friction of the "
-        "wrist joints withstands half a converter step of their torques.",
+        "therefore withstands half a converter step of their torques plus the gravity that remains after the "
+        "arm has weighed its links (at the parked posture, in the worst of 200 worlds, .25 N m and .7 N); the "
+        "friction of the wrist joints withstands half a converter step of their torques.",
         nominal=means[1:], least=0.0,
     )  # fmt: skip
 

@@ -69,7 +69,8 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
     if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
         yield "the state differs from the state without interruptions"
     if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
-        yield f"the run ended with {carried.pause.kind}; without interruptions, it ended with {unbroken.pause.kind}"
+        kind = unbroken.pause.kind
+        yield f"the run ended with {carried.pause.kind}; without interruptions, it ended with {kind}"
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
@@ -214,7 +215,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
-    """The same trial with a schedule that was reduced as far as it still fails; None if the trial does not fail."""
+    """The same trial with a schedule reduced as far as it still fails; None if the trial does not fail."""
 
     @property
     def outcome(self) -> str:

@@ -47,8 +47,8 @@ class KeptOptions:
         Path | None,
         Parameter(
             name=["--out", "-o"],
-            help="Folder for the run: trace, checkpoints, result, outcome of the job (job.json), program, and report "
-            "(report.html). `handeye resume` and `handeye dismantle` continue the run in this folder.",
+            help="Folder for the run: trace, checkpoints, result, outcome of the job (job.json), program, and "
+            "report (report.html). `handeye resume` and `handeye dismantle` continue the run in this folder.",
         ),
     ] = None
     video: Annotated[
@@ -109,7 +109,7 @@ def bucket(
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
-    """Drop a block into a bucket, and put another where the first one was: the paper's first example, with physics.
+    """Drop a block into a bucket, and put another where the first was: the paper's first example, with physics.
 
     The program is taught and run in a random world, and a referee judges the result. It is not run backwards,
     because a block in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back`

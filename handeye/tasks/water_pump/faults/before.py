@@ -196,8 +196,8 @@ def _screws(count: int) -> Iterator[PartFault]:
         )  # fmt: skip
         yield _fault(
             f"screw.{number}.burred",
-            f"A burr increases the radius of the point of screw {number} by this amount; from .35 mm on, the screw "
-            "enters no tapped hole.",
+            f"A burr increases the radius of the point of screw {number} by this amount; from .35 mm on, the "
+            "screw enters no tapped hole.",
             partial(_thick_point, screw), calls(detect.misfit_screw(number), loose),
             Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip

@@ -59,8 +59,8 @@ _FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
 _WITHIN_AGREEMENT: Final = (
-    "A deviation of up to 2 % of a long motion is within the errors of the joint's two sensors; near zero, a factor "
-    "has no effect."
+    "A deviation of up to 2 % of a long motion is within the errors of the joint's two sensors; near zero, a "
+    "factor has no effect."
 )
 _WITHIN_SEARCHES: Final = "The searches and CENTER find parts in spite of small displacements."
 _WITHIN_DRIVES: Final = (
@@ -68,8 +68,8 @@ _WITHIN_DRIVES: Final = (
 )
 
 _WITHIN_WEIGHTS: Final = (
-    "Only joints 2 and 3 carry weight, and the arm knows the weight on joint 2 to within 6 %, and on joint 3 to within "
-    "17 %. If the error is present from the start, the arm takes it for a different weight of the links."
+    "Only joints 2 and 3 carry weight, and the arm knows the weight on joint 2 to within 6 %, and on joint 3 to "
+    "within 17 %. If the error is present from the start, the arm takes it for a different weight of the links."
 )
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
 
@@ -190,7 +190,8 @@ def _joints() -> Iterator[DeviceFault]:
         )  # fmt: skip
         yield declared(
             f"gear.{number}.slips",
-            f"The gear {joint} slips by this amount within {SLIP_S:g} s; neither sensor of the joint shows the slip.",
+            f"The gear {joint} slips by this amount within {SLIP_S:g} s; neither sensor of the joint shows the "
+            "slip.",
             ((pot, _slipped), (tachometer, _slipping)),
             ExpectedDetection(
                 calls=(detect.JOINT_OR_PLACE,), harmless=_WITHIN_SEARCHES
@@ -250,8 +251,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "When a screw seats, a factor of 1.1 is within the noise of the current; when the motor starts, a factor of .7 "
-        "is."
+        "A factor of 1.1 is within the noise of the current when a screw seats, and a factor of .7 is within the "
+        "noise when the motor starts."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
@@ -263,8 +264,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         f"{motor}.slow", "The screwdriver's motor turns at the commanded speed times this factor.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns more slowly seats equally well. Half the speed is noticed, because the motor "
-                "then reaches its speed sooner than usual.",
+            harmless="A screw that turns more slowly seats equally well. Half the speed is noticed, because the "
+                "motor then reaches its speed sooner than usual.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip
