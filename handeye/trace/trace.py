@@ -77,7 +77,7 @@ class Trace:
 
     @property
     def times(self) -> Array:
-        """Times at the end of each servo period (s), shape (n,)."""
+        """Time at the end of each servo period (s), shape (n,)."""
         return self.motion.times
 
     @property

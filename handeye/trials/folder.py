@@ -55,7 +55,7 @@ _NAMES: Final = {
     "on_stop": "answers of the operator",
     "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
-"""Words for the fields of a head."""
+"""Names of the fields of a head, for messages."""
 
 
 class Head(Record, frozen=True, kw_only=True):

@@ -109,7 +109,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def cause(self) -> str:
-        """Cause of the failure, in words. Equal causes have equal words, to count failures by cause."""
+        """Cause of the failure, in words. Equal causes have equal words, so failures can be counted by cause."""
         return self.detail
 
     @property

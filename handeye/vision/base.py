@@ -38,7 +38,7 @@ WIDTHS: Final = (0.8, 1.2)
 HEIGHTS: Final = (0.75, 1.25)  # accepted box size, over the range the model gives for all TURNS
 # All figures above: vision study, section 1.2.
 
-Rectangle = tuple[float, float, float, float]  # x, y from, x, y to, part coordinates, m
+Rectangle = tuple[float, float, float, float]  # from x, y to x, y, in part coordinates, m
 
 
 def fitting(view: View, part: Part) -> Callable[[BoundingBox], bool]:
@@ -260,7 +260,7 @@ def _confirm(
 class PartMatch:
     """Result of comparing a part in two pictures."""
 
-    cause: PartAstray | None  # None: it stands as it stood
+    cause: PartAstray | None  # None: the part stands as before
     outline: tuple[tuple[float, float], ...]  # expected in the second picture, corners (u, v)
     shift: float  # m against its surroundings, at the height of its face
     unlike: float  # fraction of its points that look different, after aligning

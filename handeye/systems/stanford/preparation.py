@@ -32,7 +32,7 @@ class Preparation(Record, frozen=True, kw_only=True):
     calibration: Calibration | None
     lens: float  # focal length of the lens in place, m
     seconds: float  # simulated time that it took
-    friction_s: float  # of these, the arm measured its friction and weighed its links
+    friction_s: float  # part of it in which the arm measured its friction and weighed its links
 
 
 def preparation_of(

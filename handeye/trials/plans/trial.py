@@ -198,4 +198,4 @@ DISMANTLING: Final = Sweep(
     narrated=True,
     details=lambda rows: (margin_details([row for row in rows if row.verdict != "not built"]),),
 )
-"""Sweep of programs that are executed and then undone by the arm."""
+"""Sweep of programs: each is executed, and then the arm undoes the work."""

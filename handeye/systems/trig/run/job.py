@@ -32,20 +32,20 @@ class JobReport(Record, frozen=True, kw_only=True):
     """The result of a job, including its reversal."""
 
     job: JobName
-    seed: Seed  # of its world
-    world: str = ""  # its specification in words, where that is more than a seed
+    seed: Seed  # seed of the world
+    world: str = ""  # specification of the world in words, if it is more than a seed
     blocks: int | None = None
-    interrupted_after: int | None = None  # steps after which it was reversed
+    interrupted_after: int | None = None  # number of steps after which the job was reversed
     outcome: Outcome
     forward: RunLeg | None = None
     back: RunLeg | None = None
-    checks: Mapping[str, Check] = {}  # referee's, at the end of the program
-    checks_back: Mapping[str, Check] = {}  # referee's, after reversal
-    goals: tuple[tuple[float, float], ...] = ()  # of the blocks in order of taking, mm
-    lying: Mapping[When, tuple[BlockPose, ...]] = {}  # true, as ordered in `goals`
-    told: tuple[str, ...] = ()  # ends of both legs in words
-    ended_s: float | None = None  # end of the program by the arm's clock
-    arm_s: float = 0.0  # by the arm's clock, teaching included
+    checks: Mapping[str, Check] = {}  # the referee's findings at the end of the program
+    checks_back: Mapping[str, Check] = {}  # the referee's findings after the reversal
+    goals: tuple[tuple[float, float], ...] = ()  # wanted places of the blocks, in the order in which the arm takes them, mm
+    lying: Mapping[When, tuple[BlockPose, ...]] = {}  # true poses, in the order of `goals`
+    told: tuple[str, ...] = ()  # a sentence on how each leg ended
+    ended_s: float | None = None  # time at which the program ended, on the arm's clock
+    arm_s: float = 0.0  # time on the arm's clock, including the teaching
 
     @property
     def wrong(self) -> tuple[Check, ...]:
