@@ -14,10 +14,10 @@ ENTRY = Entry(
         "undo": "its motions are not recorded; `back` in the stepper returns to an earlier state of the run",
     },
     commands="""
-ml = handeye.systems.ml.cli.commands:ml: MOS and ML (IBM, 1975): guarded motions, and a level that watches all sensors every 10 ms.
-trials follow = handeye.systems.ml.cli.follow:follow_trials: Follow an outline by touch in many worlds: success rate, errors of touches.
-trials blocks = handeye.systems.ml.cli.toys:blocks_trials: Stack three blocks by touch in many worlds: success rate, errors of places.
-trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by touch in many worlds: success rate, errors of places.
+ml = handeye.systems.ml.cli.commands:ml: MOS and ML (IBM, 1975): guarded motions, and a real-time level that watches all sensors every 10 ms.
+trials follow = handeye.systems.ml.cli.follow:follow_trials: Follow an outline by touch in many worlds: success rate, errors of the touches.
+trials blocks = handeye.systems.ml.cli.toys:blocks_trials: Stack three blocks by touch in many worlds: success rate, position errors.
+trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by touch in many worlds: success rate, position errors.
 trials support = handeye.systems.ml.cli.support:support_trials: Assemble the rail support in many worlds: success rate, depths, forces.
 trials orient = handeye.systems.ml.cli.parts:orient_trials: Turn a bar into a known attitude by touch in many worlds: success rate, errors.
 trials bin = handeye.systems.ml.cli.parts:bin_trials: Take parts out of a bin and judge them by touch in many worlds: success rate.

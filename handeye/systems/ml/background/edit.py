@@ -40,7 +40,7 @@ def query(mos: "Interpreter", table: int, *place: int) -> None:
 
 
 def show(name: str, mos: "Interpreter", line: int | None = None, word: int | None = None) -> None:
-    """Print a word of a table; a line of it, with the names of its words; or all lines that are not zero."""
+    """Print one word of a table, one line with the names of its words, or every line that has a word other than 0."""
     shape, read = mos.level.shapes[name], mos.level.read
     if line is not None and word is not None:
         mos.print(str(read(name, line, word)))
@@ -59,7 +59,7 @@ def show(name: str, mos: "Interpreter", line: int | None = None, word: int | Non
 
 
 def file(mos: "Interpreter", table: int, line: int, word: int, *values: int) -> None:
-    """Write consecutive words of a line. If one of them does not exist, nothing is written."""
+    """Write consecutive words of a line. If the line has fewer words, nothing is written."""
     name = table_name(table)
     mos.level.read(name, line, word + len(values) - 1)
     for at, value in enumerate(values, word):

@@ -1,7 +1,8 @@
-"""Motions in the frame of the right arm's gripper, which the host computes.
+"""Computes, as the host, motions in the frame of the right arm's gripper.
 
-At zero the gripper's axes are those of the slides: x to the right (motor 4), y back (motor 3), z down (motor 2), along
-the fingers. Roll (8) turns about z, then yaw (9) about x, then pitch (10) about y. All three axes meet in the wrist.
+When all three angles are 0, the gripper's axes are parallel to those of the slides: x to the right (motor 4), y back
+(motor 3), and z down (motor 2), along the fingers. Roll (motor 8) turns about z, then yaw (9) about x, then pitch (10)
+about y. The three axes meet in the wrist.
 """
 
 from collections.abc import Mapping
@@ -18,13 +19,13 @@ MOTORS: Final = (_X, _Y, _Z, _ROLL, _YAW, _PITCH)
 
 
 def translated(goals: Mapping[int, int], along: tuple[int, int, int]) -> dict[int, int]:
-    """Return goals for a motion along the axes of the gripper (units)."""
+    """Return the goals of a motion along the axes of the gripper (ML units)."""
     moved = _frame(goals) @ np.array(along, float)
     return {motor: goals[motor] + round(float(by)) for motor, by in zip((_X, _Y, _Z), moved, strict=True)}
 
 
 def rotated(goals: Mapping[int, int], yaw: int, pitch: int, roll: int) -> dict[int, int]:
-    """Return goals for a rotation about the axes of the gripper (.01 deg), which leaves the fingertips in place."""
+    """Return the goals of a rotation about the axes of the gripper (.01 deg). The fingertips stay in place."""
     before = _frame(goals)
     after = before @ _rotation({_ROLL: roll, _YAW: yaw, _PITCH: pitch})
     shift = TIPS * (before[:, 2] - after[:, 2])
@@ -49,7 +50,9 @@ def _rotation(angles: Mapping[int, int]) -> Array:
 
 
 def _angles(frame: Array, near: Mapping[int, int]) -> dict[int, int]:
-    """Return the angles of a frame (.01 deg): of the two solutions, the one nearer to some angles."""
+    """Return the angles of the motors (.01 deg) at which the gripper has a frame. There are two solutions: the one
+    nearer to the angles `near` is returned.
+    """
     yaw = asin(min(max(float(frame[2, 1]), -1.0), 1.0))
     if hypot(frame[2, 0], frame[2, 2]) < 1e-9:  # roll and pitch turn about one axis: keep the pitch
         pitch = radians(near[_PITCH] / 100)
@@ -69,6 +72,6 @@ def _angles(frame: Array, near: Mapping[int, int]) -> dict[int, int]:
 
 
 def _nearest(angle: float, near: int) -> int:
-    """Return an angle in .01 deg, within half a turn of another one."""
+    """Convert an angle from radians to .01 deg, and add whole turns until it is within half a turn of `near`."""
     units = round(angle * 18_000 / pi)
     return units - 36_000 * round((units - near) / 36_000)

@@ -19,24 +19,27 @@ Procedure = Callable[..., None]  # its parameters are the interpreter and the va
 
 
 class Host:
-    """A host that keeps programs in its memory. `procedures` are those of the user, by the names of the commands."""
+    """A host that keeps programs in its memory.
+
+    `procedures` has the user's functions by the names of the commands that call them, `UPROCA` to `UPROCD`.
+    """
 
     def __init__(self, procedures: Mapping[str, Procedure] | None = None) -> None:
         self.procedures = dict(procedures or {})
         self.texts: dict[str, str] = {}
 
     def read(self, name: str) -> str:
-        """Return the text of a program. Raises InvalidInput if there is none of that name."""
+        """Return the text of a program. Raises InvalidInput if the host has no program of that name."""
         if name not in self.texts:
             raise MlError("M16", f"the host has no program {quoted(name)}")
         return self.texts[name]
 
     def write(self, name: str, text: str) -> None:
-        """Keep the text of a program. Raises InvalidInput if that is impossible."""
+        """Store the text of a program. Raises InvalidInput if it cannot be stored."""
         self.texts[name] = text
 
     def interpreter(self) -> None:
-        """Start the interpreter of the arm language. Raises InvalidInput if that is impossible."""
+        """Start the interpreter of the arm language. Raises InvalidInput if it cannot be started."""
         raise MlError("M16", "this host has no interpreter of the arm language")
 
 
@@ -55,7 +58,9 @@ def load_program(mos: "Interpreter", name: str) -> None:
 
 
 def replace_program(mos: "Interpreter", source: Source) -> None:
-    """Store a program in place of the present one. A running program ends. Raises BadFile if it has mistakes."""
+    """Replace the stored program by the program of `source`, and end a running program. Raises BadFile if the new
+    program has mistakes.
+    """
     lines, found = parsed(source)
     if found:
         row, _ = source.position(found[0].primary.span.start)

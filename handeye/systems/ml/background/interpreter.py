@@ -1,5 +1,5 @@
-"""The interpreter of ML: it executes the statements of one arm, typed or stored. A statement that must wait leaves
-its wait in the memory; the caller then lets cycles pass until `ready`.
+"""The interpreter of ML: it executes the statements of one arm, typed or stored. A statement that must wait records in
+the memory what it waits for; the caller then lets cycles pass until `ready` returns True.
 """
 
 from collections.abc import Callable, Mapping
@@ -38,8 +38,8 @@ class Interpreter:
         *,
         joystick: bool = False,
     ) -> None:
-        """Begin with no program running. `levels` are those of all installed arms; `host` is None if there is no
-        host, and then ML works without its commands.
+        """Begin with no program running. `levels` has the real-time levels of all installed arms. If `host` is None,
+        the commands that need a host raise an error.
         """
         self.levels, self.program, self.host = levels, program, host
         self._own = levels[side]  # whose registers and clock the program uses, whatever arm it commands
@@ -55,7 +55,9 @@ class Interpreter:
 
     @property
     def _emergency(self) -> str:
-        """The emergency that has stopped the arm of the program, or the arm that it commands; empty if none has."""
+        """The emergency that has stopped the program's own arm or the arm that it now commands; empty if neither was
+        stopped.
+        """
         return self.level.stopped or self._own.stopped
 
     @property
@@ -64,7 +66,7 @@ class Interpreter:
         return bool(self.memory.at or self.memory.waits)
 
     def remember(self, memory: MutableRecord) -> None:
-        """Continue from a copy of a state. Raises BadFile if it does not fit."""
+        """Continue from a copy of a state. Raises BadFile if the state does not fit this machine."""
         if not isinstance(memory, BackgroundMemory) or memory.side not in self.levels:
             raise BadFile("the state of the program does not fit this machine")
         put_back(self.memory, memory)
@@ -103,7 +105,9 @@ class Interpreter:
         return bool(self.memory.stopped)
 
     def ready(self) -> bool:
-        """Return True, and end the wait, if no statement waits any longer. Stops the program in an emergency."""
+        """End the wait of a statement if it is over. Returns True if no statement waits any longer. In an emergency,
+        stops the program.
+        """
         memory, level = self.memory, self.level
         if self.running and self.check():
             return True
@@ -135,7 +139,7 @@ class Interpreter:
             self.conclude()
 
     def type_line(self, text: str) -> None:
-        """Store a line that has a sequence number; execute any other line. Raises MlError or BadArgument, and then
+        """Store a line that has a sequence number; execute any other line. If MlError or BadArgument is raised,
         nothing has changed.
         """
         line = statement_of(text)
@@ -156,8 +160,8 @@ class Interpreter:
             raise
 
     def file(self, text: str) -> None:
-        """Execute a typed FILE while another statement is being executed. Raises MlError or BadArgument, and then
-        nothing has changed.
+        """Execute a typed FILE while another statement is being executed. If MlError or BadArgument is raised, nothing
+        has changed.
         """
         line = statement_of(text)
         if line is None or line.number is not None or line.statement.code != "FILE":
@@ -193,7 +197,9 @@ class Interpreter:
         memory.stopped = why
 
     def _count(self) -> None:
-        """Count the statement, and wait for the next cycle if the computer has no more time in this one."""
+        """Count the statement. If the computer has no time for another statement in this cycle, wait for the next
+        cycle.
+        """
         memory, level = self.memory, self._own
         if memory.cycle != level.now:
             memory.cycle, memory.share = level.now, 0

@@ -27,8 +27,9 @@ def start(mos: "Interpreter", goals: Mapping[int, int], *, wait: bool = True) ->
 
 
 def distances(mos: "Interpreter", values: Mapping[int, int]) -> dict[int, int]:
-    """Return the goals that are some distances from the present goals. Absent motors keep their distance, which
-    the real-time level refuses."""
+    """Return the present goals plus distances. For an absent motor, return the distance itself as its goal; the
+    real-time level then refuses the motion.
+    """
     level = mos.level
     return {
         motor: value + (level.goal(motor) if motor in level.motors else 0)
@@ -38,13 +39,13 @@ def distances(mos: "Interpreter", values: Mapping[int, int]) -> dict[int, int]:
 
 
 def positions(mos: "Interpreter", values: tuple[int, ...]) -> dict[int, int]:
-    """Return the goals of motors from 1 on. A 0 for an absent motor means nothing."""
+    """Return the goals of the motors from motor 1 on. A 0 for an absent motor is ignored."""
     motors = mos.level.motors
     return {motor: value for motor, value in enumerate(values, 1) if value or motor in motors}
 
 
 def here(mos: "Interpreter") -> Point:
-    """Return the positions of all motors; those of absent ones are 0."""
+    """Return the positions of all motors; absent motors have position 0."""
     level = mos.level
     return tuple(level.position(motor) if motor in level.motors else 0 for motor in range(1, MOTORS + 1))
 
@@ -87,8 +88,8 @@ def go_mean(mos: "Interpreter", one: int, other: int) -> None:
 
 
 def go_line(mos: "Interpreter", one: int, other: int) -> None:
-    """Go to the foot of the perpendicular from the present goals, in the space of all motors. Half a unit is
-    rounded up.
+    """Go to the point nearest to the present goals on the line through two POINTs, in the space of all motors. Half a
+    unit is rounded up.
     """
     level, a, b = mos.level, mos.program.point(one), mos.program.point(other)
     goals = [level.goal(motor) if motor in level.motors else 0 for motor in range(1, MOTORS + 1)]
@@ -100,7 +101,7 @@ def go_line(mos: "Interpreter", one: int, other: int) -> None:
 
 
 def joy(mos: "Interpreter", number: int) -> None:
-    """Begin to guide the arm; the wait ends when a function key is pressed."""
+    """Begin to guide the arm with the joystick; the wait ends when a function key is pressed."""
     mos.program.check_point(number)
     if mos.level.flags:
         start(mos, {})

@@ -17,7 +17,7 @@ _DOUBLE: Final = 1 << 31
 
 
 def table_name(number: int) -> str:
-    """Return the name of a table that stands for it in a word. Raises MlError (M11)."""
+    """Return the name of the table that a word stands for. Raises MlError (M11) if no table has this name."""
     name = TABLE_NAMES.get(number)
     if name is None:
         raise MlError("M11", f"{number} is not the name of a table")

@@ -31,7 +31,7 @@ class StoredProgram:
         self._numbers: list[int] | None = None
 
     def remember(self, memory: MutableRecord) -> None:
-        """Continue from a copy of a state. Raises BadFile if it is not sound."""
+        """Continue from a copy of a state. Raises BadFile if the state is not one of a program in ML."""
         if not isinstance(memory, ProgramMemory):
             raise BadFile("this is not the state of a program in ML")
         for number, text in memory.statements.items():
@@ -49,7 +49,7 @@ class StoredProgram:
         return self._numbers
 
     def store(self, number: int, statement: Statement) -> None:
-        """Store a statement, in place of the one that has its number."""
+        """Store a statement; it replaces the stored statement with the same number."""
         self.memory.statements[number] = statement_text(statement.code, statement.parameters)
         self.memory.points.pop(number, None)
         if statement.point:

@@ -1,5 +1,5 @@
-"""The tables that the background level keeps: what GET, QUERY and the dashboard see of program, points, trace and
-host.
+"""The tables that the background level keeps, in which GET, QUERY and the dashboard see the program, its points, the
+trace and the host.
 """
 
 from typing import TYPE_CHECKING, Final
@@ -22,7 +22,7 @@ _PACKED: Final = 4  # parameters whose forms fit into a word
 
 
 def show_tables(mos: "Interpreter", level: Level) -> None:
-    """Let the tables of a level show what the interpreter keeps."""
+    """Connect tables of the real-time level to the data that the interpreter keeps."""
     tables: dict[str, View] = {
         "TK": TaskTable(mos.program), "PT": RecentPoints(mos.program), "CC": CommandCodes(), "ER": ErrorTexts(),
         "TR": TraceBuffer(mos), "LG": SessionLog(mos), "HL": HostLink(mos),
@@ -46,8 +46,9 @@ class _ReadOnly:
 
 
 class TaskTable:
-    """The table TK: the command of a statement, its 15 parameters, and four words with their forms. A POINT has its
-    number of command and the positions of 12 motors. A line without a statement has zeros.
+    """The table TK: in each line, the number of a statement's command, its 15 parameters, and four words that say in
+    which form the parameters are written. The line of a POINT has the number of the command and the positions of 12
+    motors. A line without a statement has zeros.
     """
 
     def __init__(self, program: StoredProgram) -> None:
@@ -155,7 +156,9 @@ class SessionLog(_ReadOnly):
 
 
 class HostLink(_ReadOnly):
-    """The table HL: whether there is a session with the host, and the numbers of its commands and of programs read."""
+    """The table HL: whether there is a session with the host, how many commands were sent to the host, and how many
+    programs were read from it.
+    """
 
     def __init__(self, mos: "Interpreter") -> None:
         self._mos = mos

@@ -53,7 +53,7 @@ _STRAIN_PARTS: Final = tuple(part for channel in STRAINS for part in channel.par
 
 
 class ArmState(Record, frozen=True, kw_only=True):
-    """What the arm remembers besides the state of its servos."""
+    """The state of the arm, without that of its servos."""
 
     goal: tuple[float, ...]  # last goals of the three slides, m
     ways: tuple[int, ...]  # directions in which these goals have moved: -1, 0 or 1
@@ -92,7 +92,9 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._range, self._signalled = RANGED, tuple[str, ...]()
         self._last: AxesReading | None = None
         self.torque: Callable[[int], float] = lambda _: 0.0
-        """Function from the number of a cycle to the torque of the power tool, as its current shows it (N m)."""
+        """Function that takes the number of a cycle and returns the torque of the power tool, as its current shows
+        it (N m).
+        """
         self._servos = BenchAxes(bench, AXES, period=CYCLE, name="servos", bent=self._bent)
         self._servos.power(on=False)
         self._goal = self._servos.read().q[_SLIDES]
@@ -102,7 +104,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
 
     @scene_for("a rectilinear arm")
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Find the parts of the arm in a scene. The wand may be missing."""
+        """Find the parts of the arm in a scene, which may lack the wand."""
         at = [int(model.sensor(part).adr[0]) for part in _sensor_names()]
         self._gauges, self._switches = at[:-2], at[-2:]
         wand = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in ("wand_x", "wand_y")]
@@ -141,7 +143,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._signalled = tuple(sorted({*self._signalled} - {interlock} | ({interlock} if on else set())))
 
     def _felt(self, time: float) -> dict[str, float]:
-        """Return the values of all channels, by their parts."""
+        """Return the value of each part of each channel."""
         data = self._bench.data
         cycle = round(time / CYCLE)
         noise = self._noise[cycle % _NOISES]
@@ -159,7 +161,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         return felt
 
     def _ranged(self) -> float:
-        """Return the distance of the nearest object in the cone of the range finder (m)."""
+        """Return the distance (m) of the nearest object in the cone of the range finder."""
         model, data, (met, far) = self._bench.model, self._bench.data, self._met
         ways = self._rays @ data.site_xmat[self._eye].reshape(3, 3).T
         at = data.site_xpos[self._eye]
@@ -171,7 +173,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     # -- potentiometers --------------------------------------------------------------------------------
 
     def _bent(self, q: Array) -> Array:
-        """Return the differences between true and indicated positions."""
+        """Return by how much the true positions differ from those that the potentiometers show."""
         return np.asarray(self._bends * np.sin(2 * np.pi * q / _WAVE + self._phases) + self._offsets)
 
     def _offset(self, slide: int) -> None:
@@ -183,7 +185,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
 
     @property
     def servo_period(self) -> ServoPeriod:
-        """The present state of the arm for traces and pictures: the joints, and forces on the fingers."""
+        """The present joint positions, forces and readings of the arm, for traces and pictures."""
         data, reading = self._bench.data, self.read()
         channels = {channel: tuple(reading.channels[p] for p in channel.parts) for channel in self.traced}
         sensed = Sensed(
@@ -235,7 +237,7 @@ def _sensor_names() -> tuple[str, ...]:
 
 
 def _cone(half: float) -> Array:
-    """Return unit vectors along the axis and the surface of a cone, and half-way between, shape (13, 3)."""
+    """Return unit vectors, shape (13, 3): along the axis of a cone, along its surface, and halfway between."""
     ways = [(0.0, 0.0, -1.0)]
     for share, count in ((0.5, 4), (1.0, 8)):
         for turn in 2 * np.pi * np.arange(count) / count:

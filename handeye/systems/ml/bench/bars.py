@@ -17,7 +17,7 @@ def add_bar(
     spec: mujoco.MjSpec, name: str, at: Array, quat: Array, friction: float, *, wide: float = WIDE,
     density: float = DENSITY,
 ) -> None:  # fmt: skip
-    """Put a bar into a scene; `at` is its middle (m)."""
+    """Put a bar into a scene, with its middle at `at` (m)."""
     body = spec.worldbody.add_body(name=name, pos=at.tolist(), quat=quat.tolist())
     body.add_freejoint(name=name)
     body.add_geom(
@@ -34,15 +34,15 @@ def turned(axis: str, angle: float) -> Array:
 
 
 def after(one: Array, other: Array) -> Array:
-    """Return the quaternion of the rotation `other`, followed by `one`."""
+    """Return the quaternion of the rotation `other` followed by the rotation `one`."""
     product = np.empty(4)
     mujoco.mju_mulQuat(product, one, other)
     return product
 
 
 def off_attitude(R: Array, along: Array, up: Array) -> float:
-    """Return how far a bar is from an attitude (deg): with its length along `along`, whichever end is ahead, and with
-    one of its four long sides facing up. Its orientation is `R`.
+    """Return the angle (deg) by which a bar of orientation `R` differs from the attitude that was asked for: its length
+    is along `along`, with either end ahead, and one of its four long sides faces in the direction `up`.
     """
     length = acos(min(abs(float(R[:, 1] @ along)), 1.0))
     side = atan2(float(R[:, 0] @ up), float(R[:, 2] @ up)) % (pi / 2)

@@ -30,7 +30,7 @@ class Printed(Record, frozen=True, kw_only=True):
 
 
 def counted(heard: object) -> int:
-    """Return the number that the program printed beside its final 0; 0 if it has not."""
+    """Return the number that the program printed after its final 0; 0 if it printed no number there."""
     assert isinstance(heard, Printed)
     words = heard.lines[-1].split() if heard.lines else []
     return int(words[1]) if len(words) == 2 and words[0] == "0" else 0
@@ -45,7 +45,7 @@ class Listener(Mechanism[Printed]):
         self.heard = Printed()
 
     def hear(self, line: str) -> None:
-        """Take notice of a line."""
+        """Keep a printed line."""
         self.heard = Printed(lines=(*self.heard.lines, line)[:_MOST])
 
     def state(self) -> Printed:
@@ -60,13 +60,13 @@ class Listener(Mechanism[Printed]):
 
 
 class ReportingHardware(StationHardware):
-    """A station whose program reports troubles by their numbers."""
+    """A station whose program reports a trouble by printing its number."""
 
     def __init__(self, station: Station, tell: Tell, troubles: Mapping[str, str]) -> None:
         """Open a station.
 
         Args:
-            troubles: sentences, by the numbers that the program prints.
+            troubles: a sentence for each number that the program may print.
         """
         station.others = (*station.others, listener := Listener())
         super().__init__(station, tell)
@@ -88,16 +88,16 @@ class ReportingHardware(StationHardware):
         return Ending(done=False, text=f"{self._troubles[trouble]} ({self.counted(count.strip() or '0')})")
 
     def counted(self, count: str) -> str:
-        """Word the numbers that the program prints after that of a trouble."""
+        """Put into words the numbers that the program prints after the number of a trouble."""
         return f"done before: {count}"
 
 
 class ReportingTask(ArmTask):
-    """A job whose program reports troubles by their numbers."""
+    """A job whose program reports a trouble by printing its number."""
 
     quantities: ClassVar[Variation]
     troubles: ClassVar[Mapping[str, str]]
-    """Sentences, by the numbers that the program prints."""
+    """A sentence for each number that the program may print."""
 
     def variation(self) -> Variation:
         return self.quantities

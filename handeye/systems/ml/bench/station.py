@@ -52,8 +52,8 @@ class Station:
         """Put the arm in a scene. Its pump is off.
 
         Args:
-            at: where motors stand, by their numbers, in ML units; others stand at 0.
-            tools: functions that switch the tools of the station, by name; other tools do nothing.
+            at: positions at which motors begin, by the numbers of the motors (ML units). All others begin at 0.
+            tools: functions that switch the tools of the station, by the names of the tools. Other tools do nothing.
             others: mechanisms of a job that do not act as time passes.
         """
         self.bench = Bench(spec.compile())
@@ -66,7 +66,9 @@ class Station:
         self.bench.after_step.append(self._fuse)
 
     def _fuse(self) -> None:
-        """Open the fuse of the work table if its load is too great. A person closes the interlock again."""
+        """Blow the fuse of the work table if the load on the table is too great. The interlock stays on until a person
+        replaces the fuse.
+        """
         if self.bench.data.sensordata[self._load] > FUSE:
             self.arm.signal(TABLE)
 
@@ -84,7 +86,7 @@ def _nothing(value: float) -> None:
 
 
 def _stand(bench: Bench, at: Mapping[int, float]) -> None:
-    """Let motors stand at places (ML units)."""
+    """Set motors to positions (ML units)."""
     motors = {motor.number: motor for motor in RIGHT.motors}
     for number, place in at.items():
         axis, value = motors[number].axis, place * motors[number].unit

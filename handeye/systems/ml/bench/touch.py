@@ -61,15 +61,15 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def bound(self) -> float:
-        """How far the slide can go on (mm), to a few per cent: until the fingers are pressed to the limit, then for a
-        period, and for as long as the servo lags behind its set-point.
+        """How far the slide can go on after the contact (mm), to within a few per cent: until the force on the fingers
+        reaches the limit, then for one period, and then for as long as the servo lags behind its set-point.
         """
         lag = 2 * _DAMPING / (2 * pi * self.bandwidth)
         return self.limit * GRAM_FORCE / STIFFNESS / MILLIMETRE + self.speed * (self.period * _MS + lag)
 
     @property
     def trips(self) -> bool:
-        """True if the start alone trips the guard, in the air."""
+        """True if the start of the motion alone, in the air, trips the guard."""
         return self.jolt > self.limit * GRAM_FORCE
 
 
@@ -90,11 +90,11 @@ def touch(
     limit: int = LIMIT,
     phase: float = 0.0,
 ) -> Touch:
-    """Let the hand descend on a block, and freeze it as a real-time level does: when the sensors are read and a gauge
+    """Let the hand descend on a block, and freeze it as the real-time level does: when the sensors are read and a gauge
     is beyond its limit, the goal becomes the present position.
 
-    The guard is set when the start of the motion has died away, so that each touch is a touch. `Touch.trips` says
-    whether a guard that was set before the start would have tripped in the air.
+    The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip it.
+    `Touch.trips` says whether a guard that was set before the start would have tripped in the air.
 
     Raises:
         BadArgument: a value is out of range.
@@ -155,7 +155,7 @@ def touch(
 
 
 def worst(period: int, bandwidth: float, speed: float, limit: int = LIMIT) -> Touch:
-    """Return the touch with the greatest force among contacts at four phases of the period."""
+    """Simulate contacts at four phases of the period, and return the touch with the greatest force."""
     found = [touch(period, bandwidth, speed, limit, n / PHASES) for n in range(PHASES)]
     return max(found, key=lambda each: each.force)
 
@@ -183,7 +183,7 @@ def _check(what: str, value: float, span: tuple[float, float], unit: str) -> Non
 
 @lru_cache(maxsize=8)
 def _model(bandwidth: float) -> mujoco.MjModel:
-    """Return the scene of the arm over a block, with a servo of the z slide of some bandwidth (Hz)."""
+    """Return the scene of the arm over a block. The servo of its z slide has the bandwidth `bandwidth` (Hz)."""
     spec = scene(ArmWorld(), wand=False)
     half = _BLOCK / 2
     spec.worldbody.add_geom(

@@ -18,11 +18,13 @@ FORCE: Final = 20.0  # N that the fastest admissible touch may reach
 MARK: Final = "<!doctype html>\n<!-- handeye touches -->\n"
 PAGE: Final = Kind("page of touches", MARK.encode(), ending=".html")
 _CAPTIONS: Final = {
-    "place": "How far the slide is below the place of contact, mm (thin: its set-point). Red: the readings of the "
-    "sensors; the long one is the first beyond the limit.",
-    "force": "The force of both fingers on the block, N.",
-    "ways": "How far the slide goes on, mm, by its speed, mm/s; a curve for each period.",
-    "forces": "The greatest force, N, by the speed, mm/s. Hollow: the start of the motion trips the guard in the air.",
+    "place": "How far (in mm) the slide is below the place of contact; the thin line is its set-point. Red lines mark "
+    "the readings of the sensors; the long one is the first reading beyond the limit.",
+    "force": "The force (in N) of both fingers on the block.",
+    "ways": "How far (in mm) the slide goes on after the contact, against its speed (in mm/s), with a curve for each "
+    "period.",
+    "forces": "The greatest force (in N) against the speed (in mm/s). At a hollow point, the start of the motion trips "
+    "the guard in the air.",
 }
 _EXACT: Final = 0.5  # mm/s
 
@@ -33,8 +35,8 @@ def swept(limit: int = LIMIT) -> list[Touch]:
 
 
 def fastest(period: int, bandwidth: float, force: float = FORCE, limit: int = LIMIT) -> float:
-    """Return the greatest speed (mm/s, to half a millimetre a second) at which a guarded touch does not exceed a force
-    (N), and its start does not trip the guard; 0 if there is none.
+    """Return the greatest speed (mm/s, to within .5 mm/s) at which the force of a guarded touch stays within `force`
+    (N) and the start of its motion does not trip the guard; 0 if there is no such speed.
     """
 
     def right(speed: float) -> bool:
@@ -61,9 +63,9 @@ def touches_page(touches: Sequence[Touch]) -> bytes:
             "main",
             note(
                 "The hand of the rectilinear arm descends on a block, guarded by a limit of "
-                f"{touches[0].limit} g on a strain gauge in a finger. The sensors are read once in a period. When a "
-                "reading is beyond the limit, the goal of the slide becomes its present place. Each choice shows the "
-                "touch with the greatest force among contacts at four phases of the period."
+                f"{touches[0].limit} g on a strain gauge in a finger. The sensors are read once per period. When a "
+                "reading is beyond the limit, the goal of the slide becomes its present position. For each choice, "
+                "contacts at four phases of the period were simulated; the page shows the one with the greatest force."
             ),
             _controls(),
             element("p", id="said", role="status"),

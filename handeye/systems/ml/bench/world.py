@@ -25,7 +25,7 @@ _CLIPPED: Final = 2.0  # sigmas
 def quantity(
     name: str, unit: str, drawn: Distribution, most: float, source: str, nominal: float = 0.0
 ) -> Quantity:
-    """Return a quantity that can be set to values from 0 to `most`, in its unit."""
+    """Return a quantity that can be set to values from 0 to `most` (in its own unit)."""
     return Quantity(
         name=name, unit=unit, distribution=drawn, nominal=nominal, limits=(0.0, most), source=source
     )
@@ -37,7 +37,8 @@ ARM: Final = (
         "mm",
         Fixed(0.38),
         4.0,
-        "Full width of the range in which a slide stops, drawn evenly for each motion. The paper: about .38 mm.",
+        "Full width of the range in which a slide stops; the place in it is drawn evenly for each motion. "
+        "The paper: about .38 mm.",
     ),
     quantity(
         SLIDES,

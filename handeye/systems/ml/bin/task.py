@@ -44,8 +44,8 @@ _LAYER: Final = 0.055  # m from one layer of four parts to the next
 _LOWEST: Final = 0.045  # m, the lowest layer over the table
 _WRONG, _SIZE, _FRICTION, _SMOOTH = "parts.wrong", "parts.size", "parts.friction", "hopper.friction"
 TROUBLES: Final = {
-    "1": "parts are left that the hand does not get out of the bin",
-    "2": "the hand has lost a part on its way",
+    "1": "parts that the hand cannot get out are left in the bin",
+    "2": "the hand has lost a part on the way",
 }  # by the number that the program prints
 VARIATION: Final = Variation(
     *ARM,
@@ -54,19 +54,19 @@ VARIATION: Final = Variation(
         "",
         Fixed(0.25),
         1.0,
-        "Probability that a part is wrong: 1 mm too narrow, or half as heavy. No source: our choice.",
+        "Probability that a part is bad: 1 mm too narrow, or half as heavy as a good one. No source: our choice.",
     ),
     quantity(_SIZE, "mm", Noise(0.05), 0.2, "Standard deviation of a part's width. No source: our choice."),
     quantity(
-        _FRICTION, "", Range(0.3, 0.4), 2.0, "Friction of parts on each other. No source: our choice.", 0.35
+        _FRICTION, "", Range(0.3, 0.4), 2.0, "Friction between parts. No source: our choice.", 0.35
     ),
     quantity(
         _SMOOTH,
         "",
         Range(0.10, 0.18),
         2.0,
-        "Friction of parts in the hopper. No source: our choice, "
-        "for a polished lining; from .22 on, they would stay on its slopes.",
+        "Friction between parts and hopper. No source: our choice, "
+        "for a polished lining; from .22 on, parts would stay on the slopes.",
         0.14,
     ),
 )
@@ -121,7 +121,7 @@ class Bin(ArmTask):
         return VARIATION
 
     def station(self, parts: int, world: ArmWorld) -> Station:
-        """Return the station with a hopper, into which the parts fall as time begins, and two boxes."""
+        """Return the station with two boxes and a hopper, into which the parts fall when time begins."""
         spec = scene(world, wand=False)
         add_hopper(spec, world.value(_SMOOTH))
         add_boxes(spec)
@@ -160,28 +160,28 @@ class Bin(ArmTask):
         counted = told(heard.lines[-1].partition(" ")[2] if heard.lines else "")
         here = int(boxed["good"].sum()), int(boxed["bad"].sum())
         return {
-            "passed": at_most(int((boxed["good"] & ~good).sum()), 0, "parts", "wrong parts among the good ones"),
-            "rejected": at_most(int((boxed["bad"] & good).sum()), 0, "parts", "good parts among the wrong ones"),
+            "passed": at_most(int((boxed["good"] & ~good).sum()), 0, "parts", "bad parts in the box for good ones"),
+            "rejected": at_most(int((boxed["bad"] & good).sum()), 0, "parts", "good parts in the box for bad ones"),
             "left": at_most(int(left.sum()), 0, "parts", "parts that are left in the bin"),
             "lost": at_most(int(out.sum()), 0, "parts", "parts that lie elsewhere"),
             "told": at_most(
                 max(abs(one - other) for one, other in zip(counted, here, strict=True)), 0, "parts",
-                "difference between a number that the program has told and that of the parts in the box",
+                "greatest difference between a number that the program has printed and the parts in that box",
             ),
         }  # fmt: skip
 
 
 def told(count: str) -> tuple[int, int]:
-    """Return the numbers of good and of bad parts that a program prints; numbers that are missing are 0."""
+    """Return the numbers of good and of bad parts that a program has printed; a number that is missing is 0."""
     good, bad, *_ = *map(int, count.split()), 0, 0
     return good, bad
 
 
 def parts_of(plan: MlPlan) -> int:
-    """Return the number of parts of a plan. Raises NoSuchName if it is not between 1 and the greatest number."""
+    """Return the number of parts that a plan puts into the bin. Raises NoSuchName unless it is from 1 to `MOST`."""
     if plan.variant.isdecimal() and 1 <= int(plan.variant) <= MOST:
         return int(plan.variant)
-    raise NoSuchName(f"there are from 1 to {MOST} parts in the bin, not {quoted(plan.variant)}")
+    raise NoSuchName(f"the bin takes from 1 to {MOST} parts, not {quoted(plan.variant)}")
 
 
 def _quality(world: ArmWorld, number: int) -> Quality:
@@ -192,7 +192,7 @@ def _quality(world: ArmWorld, number: int) -> Quality:
 
 
 def _inside(places: Array, x: float, half: float) -> NDArray[np.bool_]:
-    """Return which places are inside a square at x."""
+    """Return for each place whether it is inside a square with its middle at x."""
     off = np.abs(places[:, :2] - [x, 0.0]).max(axis=1)
     return np.asarray(off < half, dtype=np.bool_)
 

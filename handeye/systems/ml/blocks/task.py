@@ -50,7 +50,7 @@ VARIATION: Final = Variation(
         "mm",
         Noise(1.5),
         8.0,
-        "Standard deviation of a block's position along x and y. No source: our choice, for a plate laid by hand.",
+        "Standard deviation of a block's position along x and y. No source: our choice, for a block laid by hand.",
     ),
     quantity(
         _TURNED, "deg", Noise(2.0), 15.0, "Standard deviation of a block's rotation. No source: our choice."

@@ -29,7 +29,7 @@ MlFile = Annotated[Path, Parameter(help="A program in ML, `.ml`.")]
 
 ml = App(
     name="ml",
-    help="MOS and ML (IBM, 1975): guarded motions, and a clock of ten milliseconds that watches all sensors.",
+    help="MOS and ML (IBM, 1975): guarded motions, and a real-time level that watches all sensors every 10 ms.",
 )
 
 
@@ -40,8 +40,8 @@ def run(
     arm: Annotated[
         ArmName,
         Parameter(
-            help="The machine: `none` has perfect motors, which nothing obstructs; `rectilinear` is the simulated arm "
-            "over an empty table, with the wand in its left finger."
+            help="The machine. `none`: perfect motors, which nothing obstructs. `rectilinear`: the simulated arm over "
+            "an empty table, with the wand in its left finger."
         ),
     ] = "none",
     seed: Annotated[
@@ -55,15 +55,15 @@ def run(
     left: Annotated[
         WholeNumber | None,
         Parameter(
-            help="The statement at which the program of the left arm begins, which runs at the same time. "
-            "Default: there is no left arm."
+            help="The statement at which the program of the left arm begins. The programs of both arms run at the same "
+            "time. Default: there is no left arm."
         ),
     ] = None,
     sense: Annotated[
         list[str] | None,
         Parameter(
-            help="A reading of a sensor (8=1200) or of an interlock (panic=1). `5=500@3:2750` holds while motor 3 is "
-            "at 2750 or farther from 0, and `door=1@.5s` from .5 s on. Give --sense for each."
+            help="What a sensor (`8=1200`) or an interlock (`panic=1`) reads. `5=500@3:2750` holds only while motor 3 "
+            "is at 2750 or farther from 0, and `door=1@.5s` only from .5 s on. Give --sense once for each reading."
         ),
     ] = None,
     options: RunOptions = USUAL_RUN,
@@ -91,7 +91,7 @@ def run(
 
 
 def check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str] | None) -> None:
-    """Raise BadArgument if an option of a run does not apply to its machine."""
+    """Raise BadArgument if an option does not apply to the machine of the run."""
     if arm == "none":
         if seed:
             raise BadArgument("--seed applies only to `--arm rectilinear`: perfect motors have no errors")

@@ -21,14 +21,14 @@ from handeye.systems.ml.machine.perfect import perfect_machine
 from handeye.systems.ml.realtime.happenings import EmergencyStopped, GoalRounded
 
 ENDING: Final = ".ml"
-_KEYS: Final = "N executes it, R runs on, A abandons the program"
+_KEYS: Final = "N executes the statement, R runs on without asking, A abandons the program"
 _JOYSTICK: Final = (
     "MOTOR DISTANCE moves a motor; RECORD stores the positions; CANCEL leaves the point as it is"
 )
 
 
 class FileHost(Host):
-    """A host that keeps programs in files of the current folder, and has the arm language of 1973."""
+    """A host that keeps programs in files of the current folder, and offers the arm language of 1973."""
 
     def read(self, name: str) -> str:
         return read_source(_path(name)).text
@@ -39,7 +39,7 @@ class FileHost(Host):
         write_whole(path, text.encode())
 
     def interpreter(self) -> None:
-        """Open `handeye repl`, until its end."""
+        """Run `handeye repl` until the user leaves it."""
         from handeye.cli.teaching import repl
 
         repl()
@@ -60,8 +60,8 @@ class Console:
         *,
         left: bool = False,
     ) -> None:
-        """Begin a session with the pump off, with a right arm and, if `left`, also a left one. `ask` shows a prompt
-        and returns what the user types, or None at the end of the input. `halted` is True when the panic button has
+        """Begin a session with a right arm and, if `left`, also a left one. The pump is off. `ask` shows a prompt and
+        returns what the user types, or None at the end of the input. `halted` returns True when the panic button has
         been pressed.
         """
         self._say, self._ask, self._halted = say, ask, halted
@@ -90,7 +90,8 @@ class Console:
         self._say(counted(len(self._program.numbers), "statement"))
 
     def hear(self, line: str) -> None:
-        """Execute a line to its end. Raises InvalidInput if that is impossible."""
+        """Execute a line, and a program that it starts, to the end. Raises InvalidInput if the line cannot be executed.
+        """
         if line.strip().upper() == "HELP":
             self._help()
             return
@@ -116,7 +117,7 @@ class Console:
             self._machine.cycle()
 
     def _press_panic_button(self) -> None:
-        """Press the panic button for two cycles, of which every arm notices one."""
+        """Press the panic button for two cycles, so that an arm with a period of two cycles also notices it."""
         for on in (1, 0):
             for arm in self._arms.values():
                 arm.switch("panic", on)
@@ -142,7 +143,7 @@ class Console:
             self._say(_KEYS)
 
     def _guide(self) -> None:
-        """Read a line for the joystick, and execute it."""
+        """Ask for a command of the joystick, and execute it."""
         level, point = self._mos.level, self._mos.memory.joy
         typed = self._ask(f"JOY {point} ? ")
         words = ["CANCEL"] if typed is None else typed.upper().split()
@@ -164,7 +165,7 @@ class Console:
                     self._machine.cycle()
                 self._say(f"motor {motor} is at {level.position(motor)}")
             else:
-                self._say(f"the flag of sensor {min(level.flags)} is on; CANCEL, then SENSOR clears it")
+                self._say(f"the flag of sensor {min(level.flags)} is on: CANCEL first, then clear it with SENSOR")
         except InvalidInput as error:
             self._say(str(error))
 

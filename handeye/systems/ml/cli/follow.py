@@ -25,13 +25,13 @@ def follow(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: JobOptions = ANY_RUN,
 ) -> int:
-    """Follow the outline of a plate by touch: the program of the paper, with a wand that feels whether it touches.
+    """Follow the outline of a plate by touch with the program of the paper. A wand signals when it touches the plate.
 
-    `plans/curve_follower.ml` is figure 5 of the paper as printed, and never ends by itself. It runs on the simulated
-    arm until it has come around the plate once, or is lost. A referee then compares its touches with the true outline,
-    and looks whether the plate has moved.
+    `plans/curve_follower.ml` is figure 5 of the paper as printed, and never ends by itself. The run ends when the wand
+    has gone around the plate once, or when the follower is lost. A referee then compares the touches with the true
+    outline, and checks whether the plate has moved.
 
-    Exit code 0: right; 1: the follower is lost, or the program was stopped; 3: the circuit is closed, and the referee
+    Exit code 0: right; 1: the follower is lost, or the program was stopped; 3: the circuit is closed, but the referee
     disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.systems.ml.run.jobs import job_plan
@@ -47,7 +47,8 @@ def follow_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Follow an outline in many worlds: how often the circuit is closed and right, and the errors of the touches.
+    """Follow an outline in many worlds. Shows how often the circuit is closed and the referee agrees, and the errors of
+    the touches.
 
     Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints what has finished; with --out it
     can be continued.

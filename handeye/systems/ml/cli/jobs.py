@@ -1,4 +1,4 @@
-"""What the commands of all jobs share: the options of their worlds, the run, and trials."""
+"""What the commands of all jobs share: the options for their worlds, runs and trials."""
 
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 JobSeed = Annotated[
     WholeNumber,
-    Parameter(help="Seed of the world: it determines the errors of the arm, and where parts lie."),
+    Parameter(help="Seed of the world. It determines the errors of the arm and where the parts lie."),
 ]
 NumberOfWorlds = Annotated[
     WholeNumber, Parameter(name="--n", help="Number of worlds; world K has the seed --seed plus K.")
@@ -25,7 +25,7 @@ NumberOfWorlds = Annotated[
 
 
 def carry_out(plan: "MlPlan", seed: int, errors: OwnErrorOptions, options: JobOptions) -> int:
-    """Run the plan of a job and let its referee judge; make the video. Returns the exit code."""
+    """Run the plan of a job, let its referee judge the result, and make the video. Returns the exit code."""
     from handeye.systems.ml.run.jobs import job_setup
 
     return carry_out_job(job_setup(plan, errors.of(plan.job).spec(seed)), options)

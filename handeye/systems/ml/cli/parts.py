@@ -25,11 +25,11 @@ def orient(
     """Take a bar in an unknown attitude, and turn it into a known one by touch.
 
     `plans/orient.ml` takes the bar out of a cradle, in which it is pitched by up to 50 degrees and turned by up to 25.
-    It puts the bar down by a guarded move, lets it fall flat, grasps it again, feels its end at a stop, and grasps it
-    in its middle. A referee then checks that the bar is in the fingers, within 3 degrees of the attitude and 1 mm of
-    the place that were asked for.
+    It puts the bar down with a guarded move, lets it fall flat and grasps it again. It then moves the end of the bar
+    against a stop to learn where the bar is, and grasps it in the middle. A referee checks that the bar is in the
+    fingers, within 3 degrees of the attitude and 1 mm of the place that were asked for.
 
-    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
     """
     from handeye.systems.ml.run.jobs import job_plan
@@ -44,7 +44,7 @@ def orient_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Orient a bar in many worlds: how often it is in its attitude and place, and its errors.
+    """Orient a bar in many worlds. Shows how often the bar is in the right attitude and place, and its errors.
 
     Each trial does what `handeye ml orient` does. Ctrl-C ends the batch and prints what has finished; with --out it
     can be continued.
@@ -67,15 +67,15 @@ def take_from_bin(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: JobOptions = ANY_RUN,
 ) -> int:
-    """Take like parts out of a bin, one at a time, and judge each by its width and weight.
+    """Take parts of one kind out of a bin, one at a time, and judge each by its width and weight.
 
-    `plans/bin.ml` finds the highest parts by range, grasps by guarded moves, and feels by the separation of the fingers
-    and by their strain whether it holds one good part, a wrong one, or none or several. It puts the parts into two
-    boxes, until the range finder shows that the bin is empty. A referee then looks: each part has to be in the right
-    box, and none may be left in the bin or lie elsewhere.
+    `plans/bin.ml` finds the highest parts with the range finder and grasps them with guarded moves. From the separation
+    and the strain of the fingers it learns whether the hand holds one good part, one bad part, no part or several. It
+    puts good and bad parts into two boxes, until the range finder shows that the bin is empty. A referee then checks
+    that each part is in the right box, and that none is left in the bin or lies elsewhere.
 
-    Exit code 0: right; 1: the program has stopped because it does not get a part, or has lost one; 3: it has ended, and
-    the referee disagrees; 2: bad input; 130: interrupted.
+    Exit code 0: right; 1: the program has stopped because it could not get a part, or has lost one; 3: it has ended,
+    but the referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.systems.ml.bin.task import parts_of
     from handeye.systems.ml.run.jobs import job_plan
@@ -92,7 +92,7 @@ def bin_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Take parts out of a bin in many worlds: how often all are taken and judged right, and why not.
+    """Take parts out of a bin in many worlds. Shows how often all are taken out and judged correctly, and if not, why.
 
     Each trial does what `handeye ml bin` does. Ctrl-C ends the batch and prints what has finished; with --out it
     can be continued.

@@ -1,4 +1,4 @@
-"""What the sensors and interlocks of perfect motors sense, as it is written on the command line."""
+"""Reads from the command line what the sensors and interlocks of perfect motors sense."""
 
 import re
 from typing import Final
@@ -15,8 +15,8 @@ FORM: Final = "SENSOR=READING, SENSOR=READING@MOTOR:POSITION or SENSOR=READING@S
 
 
 def sensed(text: str) -> Stimulus:
-    """Read a reading of a sensor or interlock: always, while a motor is at a position or farther from 0, or from
-    a time on. Raises BadArgument.
+    """Parse what a sensor or interlock reads: always, only while a motor is at a position or farther from 0, or only
+    from a time on. Raises BadArgument.
     """
     match = _FORM.fullmatch(text)
     if match is None or not all(fits(int(each or 0)) for each in (match[2], match[4])):
@@ -32,7 +32,7 @@ def sensed(text: str) -> Stimulus:
 
 
 def _source(name: str) -> tuple[str, float]:
-    """Return the channel of a logical sensor or interlock, and the value of a unit of its reading (SI)."""
+    """Return the channel of a logical sensor or interlock, and the SI value of one unit of its reading."""
     if name in INTERLOCKS:
         return name, 1.0
     known = {

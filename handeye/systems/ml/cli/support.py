@@ -11,12 +11,12 @@ def support(
 ) -> int:
     """Assemble the rail support of a typewriter from 22 parts by touch.
 
-    `plans/support.sym` takes a frame, two rails, four pins and five saddles from their pallets, puts them into their
-    places, and presses each to learn whether it is down. Then it fetches a power screwdriver, drives ten screws,
-    accepts each by its depth and the torque of the clutch, and puts the screwdriver back. A referee looks whether all
-    22 parts are right, and whether the program has counted them right.
+    `plans/support.sym` takes a frame, two rails, four pins and five saddles from their pallets and puts them into their
+    places. It presses on each part to learn whether the part is down in its place. Then it fetches a power screwdriver,
+    drives ten screws, accepts each screw by its depth and the torque of the clutch, and puts the screwdriver back. A
+    referee checks whether all 22 parts are right, and whether the program has counted them correctly.
 
-    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
     """
     from handeye.systems.ml.run.jobs import job_plan
@@ -31,7 +31,7 @@ def support_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble the rail support in many worlds: how often all 22 parts are right, and their errors.
+    """Assemble the rail support in many worlds. Shows how often all 22 parts are right, and their errors.
 
     Each trial does what `handeye ml support` does. Ctrl-C ends the batch and prints what has finished; with --out it
     can be continued.

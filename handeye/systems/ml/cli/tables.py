@@ -40,21 +40,22 @@ def tables(
     at: Annotated[
         str | None,
         Parameter(
-            help="The cycle (275) or the time (2.75s) at whose end the tables are shown. Default: after the last cycle."
+            help="Show the tables as they were at the end of this cycle (275), or of the cycle at this time (2.75s). "
+            "Default: after the last cycle."
         ),
     ] = None,
     arm: Annotated[Side | None, Parameter(help="The arm, if there are two. Default: the right one.")] = None,
     sense: Annotated[
         list[str] | None,
-        Parameter(help="A reading of a sensor or interlock for a program, as for `handeye ml run`."),
+        Parameter(help="What a sensor or interlock reads while a program runs, as in `handeye ml run`."),
     ] = None,
     json: Json = False,
 ) -> int:
     """Show the tables of MOS as they were in any cycle of a run.
 
-    All that MOS knows is in 30 tables: MT has a line for each motor, ST one for each sensor, VR the variables, and TK
-    the program. Every ML run records each word that changes, cycle by cycle. An asterisk marks a word that changed in
-    the cycle that is shown. `handeye report` shows the same tables in a page.
+    Everything that MOS knows is in 30 tables. MT has a line for each motor, and ST has one for each sensor; VR has the
+    variables, and TK the program. Every ML run records each word that changes, cycle by cycle. An asterisk marks a word
+    that changed in the cycle that is shown. `handeye report` shows the same tables in a page.
 
         handeye ml tables plans/guarded_move.ml --sense 5=500@3:2750    # which tables are there, and which change?
         handeye ml tables plans/guarded_move.ml MT --at .2s             # the motors after a fifth of a second
@@ -81,7 +82,7 @@ def tables(
             text.one_table(done, segment, cycle, line), text.table(done, segment, cycle, line), json=json
         )
     if at is not None:
-        raise BadArgument("the changes of a word are listed for the whole run; leave out the word, or --at")
+        raise BadArgument("the changes of a word are listed for the whole run; omit the word, or omit --at")
     return answer(text.one_word(done, segment, line, word), text.course(done, segment, line, word), json=json)
 
 
@@ -107,7 +108,7 @@ def _cycle(at: str | None, done: "History") -> int:
     cycle = int(match[1]) if match[1] else round(float(match[2]) * CYCLES_PER_SECOND)
     if cycle >= max(done.head.cycles, 1):
         raise BadArgument(
-            f"--at is after the end of the run, which has {counted(done.head.cycles, 'cycle')} from 0 on"
+            f"--at is after the end of the run, which has {counted(done.head.cycles, 'cycle')}, numbered from 0"
         )
     return cycle
 
@@ -121,7 +122,7 @@ def _recorded(run: Path) -> "History":
     done = kept_history(run)
     if done is None:
         raise BadFile(
-            f"the run in {run} has no tables: it is not a run of ML, or it is older than their record"
+            f"the run in {run} has no tables: it is not a run of ML, or an older handeye wrote it without tables"
         )
     return done
 

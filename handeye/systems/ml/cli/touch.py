@@ -1,4 +1,4 @@
-"""The command that touches a block in physics, with a chosen period, bandwidth and speed."""
+"""The command that simulates the touch of a block, with a chosen period, bandwidth and speed."""
 
 from pathlib import Path
 from typing import Annotated
@@ -27,20 +27,22 @@ def touch(
     phase: Annotated[
         float,
         Parameter(
-            help="Phase of the contact in the period: 0 is just after a reading of the sensors, .99 just before one."
+            help="When in the period the contact occurs: 0 is just after the sensors are read, .99 just before they "
+            "are read again."
         ),
     ] = 0.0,
     page: Annotated[
         Path | None,
         Parameter(
-            help="Write a page (.html) with sliders for periods of 2 to 50 ms, servos of 10 to 100 Hz and speeds of 5 "
-            "to 200 mm/s. It takes about 10 s."
+            help="Write a page (.html) with sliders for the period (2 to 50 ms), the bandwidth of the servo (10 to 100 "
+            "Hz) and the speed (5 to 200 mm/s). This takes about 10 s."
         ),
     ] = None,
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Let the hand descend on a block until a strain gauge feels a limit: how far does it go on, with what force?
+    """Let the hand descend on a block until a strain gauge reaches a limit, and show how far it goes on and how hard it
+    presses.
 
     This is what the ten milliseconds of MOS mean: the slide goes on until the next reading of the sensors, and then for
     as long as its servo lags behind. `docs/ten_milliseconds.md` has the figures.
@@ -72,7 +74,7 @@ def touch(
 
 
 def _page(place: Path, limit: int, *, overwrite: bool) -> int:
-    """Write the page of touches. Returns the exit code; raises InvalidInput if it cannot be written."""
+    """Write the page of touches, and return the exit code. Raises InvalidInput if the page cannot be written."""
     from handeye.core.files import check_place, write_over
     from handeye.systems.ml.bench.touches import PAGE, swept, touches_page
 

@@ -17,10 +17,10 @@ def blocks(
     """Stack three toy blocks by touch.
 
     `plans/blocks.ml` grasps each block along x and then along y, so that it lies in the middle of the hand, and puts it
-    down by a guarded move. A referee then checks that each block stands on the one below within 2 mm, and no block
-    leans by more than 2 degrees.
+    down with a guarded move. A referee then checks that each block is centred on the one below to within 2 mm, and that
+    no block leans by more than 2 degrees.
 
-    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
     """
     from handeye.systems.ml.run.jobs import job_plan
@@ -31,13 +31,13 @@ def blocks(
 def train(
     *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
 ) -> int:
-    """Couple an engine and two wagons by touch, peg in hole, and pull them.
+    """Couple an engine and two wagons by touch, inserting each peg into its hole, and pull them.
 
-    `plans/train.ml` grasps each vehicle along y and then along x, so that it lies in the middle of the hand, and lowers
-    the peg of each wagon into the hole of the vehicle ahead; where it does not go in, it tries beside. Then it pulls
-    the engine by 50 mm. A referee checks that both wagons have followed.
+    `plans/train.ml` grasps each vehicle along y and then along x, so that it lies in the middle of the hand. It lowers
+    the peg of each wagon into the hole of the vehicle ahead; if a peg does not go in, the program tries places beside
+    the hole. Then it pulls the engine by 50 mm. A referee checks that both wagons have followed.
 
-    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, and the referee disagrees; 2: bad
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
     """
     from handeye.systems.ml.run.jobs import job_plan
@@ -52,7 +52,7 @@ def blocks_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Stack three blocks in many worlds: how often the stack is right, and its errors.
+    """Stack three blocks in many worlds. Shows how often the stack is right, and its errors.
 
     Each trial does what `handeye ml blocks` does. Ctrl-C ends the batch and prints what has finished; with --out it
     can be continued.
@@ -73,7 +73,7 @@ def train_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Couple a train in many worlds: how often both wagons follow the engine, and its errors.
+    """Couple a train in many worlds. Shows how often both wagons follow the engine, and the errors of the train.
 
     Each trial does what `handeye ml train` does. Ctrl-C ends the batch and prints what has finished; with --out it
     can be continued.

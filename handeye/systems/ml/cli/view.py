@@ -1,4 +1,4 @@
-"""The command that steps a run in the browser, beside the tables of its machine."""
+"""The command that steps a run in the browser and shows the tables of its machine."""
 
 from pathlib import Path
 from typing import Annotated
@@ -18,12 +18,12 @@ def view(
     /,
     *,
     arm: Annotated[
-        ArmName | None, Parameter(help="The machine of a program, as for `handeye ml run`.")
+        ArmName | None, Parameter(help="The machine that runs the program, as in `handeye ml run`.")
     ] = None,
     seed: Annotated[WholeNumber, Parameter(help="Seed of the world of the simulated arm.")] = 0,
-    variant: Annotated[str, Parameter(help="Variant of a job: for `follow` the outline.")] = "",
+    variant: Annotated[str, Parameter(help="Variant of the job, such as the outline for `follow`.")] = "",
     sense: Annotated[
-        list[str] | None, Parameter(help="A reading of a sensor or interlock, as for `handeye ml run`.")
+        list[str] | None, Parameter(help="What a sensor or interlock reads, as in `handeye ml run`.")
     ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0 for any free port.")] = 0,
     out: Out = None,
@@ -31,11 +31,12 @@ def view(
 ) -> int:
     """Step a run in the browser, and see all tables of its machine while it goes on.
 
-    Words that changed in the cycle are lit. Any cycle that has passed can be looked at. A value that you write into a
-    word takes effect in the next cycle, also while the arm moves: `MT 3 4` sends motor 3 elsewhere, `MT 2 8` changes
-    its speed, and `ST 7 9` a limit. The written words are events of the run, so a recorded run is repeated with them.
+    Words of the tables that changed in the cycle are lit. You can look back at any earlier cycle. A value that you
+    write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor 3, `MT 2
+    8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. The written words are events of the run, so repeating a
+    recorded run writes them again.
 
-    Prints the address to open, which contains a secret and works on this computer only.
+    Prints the address to open, which contains a secret and works only on this computer.
 
     Exit code 0: the program has ended, or you left; 1: an error or an emergency has stopped it; 2: bad input.
     """
@@ -54,7 +55,7 @@ def view(
     if program in PROGRAMS and not file.is_file():
         if arm is not None or sense:
             raise BadArgument(
-                f"the job {program} has an arm and sensors of its own; leave out --arm and --sense"
+                f"the job {program} has an arm and sensors of its own; omit --arm and --sense"
             )
         setup = job_setup(job_plan(program, variant), WorldSpec(seed=seed))
     else:
