@@ -40,9 +40,9 @@ def page() -> str:
         out.append("")
     out += [
         "## Tables\n",
-        "The name of a table is a command that shows it: `MT` shows all lines that are not zero, `MT 3` shows a line "
-        "with the names of its words, and `MT 3 1` shows a word. GET and QUERY read a word, PUT and FILE write one. "
-        "The real-time level uses internal tables; external tables are on the disk, and are paged into frames.\n",
+        "The name of a table is a command that shows it: `MT` shows every line that has a word other than 0, `MT 3` "
+        "one line with the names of its words, and `MT 3 1` one word. GET and QUERY read a word, PUT and FILE write "
+        "one. The real-time level uses internal tables; external tables are on the disk, and are paged into frames.\n",
         "| table | contents | lines | words | |",
         "|---|---|---|---|---|",
     ]

@@ -1,16 +1,16 @@
 """The guarded move of ML, as an executable specification.
 
-This module says what a program of SENSOR, motions, DELAY and BRANCH does, on motors that are at their set-points
-when the next cycle begins. It is pure: a state and what the sensors read determine the next state. It shares no
-code with the machine; a property test drives both with the same programs and compares them after every statement.
+This module says what a program of SENSOR, motions, DELAY and BRANCH does if each motor is at its set-point when the
+next cycle begins. It is pure: a state and what the sensors read determine the next state. It shares no code with the
+machine; a property test drives both with the same programs and compares them after every statement.
 
 1. A sensor is *in range* while its reading is strictly between its expected limits.
 2. The *flag* of a sensor comes on in the first cycle in which the sensor is out of range. It stays on until a SENSOR
-   statement clears it, although the reading may return (the latch).
+   statement clears it, even if the reading comes back into range (the latch).
 3. In the cycle in which any flag comes on, every motor *freezes*: its goal becomes its present position.
 4. While any flag is on, every motion is *nullified*: it changes no goal and takes no time.
 5. A motion ends when all motors are at their goals, or when a flag comes on. Then the next statement is executed.
-6. BRANCH reads flags and clears none, so that several may ask one after the other what happened.
+6. BRANCH reads flags and clears none, so that several BRANCH statements in a row can ask what happened.
 """
 
 from collections.abc import Callable, Mapping
@@ -20,14 +20,16 @@ from typing import Final, Literal
 Limits = tuple[int, int]
 Readings = Mapping[int, int]  # of sensors
 Senses = Callable[[int, Mapping[int, int]], Readings]
-"""What the sensors read in a cycle, with the motors at their positions."""
+"""Function that returns what the sensors read in a cycle while the motors are at certain positions."""
 
 FINE: Final = 100  # a set-point is counted in hundredths of a unit, as 20 cm/s are 78.74 units a cycle
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor:
-    """`SENSOR`: set the limits of a sensor, open them, or open those of all sensors; clear the flags."""
+    """`SENSOR`: set or open the limits of one sensor, or open the limits of all sensors. Clear the flags of these
+    sensors. A sensor whose limits are open may read anything.
+    """
 
     sensor: int | None = None  # None: all
     limits: Limits | None = None  # None: open
@@ -35,7 +37,7 @@ class Sensor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion:
-    """`MOVE` and `MOTOR`, or `DMOVE` and `DMOTOR`, whose numbers are relative to the goals."""
+    """`MOVE` and `MOTOR`; if `relative`, `DMOVE` and `DMOTOR`, whose numbers are distances from the goals."""
 
     by_motor: Mapping[int, int]
     relative: bool = False
@@ -50,7 +52,7 @@ class Delay:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
-    """`BRANCH`: go to `then` if the flag of any sensor is on that is listed, or is off that is listed negative."""
+    """`BRANCH`: go to `then` if the flag of any listed sensor is on; a negative number asks whether the flag is off."""
 
     then: int
     other: int | None = None  # None: always to `then`
@@ -100,7 +102,7 @@ def arrived(state: State) -> bool:
 
 
 def one_cycle(state: State, senses: Senses, speeds: Mapping[int, int]) -> tuple[State, Ending]:
-    """Let a cycle pass; say whether a motion ends in it. `speeds` are in hundredths of a unit a cycle."""
+    """Let a cycle pass. If a motion ends in this cycle, also say how. `speeds` are in hundredths of a unit a cycle."""
     new = crossed(state, senses(state.cycle, state.positions))
     ending: Ending = "force" if new else "goal" if arrived(state) else ""
     goals = state.positions if new else state.goals
@@ -121,7 +123,7 @@ def one_cycle(state: State, senses: Senses, speeds: Mapping[int, int]) -> tuple[
 def execute(
     statement: Statement, state: State, senses: Senses, speeds: Mapping[int, int]
 ) -> tuple[State, Ending]:
-    """Execute a statement other than BRANCH; say how its motion ended, if it is one."""
+    """Execute a statement other than BRANCH. If the statement is a motion, also say how the motion ended."""
     ending: Ending = ""
     match statement:
         case Sensor(sensor=None):

@@ -2,7 +2,7 @@
 real-time level of an arm through `Level`.
 
 All numbers are words of 16 bits in the units of ML: 0.001 inch, 0.01 degree, and the units of each sensor. Time is
-counted in cycles of 10 ms. No method lets time pass except `cycle`.
+counted in cycles of 10 ms. Only `cycle` lets time pass.
 """
 
 from abc import ABC, abstractmethod
@@ -26,7 +26,9 @@ class Shape(NamedTuple):
 
 
 class View(Protocol):
-    """Contents of a table that another part of MOS keeps. Lines and words count from 1, and exist."""
+    """Contents of a table that another part of MOS keeps. Lines and words count from 1; callers ask only for existing
+    ones.
+    """
 
     def read(self, line: int, word: int) -> int:
         """Return a word."""
@@ -74,12 +76,12 @@ class Level(ABC):
 
     @abstractmethod
     def write(self, table: str, line: int, word: int, value: int) -> None:
-        """Write a word of a table. The real-time level uses the new value from the next cycle on. Raises MlError "
-        "(M11)."""
+        """Write a word of a table. The real-time level uses the new value from the next cycle on. Raises MlError (M11).
+        """
 
     @abstractmethod
     def view(self, table: str, contents: View) -> None:
-        """Let a table show contents that the background level keeps."""
+        """Make a table show contents that the background level keeps."""
 
     # -- sensors --------------------------------------------------------------------------------------
 
@@ -94,7 +96,9 @@ class Level(ABC):
 
     @abstractmethod
     def open(self, sensor: int | None = None) -> None:
-        """Open the limits of a sensor and clear its flag; without a number, of all sensors. Raises MlError (M11)."""
+        """Open the limits of a sensor, which may then read anything, and clear its flag. Without a number, do this for
+        all sensors. Raises MlError (M11).
+        """
 
     @abstractmethod
     def reading(self, sensor: int) -> int:
@@ -102,8 +106,9 @@ class Level(ABC):
 
     @abstractmethod
     def calibrate(self, sensors: Sequence[int]) -> None:
-        """Take the mean of the last 8 readings of each sensor as its zero; with no numbers, of all analog sensors.
-        Raises MlError (M11)."""
+        """Take the mean of the last 8 readings of each sensor as its zero. Without numbers, do this for all analog
+        sensors. Raises MlError (M11).
+        """
 
     @abstractmethod
     def wand(self, sensor: int) -> None:
@@ -126,8 +131,8 @@ class Level(ABC):
 
     @abstractmethod
     def start(self, goals: Mapping[int, int]) -> bool:
-        """Give motors new strategic goals. Returns False, and changes nothing, if the flag of any sensor is on.
-        Raises MlError (M09, M10, M15), and changes nothing.
+        """Give motors new strategic goals. Returns False, and changes nothing, if the flag of any sensor is on. If
+        MlError (M09, M10, M15) is raised, nothing has changed either.
         """
 
     # -- power and devices ----------------------------------------------------------------------------
@@ -147,7 +152,7 @@ class Level(ABC):
 
     @abstractmethod
     def statement(self, number: int) -> None:
-        """Say which statement is executed from now on; 0 for a line that is not stored."""
+        """Tell the level which statement is executed from now on; 0 for a line that is not stored."""
 
     @abstractmethod
     def emergency(self, cause: str, statement: int) -> None:

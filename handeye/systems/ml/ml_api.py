@@ -1,5 +1,5 @@
-"""ML from Python. The paper's host has a higher language that can invoke any of the ML functions; here it is
-Python."""
+"""ML from Python. The paper's host has a higher language that can invoke any of the ML functions; here that language
+is Python."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -42,11 +42,11 @@ class Ml:
         Args:
             text: a program to be stored.
             outline: corners of an object that the wand can touch, each as (y, x) in .001 inch.
-            stimuli: values of sensors at certain times or places.
-            senses: the same, in the form of `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads 500 while
+            stimuli: values that sensors have at certain times or while a motor is at certain positions.
+            senses: the same, written as for `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads 500 while
                 motor 3 is at 2750 or farther from 0.
-            procedures: functions for UPROCA to UPROCD. Each gets this terminal's interpreter and the values of the
-                statement.
+            procedures: functions by the names of the commands that call them, `UPROCA` to `UPROCD`. Each is called
+                with this terminal's interpreter and the values of the statement's parameters.
         """
         self.events: list[SystemEvent] = []
         sensing = (*stimuli, *map(sensed, senses))
@@ -75,7 +75,7 @@ class Ml:
 
     @property
     def listing(self) -> list[str]:
-        """The stored program, a statement a line."""
+        """The lines of the stored program, with one statement each."""
         return self._program.listing()
 
     def load(self, text: str) -> None:
@@ -84,8 +84,8 @@ class Ml:
             self.do(line)
 
     def do(self, line: str) -> list[str]:
-        """Type a line, and wait for its end. While a program is running, the line is executed between two of its
-        statements. A line that starts the program waits for the end of the program.
+        """Type a line, and wait until it has been executed. While a program is running, the line is executed between
+        two statements of the program. If the line starts the program, `do` returns only when the program has ended.
 
         Returns:
             The lines that were printed.
@@ -102,13 +102,13 @@ class Ml:
         return [event.text for event in self.events[first:] if isinstance(event, Printed)]
 
     def begin(self, first: int | None = None) -> None:
-        """Start the stored program at a statement, or at the first one, without executing a statement."""
+        """Start the stored program at a statement, or at the first one, without executing any statement yet."""
         self._mos.run(first)
 
     def step(self, statements: int = 1) -> bool:
         """Execute statements, each to its end. Returns False if the program has ended."""
         if statements < 1:
-            raise BadArgument(f"there must be at least one statement, not {statements}")
+            raise BadArgument(f"the number of statements must be at least 1, not {statements}")
         for _ in range(statements):
             if not self.running:
                 break
@@ -122,15 +122,15 @@ class Ml:
             self._machine.cycle()
 
     def read(self, table: str, line: int, word: int = 1) -> int:
-        """Return a word of a table, such as `read("MT", 3, 1)`. Raises MlError if there is none."""
+        """Return a word of a table, such as `read("MT", 3, 1)`. Raises MlError if there is no such word."""
         return self._mos.level.read(table.upper(), line, word)
 
     def variable(self, number: int) -> int:
-        """Return the value of a variable. Raises MlError if there is none."""
+        """Return the value of a variable. Raises MlError if there is no such variable."""
         return self._mos.variable(number)
 
     def position(self, motor: int) -> int:
-        """Return the position of a motor. Raises MlError if it is not installed."""
+        """Return the position of a motor. Raises MlError if the motor is not installed."""
         return self._mos.level.position(motor)
 
     @staticmethod
@@ -144,16 +144,16 @@ class Ml:
         (10.0, 0.692, 13.71)
 
         Args:
-            period: ms from one reading of the sensors to the next.
-            bandwidth: of the servo of the slide, Hz.
-            speed: of the slide, mm/s.
-            limit: of the gauge, grams.
-            phase: of the contact in the period: 0 just after a reading, nearly 1 just before one.
+            period: time from one reading of the sensors to the next, ms.
+            bandwidth: bandwidth of the slide's servo, Hz.
+            speed: speed of the slide, mm/s.
+            limit: limit of the strain gauge, grams.
+            phase: when in the period the contact occurs: 0 is just after a reading, nearly 1 is just before the next.
 
         Returns:
             When the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the
             greatest force of both fingers (`force`, N), the force on a finger at the start of the motion (`jolt`, N),
-            and the courses of places, goals and forces over `times` (ms).
+            and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
 
         Raises:
             BadArgument: a value is out of range.
@@ -163,5 +163,5 @@ class Ml:
         return touch(period, bandwidth, speed, limit, phase)
 
     def point(self, number: int) -> Point:
-        """Return the positions of a POINT. Raises MlError if it is not filled."""
+        """Return the positions of a POINT. Raises MlError if the POINT is not filled."""
         return self._program.point(number)

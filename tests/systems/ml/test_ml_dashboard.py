@@ -109,7 +109,7 @@ def test_a_record_becomes_a_small_file_and_is_read_again() -> None:
 ])  # fmt: skip
 def test_a_file_that_is_no_record_is_refused(spoil: Callable[[bytes], bytes]) -> None:
     data = packed(example())
-    with pytest.raises(BadFile, match=r"^tables\.gz is not a record of tables$"):
+    with pytest.raises(BadFile, match=r"^tables\.gz is not a recording of the machine's tables$"):
         unpacked(spoil(data), "tables.gz")
 
 
@@ -122,7 +122,7 @@ def test_a_saved_state_with_a_spoilt_record_is_refused_when_it_is_shown(tmp_path
         kept.snapshot.state.tape.blocks, kept.snapshot.state.tape.open = blocks, rest  # type: ignore[attr-defined]
         write_checkpoint(tmp_path / "forged", replace(kept))
         resumed = Runner(read_checkpoint(tmp_path / "forged"))
-        with pytest.raises(BadFile, match=r"^the record of the tables cannot be read$"):
+        with pytest.raises(BadFile, match=r"^the recording of the tables cannot be read$"):
             _ = tables(resumed)
 
 
@@ -162,7 +162,7 @@ def test_the_command_shows_a_recorded_run_and_one_that_was_interrupted(command: 
     (("example.ml", "MT", "13"), "there is no line 13: the lines are 1 to 12"),
     (("example.ml", "MT", "1", "17"), "there is no word 17: the words are 1 to 16"),
     (("example.ml", "MT", "1", "1", "--at", "0"), "the changes of a word are listed for the whole run"),
-    (("example.ml", "--at", "9s"), "--at is after the end of the run, which has 1 cycle from 0 on"),
+    (("example.ml", "--at", "9s"), "--at is after the end of the run, which has 1 cycle, numbered from 0"),
     (("example.ml", "--at", "soon"), "--at takes a cycle (275) or a time (2.75s), not `soon`"),
     (("example.ml", "MT", "--arm", "left"), "example.ml has no table MT of the left arm"),
     (("empty",), "empty holds no run"),

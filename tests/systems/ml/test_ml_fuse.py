@@ -18,8 +18,8 @@ def test_a_load_of_200_newtons_on_the_table_opens_its_fuse_and_stops_the_arm() -
     assert FUSE < max(loads) < 1.5 * FUSE
     assert loads[-1] == 0.0  # relaxed, the arm no longer presses
     assert [arm.level.read("EM", 1, word) for word in (2, 3)] == [3, 288]
-    assert arm.level.stopped == "the fuse of work table 1 has opened"
-    with pytest.raises(MlError, match=r"^M14: the pump stays off: the fuse of work table 1 has opened$"):
+    assert arm.level.stopped == "the fuse of work table 1 has blown"
+    with pytest.raises(MlError, match=r"^M14: the pump stays off: the fuse of work table 1 has blown$"):
         arm.level.enable()
     arm.station.arm.signal("table_1", on=False)
     arm.level.enable()

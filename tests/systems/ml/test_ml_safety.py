@@ -80,8 +80,8 @@ def test_a_reading_outside_both_limits_sets_the_flag_and_is_an_emergency() -> No
     [
         ("panic", "PANIC", 1, "the panic button is pressed"),
         ("door", "INTERLOCK", 2, "the door of the room is open"),
-        ("table_1", "INTERLOCK", 3, "the fuse of work table 1 has opened"),
-        ("table_2", "INTERLOCK", 4, "the fuse of work table 2 has opened"),
+        ("table_1", "INTERLOCK", 3, "the fuse of work table 1 has blown"),
+        ("table_2", "INTERLOCK", 4, "the fuse of work table 2 has blown"),
         ("machine_check", "CLASS", 6, "the System/7 reports a machine check"),
         ("power", "CLASS", 7, "the System/7 reports a power or temperature warning"),
     ],
@@ -173,8 +173,8 @@ def test_outputs_are_tested_while_the_pump_is_off_only() -> None:
     for test in (lambda: arm.right.digital_out(1, 1, 1), lambda: arm.right.analog_out(2, 100)):
         with pytest.raises(
             MlError,
-            match=r"^M15: outputs can be tested only while the pump is off, but the pump is "
-            "on$",
+            match=r"^M15: outputs can be tested only while the pump is off; DISABLE switches it "
+            "off$",
         ):
             test()
     arm.right.disable()

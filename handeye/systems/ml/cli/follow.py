@@ -47,8 +47,7 @@ def follow_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Follow an outline in many worlds. Shows how often the circuit is closed and the referee agrees, and the errors of
-    the touches.
+    """Follow an outline in many worlds. Shows how often it is followed correctly, and the errors of the touches.
 
     Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints what has finished; with --out it
     can be continued.

@@ -41,11 +41,11 @@ def touch(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Let the hand descend on a block until a strain gauge reaches a limit, and show how far it goes on and how hard it
-    presses.
+    """Simulate a guarded touch on a block, and show how far the hand goes on and with what force.
 
-    This is what the ten milliseconds of MOS mean: the slide goes on until the next reading of the sensors, and then for
-    as long as its servo lags behind. `docs/ten_milliseconds.md` has the figures.
+    The hand descends until the reading of a strain gauge is beyond its limit. What the ten milliseconds of MOS mean is
+    then seen: the slide goes on until the sensors are read again, and then for as long as its servo lags behind.
+    `docs/ten_milliseconds.md` has the figures.
 
     Exit code 0: simulated; 2: bad input.
     """

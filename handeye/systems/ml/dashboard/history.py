@@ -1,4 +1,4 @@
-"""The recorded tables of a run: each word at each cycle. They can be written to a file, and read again."""
+"""The recorded tables of a run: the value of each word in each cycle. They can be written to a file and read again."""
 
 import gzip
 import zlib
@@ -17,11 +17,11 @@ from handeye.systems.ml.dashboard.tape import Changes
 from handeye.systems.ml.level import Side
 
 _EXPANDED: Final = 500_000_000  # bytes
-_BAD: Final = "is not a record of tables"
+_BAD: Final = "is not a recording of the machine's tables"
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """What a record of tables begins with."""
+    """The beginning of a recording of tables."""
 
     program: str
     sides: Annotated[tuple[Side, ...], msgspec.Meta(min_length=1, max_length=2)]
@@ -31,7 +31,7 @@ class Head(Record, frozen=True, kw_only=True):
 
 @dataclass
 class Course:
-    """The values of a word: from each of its cycles on it has the value beside."""
+    """The values of one word. From each cycle in `cycles` on, it has the value at the same place in `values`."""
 
     cycles: list[int] = field(default_factory=list)
     values: list[int] = field(default_factory=list)
@@ -42,7 +42,7 @@ class Course:
         return self.values[found - 1] if found else 0
 
     def changed(self, cycle: int) -> bool:
-        """Return True if the word was changed in a cycle. Its first contents, in cycle 0, are no change."""
+        """Return True if the word was changed in a cycle. Its first value, in cycle 0, does not count."""
         found = bisect_right(self.cycles, cycle)
         return found > 0 < cycle == self.cycles[found - 1]
 
@@ -61,7 +61,8 @@ class History:
 
     @property
     def last(self) -> int:
-        """The cycle after the last one, of which is known what statements have changed for it."""
+        """The number of the next cycle. It has not passed, but the words that statements have changed for it are known.
+        """
         return self.head.cycles
 
     def find(self, table: str, side: str = "") -> Segment:
@@ -82,8 +83,8 @@ class History:
         return course is not None and course.changed(cycle)
 
     def used(self, segment: Segment) -> list[int]:
-        """Return the lines of a table that are connected to a device or change, or, if no line of the table is
-        connected, that are not always 0.
+        """Return the lines of a table that are connected to a device, and those that change. If no line of the table
+        is connected to a device, return the lines that are not always 0.
         """
         labels = line_labels(segment.side, segment.table)
         return sorted(
@@ -97,7 +98,7 @@ class History:
 
 
 def history(head: Head, changes: Iterable[Changes]) -> History:
-    """Return the history that changes describe."""
+    """Build a history from changes."""
     courses: dict[int, Course] = {}
     for cycle, number, value in (row for some in changes for row in some.tolist()):
         course = courses.get(number)
@@ -115,9 +116,11 @@ def history(head: Head, changes: Iterable[Changes]) -> History:
 
 
 def packed(done: History) -> bytes:
-    """Return a history as a compressed file. It begins with the length of its head and the head, in JSON; then comes
-    for each word the distance of its number from the one before, the number of its changes, the cycles from each
-    change to the next, and the changes of its value. Integers have seven bits in a byte, the lowest first.
+    """Return a history as a compressed file.
+
+    The file begins with the length of the head and the head itself, in JSON. Then it has for each word: how many words
+    without a course were skipped before it, the number of its changes, the cycles from each change to the next, and
+    the step of its value at each change. Integers are written with seven bits in each byte, the lowest bits first.
     """
     head = msgspec.json.encode(done.head)
     stream = bytearray(_integers([len(head)]) + head)
@@ -132,7 +135,7 @@ def packed(done: History) -> bytes:
 
 
 def unpacked(data: bytes, name: str) -> History:
-    """Return the history in a compressed file. Raises BadFile."""
+    """Read a history from a compressed file. Raises BadFile."""
     reader = zlib.decompressobj(wbits=31)
     try:
         stream = reader.decompress(data, _EXPANDED)
@@ -194,7 +197,7 @@ class _Reader(Iterator[int]):
 
 
 def _sums(read: _Reader, count: int, *, folded: bool = False) -> list[int]:
-    """Return the running sums of numbers. Folded numbers may be negative."""
+    """Return the running sums of the next `count` numbers. Numbers that are `folded` also encode negative ones."""
     sums, total = [], 0
     for _ in range(count):
         number = next(read)

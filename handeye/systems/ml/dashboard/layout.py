@@ -1,4 +1,4 @@
-"""Numbers all words of all tables of a machine, so that a record can name a word by one integer."""
+"""Gives each word of each table of a machine a number, so that a recording can name a word by one integer."""
 
 from collections.abc import Sequence
 from typing import Final, NamedTuple
@@ -33,7 +33,7 @@ class Segment(NamedTuple):
         return self.base + (line - 1) * self.shape.words + word - 1
 
     def line_word(self, number: int) -> tuple[int, int]:
-        """Return the line and the word with a number, counted from 1."""
+        """Return the line and the word that have a number; both count from 1."""
         line, word = divmod(number - self.base, self.shape.words)
         return line + 1, word + 1
 
@@ -62,7 +62,7 @@ def segments(sides: Sequence[Side]) -> list[Segment]:
 
 
 def line_labels(side: str, table: str) -> dict[int, str]:
-    """Return what is behind the lines of a table: axes, channels, interlocks."""
+    """Return the axis, channel or interlock to which each line of a table is connected. Other lines are left out."""
     spec = _SPECS["left" if side == "left" else "right"]
     axes = {motor.number: motor.axis for motor in spec.motors}
     analog = {point: source.channel for point, source in spec.analog.items()}

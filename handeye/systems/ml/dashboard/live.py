@@ -1,4 +1,4 @@
-"""The tables of a running machine in its live page."""
+"""The tables of a running machine, for the live page of its run."""
 
 import msgspec
 import numpy as np
@@ -34,7 +34,7 @@ class LiveTables(LiveNews):
             "The tables",
             note(
                 "Words that changed in the cycle are lit. Click a word to see its course. A value that you write takes "
-                "effect in the next cycle, also while the arm moves."
+                "effect in the next cycle, even while the arm moves."
             ),
             dashboard(form),
             facts(head, picked=motors.number(_Y, 1)),
@@ -46,7 +46,7 @@ class LiveTables(LiveNews):
         recorder.hear = self._hear
 
     def restart(self) -> None:
-        """Begin again with what is on the tape."""
+        """Begin again with the changes that are on the tape."""
         self._log = [*changes_of(self._recorder.tape)]
 
     def _hear(self, changes: Changes) -> None:

@@ -15,8 +15,8 @@ _SHOWN: Final = "tables.shown();\n"
 
 
 def tables_part(done: History) -> PagePart:
-    """Return the section of a report with the tables of a finished run. Without scripts it shows the tables of motors
-    and sensors after the last cycle.
+    """Return the section of a report with the tables of a finished run. In a browser without scripts, the section shows
+    the tables of motors and sensors after the last cycle.
     """
     plain = element(
         "div",
@@ -27,8 +27,8 @@ def tables_part(done: History) -> PagePart:
         "tables",
         "The tables, cycle by cycle",
         note(
-            "All that MOS knew is in these tables. Words that changed in the cycle are lit, and a sensor whose flag is "
-            "on is red. Click a word to see its course, and the time line to go to a cycle."
+            "Everything that MOS knew is in these tables. Words that changed in the cycle are lit, and a sensor whose "
+            "flag is on is red. Click a word to see its course; click the time line to go to a cycle."
         ),
         dashboard(),
         plain,
@@ -42,8 +42,8 @@ def dashboard(*more: Markup) -> Markup:
     """Return the elements that the script fills."""
     steps = [
         ("first", "|◀", "first cycle"),
-        ("back", "◀", "a cycle back"),
-        ("on", "▶", "a cycle on"),
+        ("back", "◀", "one cycle back"),
+        ("on", "▶", "one cycle on"),
         ("last", "▶|", "end"),
     ]
     cycle = element(
@@ -90,8 +90,8 @@ def _button(name: str, shown: str, label: str) -> Markup:
 
 
 def facts(head: Head, *, picked: int | None) -> Markup:
-    """Return what the script has to know of the machine and its program. `picked` is the word whose course is shown
-    at first.
+    """Return what the script needs to know about the machine and its program. `picked` is the word whose course is
+    shown at first.
     """
     tables = segments(head.sides)
     data: dict[str, Any] = {
@@ -111,7 +111,7 @@ def facts(head: Head, *, picked: int | None) -> Markup:
 
 
 def _moving(done: History) -> int:
-    """Return the position of the motor that has moved in the most cycles."""
+    """Find the motor that has moved in the most cycles, and return the number of the word with its position."""
     motors = done.find("MT")
     positions = [motors.number(line, 1) for line in range(1, motors.shape.lines + 1)]
     return max(

@@ -1,4 +1,4 @@
-"""Records the words of all tables that change in each cycle, while the machine runs."""
+"""Records in each cycle of a running machine which words of its tables have changed."""
 
 import zlib
 from abc import ABC, abstractmethod
@@ -39,8 +39,9 @@ _SHARED: Final = ("TM",)
 _EVENTS: Final = ("FE", "GO", "EM", "SF")  # tables that change in some cycles
 
 Changes = NDArray[np.int32]
-"""Changed words, shape (n, 3): the cycle, the number of the word, its value. Changes of the same word are in the order
-in which they happened. Cycles count from 0. What a statement changes belongs to the cycle that follows it.
+"""Changed words, shape (n, 3), each with the cycle, the number of the word and its value. Changes of the same word are
+in the order in which they happened. Cycles count from 0. What a statement changes belongs to the cycle that follows
+the statement.
 """
 
 
@@ -60,7 +61,7 @@ def changes_of(tape: Tape) -> Iterator[Changes]:
 
 
 def _compressed(changes: Changes) -> bytes:
-    """Compress changes: sorted by words, and as differences, they are similar to each other."""
+    """Compress changes: sort them by words, and write only the differences, which compress well."""
     ordered = changes[np.argsort(changes[:, 1], kind="stable")]
     return zlib.compress(np.diff(ordered, axis=0, prepend=0).T.astype("<i4").tobytes())
 
@@ -83,7 +84,7 @@ def _triples(data: bytes) -> Changes:
 
 
 def _bad() -> BadFile:
-    return BadFile("the record of the tables cannot be read")
+    return BadFile("the recording of the tables cannot be read")
 
 
 class TapeRecorder:
@@ -194,7 +195,7 @@ class _Fast:
         self._cycles.append(cycle)
 
     def changes(self) -> NDArray[Any]:
-        """Return the changes between the copies, and forget all but the last."""
+        """Return the changes between the copies, and forget all copies but the last."""
         if not self._cycles:
             return np.empty((0, 3), dtype=np.int32)
         copies = np.frombuffer(self._words, dtype=np.int16).reshape(len(self._cycles), -1)
@@ -215,7 +216,7 @@ class _Fast:
 
 
 def _compare(row: list[int], base: int, was: Sequence[int], now: Sequence[int]) -> None:
-    """Add number and value of each word that has changed to a row. The first word has the number `base`."""
+    """Append to `row` the number and the value of each word that has changed. The first word has the number `base`."""
     for place in compress(count(), map(ne, was, now)):
         row += (base + place, now[place])
 
@@ -225,7 +226,7 @@ class _Source(ABC):
 
     @abstractmethod
     def look(self, row: list[int]) -> None:
-        """Add number and value of each word that has changed to a row."""
+        """Append to `row` the number and the value of each word that has changed."""
 
 
 def _stored(segment: Segment, *memories: MutableRecord) -> _Source:
@@ -281,7 +282,7 @@ class _Sparse(_Source):
 
 
 class _Viewed(_Source):
-    """A table that the background level shows. It changes only if a key changes."""
+    """A table that the background level keeps. It can have changed only if the value of `key` has changed."""
 
     def __init__(self, segment: Segment, view: View, key: Callable[[], object]) -> None:
         self._segment, self._view, self._key = segment, view, key
@@ -301,7 +302,7 @@ class _Viewed(_Source):
 
 
 def _views(mos: Interpreter, program: StoredProgram) -> dict[str, tuple[View, Callable[[], object]]]:
-    """Return the tables of the background level, each with a function whose value changes with it."""
+    """Return the tables of the background level, each with a function whose value changes when the table does."""
     memory, points = mos.memory, program.memory
     return {
         "PT": (RecentPoints(program), lambda: ([*points.recent], dict(points.points))),

@@ -39,7 +39,7 @@ def one_table(done: History, segment: Segment, cycle: int, line: int | None = No
 
 
 def one_word(done: History, segment: Segment, line: int, word: int) -> dict[str, Any]:
-    """Describe the changes of a word, each as cycle and value, for JSON."""
+    """Describe the changes of a word for JSON. Each change has the cycle and the new value."""
     _within(line, segment.shape.lines, "line")
     _within(word, segment.shape.words, "word")
     found = done.courses.get(segment.number(line, word), Course())
@@ -58,7 +58,7 @@ def _changing(done: History, segment: Segment, cycle: int | None = None) -> int:
 
 
 def overview(done: History, cycle: int) -> Iterator[str]:
-    """List all tables, with the numbers of their words that changed during the run and in a cycle."""
+    """List all tables, each with the number of its words that changed during the run, and in a cycle."""
     yield f"{done.head.program}, {_moment(done, cycle)}"
     yield ""
     rows = [("table", "", "lines", "words", "words that change", "in this cycle")]
@@ -99,7 +99,7 @@ def table(done: History, segment: Segment, cycle: int, line: int | None = None) 
     left_out = shape.lines - len(lines)
     if left_out:
         yield ""
-        yield f"{counted(left_out, 'line')} left out: unused"
+        yield f"{counted(left_out, 'unused line')} not shown"
 
 
 def course(done: History, segment: Segment, line: int, word: int) -> Iterator[str]:

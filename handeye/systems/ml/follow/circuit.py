@@ -1,9 +1,10 @@
 """Detects from touches and turns that a follower has closed its circuit, or that it is lost. The program of the paper
-does neither: it runs on for ever.
+detects neither, and runs on for ever.
 
 When a circuit is closed, left turns outnumber right turns by four. A follower that misses its wall turns left four
-times without a touch, and is back where it was: a square of one step, which counts as no turn at all. It tries again,
-and as each motion ends a little elsewhere, it often finds the wall. If it does not, it is lost.
+times without a touch, and so goes around a square of one step back to where it was. The turns of such a square are not
+counted. The follower then tries again; because each motion ends at a slightly different place, it often finds the
+wall. If it has not found the wall after `IDLE` squares, it is lost.
 """
 
 from collections.abc import Sequence
@@ -27,7 +28,7 @@ Turn = Literal["", "left", "right"]
 
 
 class Felt(Record, frozen=True, kw_only=True):
-    """What a follower has felt, as its computer knows it. Places are x and y, in units of the slides."""
+    """What a follower has felt, as its computer knows it. Places are given as x and y, in units of the slides."""
 
     touches: tuple[Point, ...] = ()
     left: int = 0  # turns
@@ -40,7 +41,7 @@ class Felt(Record, frozen=True, kw_only=True):
 
     @property
     def turns(self) -> int:
-        """Left turns less right turns, without those of squares in which nothing was touched."""
+        """Left turns minus right turns, without the turns of squares in which nothing was touched."""
         return self.left - self.right - ROUND * self.idle
 
     @property
@@ -52,7 +53,7 @@ class Felt(Record, frozen=True, kw_only=True):
 
     @property
     def lost(self) -> bool:
-        """True if the follower has no hope to find the object, or does not come back to where it began."""
+        """True if the follower has touched nothing for too long, or needs too many statements to close its circuit."""
         return self.missed >= ROUND * IDLE or self.statements >= LONGEST
 
     @property
@@ -73,12 +74,12 @@ class Felt(Record, frozen=True, kw_only=True):
 
 
 def followed(felt: Felt, forward: Sequence[int], touch: Point, noticed: tuple[int, int]) -> Felt:
-    """Return what is felt after a statement.
+    """Return what the follower has felt after one more statement.
 
     Args:
         forward: the present forward step of the program, along x and y.
         touch: where the wand touched last.
-        noticed: the cycle in which this was noticed; (0, 0) if it has not touched yet.
+        noticed: the cycle in which that touch was noticed; (0, 0) if there was no touch yet.
     """
     statements = felt.statements + 1
     if noticed != felt.noticed:

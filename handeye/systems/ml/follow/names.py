@@ -1,4 +1,4 @@
-"""The names of the outlines, apart from their shapes, which need a simulator."""
+"""The names of the outlines. They are apart from the shapes, which need a simulator."""
 
 from typing import Literal
 

@@ -26,7 +26,7 @@ class Rectangle(NamedTuple):
 
 
 class Outline(NamedTuple):
-    """A plate, in units of the slides x and y; its own zero is where the slides are at 0."""
+    """A plate, in units of the slides x and y. Its origin is where the slides are at 0."""
 
     corners: tuple[tuple[float, float], ...]  # x, y of a polygon, in order around it
     parts: tuple[Rectangle, ...]  # of which it consists; none: it is a disc
@@ -35,7 +35,7 @@ class Outline(NamedTuple):
 
     @property
     def points(self) -> Array:
-        """Corners of the outline, of a disc those of a polygon with many corners, shape (n, 2)."""
+        """Corners of the outline, shape (n, 2). A disc is approximated by a polygon with many corners."""
         if not self.radius:
             return np.array(self.corners, dtype=float)
         turns = 2 * np.pi * np.arange(_ROUND) / _ROUND
@@ -75,9 +75,9 @@ def lay(
     """Lay a plate on the table.
 
     Args:
-        off: m by which it lies beside its place, along x and y of the slides.
-        turned: rad, about their z.
-        friction: of plate and table.
+        off: how far the plate lies from its place along x and y of the slides, m.
+        turned: rotation of the plate about z of the slides, rad.
+        friction: coefficient of friction between plate and table.
     """
     at = [CENTRE + off[0], -off[1], HIGH / 2]
     turn = [np.cos(turned / 2), 0, 0, -np.sin(turned / 2)]
@@ -103,8 +103,8 @@ def lay(
 
 
 def placed(points: Array, R: Array, centre: Array) -> Array:
-    """Return points of a plate, shape (n, 2), as they lie: in units of the slides, from the true rotation (3, 3) of the
-    plate and its place (m, shape (3,)) in the scene.
+    """Convert points of a plate, shape (n, 2), to where they lie on the table, in units of the slides. The plate has
+    the true rotation `R`, shape (3, 3), and its middle is at `centre` (m, shape (3,)) in the scene.
     """
     flat = np.array([[1.0, 0.0], [0.0, -1.0]])  # from the slides to the scene
     lying = points * LINEAR @ flat @ R[:2, :2].T + centre[:2] - [CENTRE, 0.0]

@@ -49,7 +49,7 @@ class FollowReport(Record, frozen=True, kw_only=True):
 
 
 def follow_page(done: FollowReport, parts: Sequence[PagePart] = ()) -> bytes:
-    """Return the page of a report, which ends with some parts."""
+    """Return the page of a report. It ends with `parts`."""
     title = f"Follow, {done.outline}: {_VERDICTS.get(done.exit_code, 'stopped')}"
     felt = done.felt
     facts = (
@@ -85,9 +85,9 @@ def _sections(done: FollowReport) -> Iterator[Markup]:
 
 def _outline(done: FollowReport) -> Iterator[Markup]:
     yield note(
-        "Left: the plate as it truly lies, seen from above, and the places of the wand when it touched, numbered in "
+        "Left: the plate as it truly lies, seen from above, and the places at which the wand touched, numbered in "
         "order. The base of the arm is at the top. Right: the distance of the wand's surface from the true outline "
-        "at each touch. A bar that goes down is inside the plate: the wand bends."
+        "at each touch. Where a bar points down, the place is inside the plate, because the wand has bent."
     )
     yield element("figure", _drawn(done), class_="chart")
 
@@ -99,7 +99,7 @@ def _drawn(done: FollowReport) -> Markup:
         *_depths(true, touches),
         wide=_WIDE,
         high=_HIGH,
-        label="The outline that was felt over the true one, and the errors of the touches",
+        label="The outline that was felt, drawn over the true one, and the errors of the touches",
     )
 
 
@@ -116,11 +116,11 @@ def _plan(true: Array, touches: Array) -> Iterator[Markup]:
         yield words(xs(x) + aside[0], ys(y) + aside[1] + 3.5, str(number), anchor="middle")
     inch = xs(1000) - xs(0)
     yield rule(_PLAN[0], _HIGH - 6, _PLAN[0] + inch, _HIGH - 6, class_="axis")
-    yield words(_PLAN[0] + inch + 6, _HIGH - 2, "a step: 1000 units, one inch")
+    yield words(_PLAN[0] + inch + 6, _HIGH - 2, "one step: 1000 units, or one inch")
 
 
 def _outwards(at: Array, true: Array) -> Array:
-    """Return the way from a touch to its number, away from the plate, in units of the drawing."""
+    """Return the offset from a touch to where its number is drawn, away from the plate, in units of the drawing."""
     slope = [distance(at + step, true) - distance(at - step, true) for step in np.eye(2) * _FAR]
     return 11 * np.array(slope) / max(hypot(*slope), 1.0)
 
@@ -156,7 +156,7 @@ def follow_files(done: FollowReport, report: str, parts: Sequence[PagePart]) -> 
 
 
 def kept_page(folder: Path, parts: Sequence[PagePart]) -> bytes | None:
-    """Build the page of the run in a folder again; None if the folder has no finished follower."""
+    """Build the report page again from the folder of a run. Returns None if the folder has no record of a follower."""
     path = folder / FOLLOWED
     return follow_page(_read(read_whole(path, _LARGEST), str(path)), parts) if path.is_file() else None
 

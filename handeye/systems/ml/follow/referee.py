@@ -11,20 +11,20 @@ from handeye.systems.ml.machine.spec import LINEAR
 
 RADIUS: Final = 0.8  # mm, of the wand
 FELT: Final = 3.3
-"""Greatest distance of the wand from the outline when a touch is noticed, mm. A slide goes up to 2.1 mm in a cycle, the
-wand signals when it is bent by .1 mm, a position is wrong by up to .3 mm, and at a sudden start a finger lags behind
-its slide by up to v sqrt(m / k), which is .8 mm."""
+"""Greatest distance (mm) of the wand from the outline when a touch is noticed. It has four terms: a slide goes up to
+2.1 mm in a cycle; the wand signals when it is bent by .1 mm; a position is wrong by up to .3 mm; and at a sudden start
+a finger lags behind its slide by up to v sqrt(m / k), which is .8 mm."""
 FOUND: Final = 38.1  # mm from a place of the outline to the nearest touch, one step and a half
 UNMOVED: Final = 0.1  # mm
 _DEEP: Final = 500.0  # units, deeper than touches
 
 
 def judge(touches: Array, outline: Array, before: Array) -> Findings:
-    """Return findings on touches, shape (n, 2).
+    """Return findings on touches, shape (n, 2), in units of the slides.
 
     Args:
-        outline: corners of the plate as it lies now, shape (m, 2), in units of the slides like all places.
-        before: its corners before the program began.
+        outline: corners of the plate as it lies now, shape (m, 2), in the same units.
+        before: corners of the plate before the program began.
     """
     touches = touches.reshape(-1, 2)
     moved = float(np.hypot(*(outline - before).T).max()) * LINEAR / MILLIMETRE
@@ -43,15 +43,15 @@ def judge(touches: Array, outline: Array, before: Array) -> Findings:
             max(gaps) * LINEAR / MILLIMETRE,
             FOUND,
             "mm",
-            "greatest distance of the outline from the nearest touch",
+            "greatest distance from a place on the outline to the nearest touch",
         ),
-        "turned": at_most(turning, 0, "", "difference between the number of turns around the plate and one"),
+        "turned": at_most(turning, 0, "", "difference between 1 and the number of times around the plate"),
         "unmoved": at_most(moved, UNMOVED, "mm", "greatest displacement of the plate"),
     }
 
 
 def distance(at: Array, outline: Array) -> float:
-    """Return the distance of a place from an outline; it is negative inside."""
+    """Return the distance of a place from an outline; inside the outline, it is negative."""
     ends = np.roll(outline, -1, axis=0)
     way = ends - outline
     share = np.clip(((at - outline) * way).sum(axis=1) / (way**2).sum(axis=1), 0.0, 1.0)
@@ -69,7 +69,7 @@ def along(outline: Array, count: int = 20) -> Array:
 
 
 def turning_number(touches: Array, centre: Array) -> int:
-    """Return how many times a path through touches and back to the first one goes around a place."""
+    """Return how many times the path through all touches and back to the first one goes around `centre`."""
     turns = np.unwrap(np.arctan2(*(np.concatenate((touches, touches[:1])) - centre).T))
     return round(float(turns[-1] - turns[0]) / (2 * np.pi)) if len(touches) else 0
 

@@ -199,7 +199,7 @@ class Follow(ArmTask):
 
 
 def outline_of(plan: MlPlan) -> OutlineName:
-    """Return the outline of a plan. Raises NoSuchName if there is no such outline."""
+    """Return the outline that a plan names. Raises NoSuchName if there is no such outline."""
     for name in OUTLINES:
         if name == plan.variant:
             return name

@@ -42,7 +42,7 @@ class _Mistaken(Exception):
 
 
 def assembled(source: Source) -> tuple[str, list[Diagnostic]]:
-    """Return a program in ML, and the mistakes of its symbolic text."""
+    """Assemble a symbolic program. Returns the program in ML, and the mistakes of the symbolic text."""
     assembler = _Assembler()
     for text, start in _rows(source.text):
         try:

@@ -21,7 +21,7 @@ _ARMS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
 _CHOICES: Final[dict[str, Side]] = {"RIGHT": "right", "LEFT": "left"}
 _PAIRS: Final = {"NEXTI": "LOOPI", "NEXTJ": "LOOPJ", "RETURN": "GOSUB"}
 _AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN": 2}
-"""Numbers of POINTs that commands take."""
+"""How many parameters of a command are numbers of POINTs."""
 
 
 def checked(
@@ -61,7 +61,7 @@ def checked(
 
 
 class _Check:
-    """The checks of single lines, which know the whole program."""
+    """Checks single lines of a program, knowing the whole program."""
 
     def __init__(self, lines: Mapping[int, Line], starts: list[tuple[int, Side]]) -> None:
         self._lines = lines
@@ -71,7 +71,7 @@ class _Check:
         self._sides = commanded(Flow(self._statements), starts)
 
     def parameters(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the numbers of variables and sensors, and the places in tables."""
+        """Check that the variables, the sensors, and the lines and words of tables exist."""
         command, shape = COMMANDS[line.statement.code], SHAPES.get(line.statement.code)
         for at, value in enumerate(line.statement.parameters):
             if not isinstance(value, int):
@@ -99,14 +99,16 @@ class _Check:
                 yield mistake("limits-empty", told, line.place(1))
 
     def motors(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the motors of a line, and constant goals. A line that may command either arm must suit one."""
+        """Check the motors and the constant goals of a line. If a line may command either arm, it is a mistake only if
+        it suits neither.
+        """
         sides = self._sides.get(line.number or 0) or _ARMS
         mistakes = [list(_motors(line, _ARMS[side])) for side in _ARMS if side in sides]
         if all(mistakes):
             yield from mistakes[0]
 
     def places(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that the statements and POINTs exist to which a line refers."""
+        """Check that the statements and POINTs to which a line refers exist."""
         if self._loads:  # the program may be replaced
             return
         code, values = line.statement.code, line.statement.parameters
@@ -139,7 +141,7 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the ends of loops and subroutines."""
+        """Check that loops and subroutines have both a beginning and an end."""
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])
@@ -151,7 +153,7 @@ class _Check:
 
 
 def commanded(flow: Flow, starts: Iterable[tuple[int, Side]]) -> dict[int, set[Side]]:
-    """Return the arms that each statement may command, if programs begin at some statements with some arms."""
+    """Return the arms that each statement may command. `starts` has the first statement and the arm of each program."""
     known: dict[int, set[Side]] = {}
     todo = [start for start in starts if start[0] in flow.statements]
     while todo:

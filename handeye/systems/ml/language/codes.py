@@ -15,7 +15,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "M03": Mistake(
         meaning="a command has too few or too many parameters", example="10 MOTOR 3",
-        cure="`handeye ml words` with the command shows its parameters",
+        cure="`handeye ml words COMMAND` shows the parameters of a command",
     ),
     "M04": Mistake(
         meaning="a number does not fit into 16 bits, or the limits of a sensor are in the wrong order",
@@ -27,7 +27,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "M06": Mistake(
         meaning="a reference has more than six `&`", example="10 BRANCH &&&&&&&17",
-        cure="load a part of the chain into a variable first",
+        cure="first load a part of the chain of references into a variable",
     ),
     "M07": Mistake(
         meaning="a statement does not exist", example="10 BRANCH 700\n20 STOP",
@@ -51,8 +51,8 @@ CODES: Final[dict[str, Mistake]] = {
         cure="`QUERY` shows a table; `handeye ml words` lists all tables",
     ),
     "M13": Mistake(
-        meaning="a loop ends, or a subroutine returns, without having begun", example="10 NEXTI",
-        cure="write LOOPI before NEXTI, LOOPJ before NEXTJ, and call the subroutine with GOSUB",
+        meaning="the end of a loop, or a RETURN, without its beginning", example="10 NEXTI",
+        cure="write LOOPI before NEXTI, and LOOPJ before NEXTJ; call a subroutine that ends with RETURN by GOSUB",
     ),
     "bad-parameter": Mistake(
         meaning="a parameter has a form that its command does not accept", example="10 LOAD 1 ABC",
@@ -100,7 +100,7 @@ CODES: Final[dict[str, Mistake]] = {
 
 SYMBOLIC: Final[dict[str, Mistake]] = {
     "bad-definition": Mistake(
-        meaning="a definition does not have the form that it requires", example="STEP EQU",
+        meaning="a definition with EQU or VAR has the wrong form", example="STEP EQU",
         cure="write `NAME EQU number`, or `NAME VAR`",
     ),
     "bad-name": Mistake(

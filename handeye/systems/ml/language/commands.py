@@ -77,10 +77,10 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("TRACE", "[x]", "Print each statement with its values before it runs; `TRACE 0` ends this.", "TRACE"),
     ),
     "flow": (
-        ("BAL", "v n", "Put the number of the next statement into variable v, and go to statement n; "
+        ("BAL", "v n", "Put the number of the next statement into variable v and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
-        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. With n2, go to n1 only if the flag of any sensor s is on, otherwise "
-                                      "to n2; -s asks whether the flag of s is off. Without s, any sensor counts.",
+        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. With n2, go to n1 if the flag of any listed sensor is on, otherwise "
+                                      "to n2. -s asks whether the flag is off. Without a list, all sensors are asked.",
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or to the next statement.",
          "40 BRCOMP 100"),
@@ -107,8 +107,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("GOPOINT", "n [x]", "Go to the positions of a POINT. With x = 1, do not wait for the end of the motion.",
          "280 GOPOINT 5"),
         ("HAND", "x11 [x12]", "Move the fingers only: their separation and the angle between them.", "30 HAND 650 900"),
-        ("JOY", "n", "Let the joystick guide the arm; the record key stores the positions of all motors in POINT n.",
-         "JOY 5"),
+        ("JOY", "n", "Guide the arm with the joystick; the record key stores its positions in a POINT.", "JOY 5"),
         ("MOTOR", "m x", "Move one motor to a position.", "288 MOTOR 3 4000"),
         ("MOVE", "x1 ... x12", "Move each motor to a position. Motors that are left out keep their goals.",
          "285 MOVE 0 0 2000 0 0 0 0 0 4000 -9000 650 1900"),
@@ -119,7 +118,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("SENSOR", "[s [lo hi]]", "Expect the readings of a sensor to be above lo and below hi, and clear its flag. "
                                   "Without limits, expect any reading; without s, do this for all sensors.",
          "200 SENSOR 5 -178 450"),
-        ("WAND", "[s]", "Assign the wand to sensor s (sensor 1 if s is left out), and expect no contact.", "10 WAND"),
+        ("WAND", "[s]", "Assign the wand to sensor s, or to sensor 1 if s is omitted, and expect no contact.",
+         "10 WAND"),
     ),
     "data": (
         ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. The statement does "
@@ -129,12 +129,12 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("ADD", "v x", "Add x to variable v.", "50 ADD 1 -1"),
         ("COMPOFF", "", "Set the comparison indicator off.", "10 COMPOFF"),
         ("COMPON", "", "Set the comparison indicator on.", "10 COMPON"),
-        ("DADD", "v x [y]", "Add x, or the pair x y, to a pair of variables: v has the high word, v+1 the low word.",
+        ("DADD", "v x [y]", "Add x, or the pair x y, to a pair of variables: v is the high word, v+1 the low word.",
          "20 DADD 1 500"),
-        ("DIVD", "v x [w]", "Divide variable v by x, and round toward zero; variable w gets the remainder.",
+        ("DIVD", "v x [w]", "Divide variable v by x and round toward zero; variable w gets the remainder.",
          "30 DIVD 1 10 2"),
-        ("DLOAD", "v x [y]", "Set a pair of variables to x, or to the pair x y: v gets the high word, v+1 the low "
-                             "word.", "10 DLOAD 1 500"),
+        ("DLOAD", "v x [y]", "Set a pair of variables to x, or to the pair x y: v is the high word, v+1 the low word.",
+         "10 DLOAD 1 500"),
         ("EQ?", "x y", "Set the comparison indicator on if x equals y, or else off.", "30 EQ? &1 0"),
         ("GE?", "x y", "Set the comparison indicator on if x is at least y, or else off.", "30 GE? &1 0"),
         ("GET", "v t line word", "Set variable v to a word of table t.", "40 GET 1 MT 3 5"),
@@ -157,14 +157,14 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "edit": (
         ("ERASE", "n1 [n2]", "Erase statement n1, or all statements from n1 to n2.", "ERASE 500 550"),
         ("FILE", "t line word x ...", "Write consecutive words of a table.", "FILE MT 2 8 10"),
-        ("LIST", "[n1 [n2]]", "List the program, statement n1, or all statements from n1 to n2.", "LIST 100 200"),
+        ("LIST", "[n1 [n2]]", "List the stored program, a statement, or all statements from n1 to n2.", "LIST 100 200"),
         ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the latest first.", "QPOINT"),
         ("QUERY", "t [line [word]]", "Show a table, a line of it, or a word.", "QUERY ST 5"),
     ),
     "test": (
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
         ("TESTAO", "x y", "Set analog output x to y. No limit is checked, so the pump must be off.", "TESTAO 3 100"),
-        ("TESTDO", "x y [mask]", "Set digital output word x to y, or only the bits of a mask. The pump must be off.",
+        ("TESTDO", "x y [mask]", "Set digital output word x to y; with a mask, only its bits. The pump must be off.",
          "TESTDO 1 1"),
     ),
     "host": (
@@ -176,7 +176,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("GROT", "x [y [z]]", "Rotate the gripper about its own axes: yaw, pitch, roll, in .01 degree.", "40 GROT 500"),
         ("GTRANS", "x [y [z]]", "Move the gripper along its own axes, in .001 inch.", "40 GTRANS 0 0 250"),
         ("QUIT", "", "Close the session with the host.", "QUIT"),
-        *((f"UPROC{letter}", "[x ...]", "Call a procedure of the user on the host.", f"50 UPROC{letter} 1")
+        *((f"UPROC{letter}", "[x ...]", "Call one of the user's procedures on the host.", f"50 UPROC{letter} 1")
           for letter in "ABCD"),
         ("VMCNTL", "", "Start the interpreter of the arm language on the host.", "VMCNTL"),
     ),
@@ -213,11 +213,11 @@ MOTIONS: Final = frozenset(
 
 
 TABLE_NAMES: Final = {word_of(name): name for name in SHAPES}
-"""Tables by the 16-bit words that stand for their names: each letter has 8 bits."""
+"""The names of the tables, by the words that stand for them. A word has 8 bits for each of the two letters."""
 
 
 def explained(word: str) -> str | None:
-    """Return the help of a command, or None."""
+    """Return the help of a command, or None if there is no such command."""
     command = COMMANDS.get(word.upper())
     if command is None:
         return None

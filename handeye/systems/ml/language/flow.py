@@ -26,7 +26,8 @@ class Flow:
 
     def ways(self, number: int, *, likely: bool = False) -> tuple[int | None, ...]:
         """Return the numbers of the statements that may follow a statement; None stands for the end. A computed
-        branch may lead to any statement. `likely` ways of a computed branch are those that BAL and LOAD give.
+        branch may lead to any statement. With `likely`, it leads only to statements whose numbers BAL or LOAD puts
+        into its variable.
         """
         return tuple(dict.fromkeys(self._ways(number, likely)))
 

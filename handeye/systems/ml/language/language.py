@@ -25,8 +25,8 @@ class MlLanguage(OwnLanguage):
         return checked(source)[1]
 
     def explanation(self, word: str) -> str | None:
-        """Return the meaning of a code or of a command, or None. `handeye ml words` explains those commands whose
-        names the arm language also has.
+        """Return the meaning of a code or of a command, or None. If the arm language has a word with the name of the
+        command, `handeye ml words` explains the command.
         """
         return code_explained(word) or explained(word)
 
@@ -47,7 +47,7 @@ class MlLanguage(OwnLanguage):
         return self._values(command.kind(len(before) - 1), source)
 
     def _values(self, kind: Kind, source: Source) -> list[tuple[str, str]]:
-        """Return the constants that a parameter may be."""
+        """Return the constants that may be written for a parameter."""
         match kind:
             case "table":
                 return [(name, shape.title) for name, shape in SHAPES.items()]
@@ -77,7 +77,7 @@ def code_explained(code: str) -> str | None:
     code = code.upper() if code.upper() in MEANINGS else code.casefold()
     known = CODES.get(code) or SYMBOLIC.get(code)
     if known is None:
-        more = "The checker does not look for this mistake; it stops a running program."
+        more = "The checker does not look for this mistake. A running program stops at it."
         return f"error[{code}]: {MEANINGS[code]}\n{more}" if code in MEANINGS else None
     symbolic = code in SYMBOLIC
     language = SYMBOLIC_LANGUAGE if symbolic else LANGUAGE

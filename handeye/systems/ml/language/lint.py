@@ -1,8 +1,8 @@
 """Warnings on how a program uses its sensors: motions without guards, flags that stay on, and speeds that trip a
 limit by themselves.
 
-All paths through the program are followed, with the sensors that are guarded on every path, and the flags that may
-be on.
+All paths through the program are followed, to find which sensors are guarded on every path to a statement, and which
+flags may be on.
 """
 
 from collections.abc import Iterator, Mapping
@@ -74,7 +74,7 @@ def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
 def _unguarded(
     lines: Mapping[int, Line], known: Mapping[int, Watch], motions: list[int]
 ) -> Iterator[Diagnostic]:
-    """Warn of motions of the arm without a guard. Of motions that follow each other, the first one is marked."""
+    """Warn of motions of the arm without a guard. If several follow each other, only the first one is marked."""
     of_the_arm = [number for number in motions if lines[number].statement.code not in ("HAND", "DHAND")]
     for guarded, group in groupby(of_the_arm, key=lambda number: bool(known[number].guarded)):
         if not guarded:
@@ -162,8 +162,8 @@ def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
     limit, sensor = min((limit, sensor) for sensor, limit in watch.limits)
     if speed * a_unit > limit:
         told = (
-            f"motor {-motor} starts with {counted(speed, 'unit')} a cycle, whose jolt of {speed * a_unit:.0f} g "
-            f"trips the limit of sensor {sensor}, {limit} g"
+            f"motor {-motor} starts with {counted(speed, 'unit')} a cycle; the jolt of {speed * a_unit:.0f} g "
+            f"trips the limit of sensor {sensor}, which is {limit} g"
         )
         most = int(limit / a_unit)
         cure = (

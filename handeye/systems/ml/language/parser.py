@@ -67,8 +67,9 @@ def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def parsed_line(text: str, start: int = 0, row: int = 1) -> tuple[Line | None, Diagnostic | None]:
-    """Parse a line that begins at the offset `start` of its text. Returns the line, and the mistake; both are None
-    for a remark and for an empty line."""
+    """Parse a line that begins at the offset `start` of its text. Returns the line and None, or None and the mistake.
+    For a remark or an empty line, both are None.
+    """
     if len(text) > LONGEST_LINE:
         told = f"a line can have at most {LONGEST_LINE} characters, but this line has {len(text)}"
         return None, mistake("long-line", told, Span(start=start, end=start + 1))
@@ -148,7 +149,7 @@ def _written(text: str, at: int, start: int) -> list[_Written]:
 
 
 def _point(text: str, at: int, start: int) -> tuple[list[_Written], Point]:
-    """Read what stands behind POINT: nothing, or `*` and the positions of all motors."""
+    """Read what follows POINT: nothing, or `*` and the positions of all motors."""
     written = _written(text, at, start)
     if not written or written[0].text != "*":
         return written, ()

@@ -126,18 +126,18 @@ class PerfectArm(Axes, Outputs):
         return tuple(self.memory.outputs)
 
     def arrive(self) -> None:
-        """Be where the set-points are."""
+        """Move all motors to their set-points."""
         self.memory.q = list(self.memory.goal)
 
     def switch(self, channel: str, value: float) -> None:
-        """Set a channel, such as the panic button, until it is set again. Raises NoSuchName."""
+        """Set the value of a channel, such as the panic button, until it is set again. Raises NoSuchName."""
         names = [each.name for each in self._channels]
         if channel not in names:
             raise NoSuchName(f"the {self.name} arm has no {channel}; it has {', '.join(names)}")
         self.memory.switches[channel] = value
 
     def remember(self, memory: PerfectMemory, cycles: int) -> None:
-        """Continue from a copy of a state, at a cycle. Raises BadFile if the state belongs to another arm."""
+        """Continue at a cycle from a copy of a state. Raises BadFile if the state belongs to another arm."""
         count = len(self._specs)
         names = {each.name for each in self._channels}
         if (
@@ -158,8 +158,8 @@ def perfect_machine(
     stimuli: Sequence[Stimulus] = (),
     outline: Sequence[Point] = (),
 ) -> "tuple[Machine, dict[Side, PerfectArm]]":
-    """Return a machine of perfect motors, and its arms. The stimuli act on the right arm, whose wand touches the
-    outline.
+    """Return a machine of perfect motors, and its arms. The stimuli act on the right arm, and it is the right arm's
+    wand that touches the outline.
     """
     clock = PerfectClock()
     arms = {

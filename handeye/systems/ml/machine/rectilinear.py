@@ -36,7 +36,8 @@ _MOTORS: Final = (
     MotorSpec(number=11, axis="separation", lower=0, upper=4000, peak=7874, output=7),
     MotorSpec(number=12, axis="angle", lower=-2500, upper=2500, unit=ROTARY, peak=_TURNING, output=8),
 )
-"""The eight analog outputs of the System/7 suffice for all motors but the base, whose detents a digital word sets."""
+"""All motors but the base have one of the eight analog outputs of the System/7; a digital word sets the base's detent.
+"""
 
 STRAINS: Final = tuple(f"{finger}_strain_{part}" for finger in ("left", "right") for part in "xyz")
 INTERLOCKS: Final = ("panic", "door", "table_1", "table_2", "program_check", "machine_check", "power")

@@ -16,7 +16,7 @@ TORQUE_COUNT: Final = 0.001  # N m, a count of the torque of a power tool
 CYCLE: Final = 0.01  # s
 CYCLES_PER_SECOND: Final = 100
 HUNDREDTHS: Final = 100
-"""Set-points have a finer unit than goals: 20 cm/s are 78.74 units a cycle."""
+"""Set-points are counted in hundredths of the unit of goals, because a speed of 20 cm/s is 78.74 units a cycle."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,7 +44,7 @@ class AnalogInput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmSpec:
-    """An arm with its wiring. Inputs and outputs have the numbers of their tables."""
+    """An arm with its wiring. Inputs and outputs are numbered as in their tables."""
 
     side: Side
     motors: tuple[MotorSpec, ...]
@@ -60,7 +60,7 @@ class ArmSpec:
 
 
 def analog(point: int) -> SensorLine:
-    """Return the line of an analog sensor whose unit is a count of its input."""
+    """Return the line of an analog sensor whose unit is one count of its input."""
     return SensorLine(input=point)
 
 

@@ -1,4 +1,4 @@
-"""What the sensors of perfect motors sense: stimuli that are given beforehand, and outlines that the wand touches."""
+"""What the sensors of perfect motors sense: stimuli that are given in advance, and outlines that the wand touches."""
 
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Literal
@@ -14,7 +14,7 @@ MOST_CORNERS: Final = 1000
 
 
 class Stimulus(Record, frozen=True, kw_only=True):
-    """A value that a channel has during some cycles, or while a motor is beyond a place."""
+    """A value that a channel has during some cycles and, if `motor` is given, only while it is beyond a position."""
 
     channel: str
     value: Annotated[float, msgspec.Meta(ge=-MOST, le=MOST)]  # SI

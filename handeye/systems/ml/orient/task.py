@@ -50,28 +50,30 @@ VARIATION: Final = Variation(
         "deg",
         Range(0.0, 50.0),
         50.0,
-        "Pitch of the bar in its cradle; the seed determines which end is higher. The specification's row 48.",
+        "Pitch of the bar in its cradle; the seed determines which end is higher. Row 48 of the specification.",
     ),
     quantity(
         _YAW,
         "deg",
         Range(0.0, 25.0),
         25.0,
-        "Yaw of the bar in its cradle; the seed determines to which side. The specification's row 48.",
+        "Yaw of the bar in its cradle; the seed determines the direction. Row 48 of the specification.",
     ),
     quantity(
         _PLACE,
         "mm",
         Noise(1.5),
         5.0,
-        "Standard deviation of the cradle's position along x and y. No source: our choice, for one placed by hand.",
+        "Standard deviation of the cradle's position along x and y. No source: our choice, for a cradle placed by "
+        "hand.",
     ),
     quantity(
         _STOP,
         "mm",
         Noise(0.05),
         1.0,
-        "Standard deviation of the stop's position along x and y. No source: our choice, for one that is screwed on.",
+        "Standard deviation of the stop's position along x and y. No source: our choice, for a stop that is screwed "
+        "on.",
     ),
     quantity(
         _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of bar, table and cradle. No source: our choice.", 0.4
@@ -124,8 +126,8 @@ def _touch(truth: Truth, one: str, other: str) -> bool:
 
 
 def _add_cradle(spec: mujoco.MjSpec, at: Array, pitch: float, yaw: float, friction: float) -> None:
-    """Add two narrow plates on feet, on which the ends of the bar lie, and a lip at its lower end; x and y of the
-    slides (m).
+    """Add the bar and its cradle, at x and y of the slides (m). The cradle has two narrow plates on feet, on which the
+    ends of the bar lie, and a lip at the lower end of the bar.
     """
     import mujoco
 
@@ -157,7 +159,7 @@ def _matrix(quat: Array) -> Array:
 
 
 def _add_stop(spec: mujoco.MjSpec, at: Array) -> None:
-    """Add an upright pin; x and y of the slides (m)."""
+    """Add the stop, an upright pin, at x and y of the slides (m)."""
     import mujoco
 
     spec.worldbody.add_geom(

@@ -49,7 +49,7 @@ from handeye.systems.ml.tables.store import ArmMemory, SharedMemory, Tables
 
 POSTS: Final[tuple[Post, ...]] = ("", "force", "goal", "emergency")  # by the word `posted` of AR
 STUCK_AFTER: Final = 1000
-"""Cycles after which a motion is given up whose set-points stand still while its motors are not at their goals."""
+"""A motion is given up if its set-points stand still for this many cycles while its motors are not at their goals."""
 _PROGRAM_CHECK: Final = "program_check"
 
 
@@ -105,7 +105,7 @@ class Cycles:
         return self._memory.AR[0].statement
 
     def cycle(self) -> None:
-        """Execute one cycle. Time passes afterwards."""
+        """Execute one cycle. The caller lets time pass afterwards."""
         if self.now % self.spec.every == 0:
             self.sample()
             self.check_sensors()
@@ -259,7 +259,7 @@ class Cycles:
             line.status |= FROZEN
 
     def _post(self, what: Post) -> None:
-        """Post the background level, if it waits."""
+        """Post (notify) the background level, if it waits."""
         arm = self._memory.AR[0]
         if not arm.posted:
             arm.posted = POSTS.index(what)

@@ -7,7 +7,7 @@ from handeye.program.events import Importance, SystemEvent
 
 
 class LevelEvent(SystemEvent, frozen=True, kw_only=True):
-    """Base of the events of an arm's real-time level."""
+    """Base class of the events of an arm's real-time level."""
 
     arm: str  # right or left
     cycle: int  # of 10 ms
@@ -37,7 +37,7 @@ class Froze(LevelEvent, frozen=True, kw_only=True):
 
 
 class Posted(LevelEvent, frozen=True, kw_only=True):
-    """The real-time level posted the background level: a motion has ended."""
+    """The real-time level has posted (notified) the background level that a motion has ended."""
 
     importance: ClassVar[Importance] = "debug"
     what: str  # goal, force or emergency
@@ -95,7 +95,7 @@ class GoalRounded(LevelEvent, frozen=True, kw_only=True):
     goal: int
 
     def sentence(self, measures: Measures) -> str:
-        return f"motor {self.motor} stops at detents only: it goes to {self.goal} instead of {self.asked}"
+        return f"motor {self.motor} stops only at detents: it goes to {self.goal} instead of {self.asked}"
 
 
 class ToolSwitched(LevelEvent, frozen=True, kw_only=True):

@@ -71,7 +71,7 @@ class RealTime(Cycles, Level):
         line = self._sensor(sensor)
         if lower >= upper:
             raise MlError(
-                "M04", f"the lower limit of sensor {sensor}, {lower}, is not below the upper, {upper}"
+                "M04", f"the lower limit of sensor {sensor}, {lower}, must be below the upper limit, {upper}"
             )
         line.lower, line.upper, line.open, line.flag = lower, upper, 0, 0
 
@@ -178,7 +178,7 @@ class RealTime(Cycles, Level):
             self._stop(found, self._statement)
 
     def _danger(self) -> Danger | None:
-        """Read all inputs. Returns the cause for an emergency that they show, or None."""
+        """Read all inputs. Returns the cause of the emergency that they show, or None."""
         self.sample()
         self.check_interlocks()
         return danger(self._memory, self.spec)
@@ -217,11 +217,11 @@ class RealTime(Cycles, Level):
 
     def _refuse_while_enabled(self) -> None:
         if self.enabled:
-            raise MlError("M15", "outputs can be tested only while the pump is off, but the pump is on")
+            raise MlError("M15", "outputs can be tested only while the pump is off; DISABLE switches it off")
 
 
 def _fits(memory: ArmMemory, own: ArmMemory) -> bool:
-    """Return True if a state has tables of the sizes of this arm's, and words that they can have."""
+    """Return True if the tables of a state are as long as this arm's own, and their words have possible values."""
     return (
         all(
             not isinstance(table := getattr(memory, name), list) or len(table) == len(getattr(own, name))

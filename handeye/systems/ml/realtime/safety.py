@@ -17,8 +17,8 @@ panic button, an interlock of the room or a table, a class interrupt of the Syst
 _INTERLOCKS: Final[Mapping[str, tuple[str, str]]] = {
     "panic": ("PANIC", "the panic button is pressed"),
     "door": ("INTERLOCK", "the door of the room is open"),
-    "table_1": ("INTERLOCK", "the fuse of work table 1 has opened"),
-    "table_2": ("INTERLOCK", "the fuse of work table 2 has opened"),
+    "table_1": ("INTERLOCK", "the fuse of work table 1 has blown"),
+    "table_2": ("INTERLOCK", "the fuse of work table 2 has blown"),
     "program_check": ("CLASS", "the System/7 reports a program check"),
     "machine_check": ("CLASS", "the System/7 reports a machine check"),
     "power": ("CLASS", "the System/7 reports a power or temperature warning"),
@@ -33,7 +33,7 @@ class Danger(NamedTuple):
 
 
 def danger(memory: ArmMemory, spec: ArmSpec) -> Danger | None:
-    """Return the cause for an emergency that the tables show, or None."""
+    """Return the cause of the emergency that the tables show, or None."""
     for number, (lock, name) in enumerate(zip(memory.SF, spec.interlocks, strict=False), 1):
         if lock.now:
             return Danger(_INTERLOCKS[name][0], number)

@@ -31,7 +31,7 @@ class Ending(NamedTuple):
 
 
 class Hardware(ABC):
-    """A machine for a run, with what the run shows of it and what a job wants to know of the run."""
+    """The machine of a run: what the run shows of it, and what its job is told about the run."""
 
     machine: Machine
     joints: Sequence[str] = ()
@@ -45,16 +45,16 @@ class Hardware(ABC):
 
     @property
     def servo_period(self) -> ServoPeriod | None:
-        """The present state for traces; None if there is nothing to be seen."""
+        """The present state of the arm for traces; None if there is no arm to be seen."""
         return None
 
     @property
     def memory(self) -> dict[Side, PerfectMemory]:
-        """The state that is not in the cell."""
+        """The state that is kept outside the cell."""
         return {}
 
     def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:
-        """Continue from a copy of a state. Raises BadFile if it does not fit."""
+        """Continue from a copy of a state. Raises BadFile if the state does not fit."""
         if memory:
             raise BadFile("the saved state belongs to perfect motors")
 
@@ -66,7 +66,7 @@ class Hardware(ABC):
         """Take notice of a printed line."""
 
     def ending(self, statement: int) -> Ending | None:
-        """Say whether the job is at its end after a statement."""
+        """Return how the job has ended with a statement; None if it goes on."""
         return None
 
     @property
@@ -76,7 +76,7 @@ class Hardware(ABC):
 
     def files(self, world: WorldSpec, result: Result, parts: Sequence[PagePart]) -> Mapping[str, bytes]:
         """Return the files that the job adds to the folder of a finished run. If the job makes a report of its own, the
-        report ends with some parts.
+        report ends with `parts`.
         """
         return {}
 

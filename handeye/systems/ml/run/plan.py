@@ -36,7 +36,7 @@ class MlPlan(Record, frozen=True, kw_only=True):
     """The statement at which the program of the left arm begins; None: there is no left arm."""
     stimuli: Annotated[tuple[Stimulus, ...], msgspec.Meta(max_length=MOST_STIMULI)] = ()  # of perfect motors
     outline: Annotated[tuple[Point, ...], msgspec.Meta(max_length=MOST_CORNERS)] = ()
-    """The corners (y, x) of the object that the wand of an arm with perfect motors touches, ML units."""
+    """The corners (y, x), in ML units, of an object that the wand touches. Only an arm with perfect motors has one."""
     job: str = ""  # that the program does; empty: none
     variant: str = ""  # of the job
 
@@ -97,9 +97,9 @@ def sound(plan: MlPlan) -> None:
     if plan.arm != "none" and (plan.stimuli or plan.outline):
         raise BadFile(f"{plan.name} has stimuli or an outline, which only perfect motors sense")
     if plan.arm != "none" and plan.left is not None:
-        raise BadFile(f"{plan.name} has a program for the left arm, which the rectilinear arm works without")
+        raise BadFile(f"{plan.name} has a program for the left arm, but the rectilinear arm has no left arm beside it")
     channels = {source.channel for source in RIGHT.analog.values()}
     channels |= {name for names in (*RIGHT.digital.values(), RIGHT.interlocks) for name in names}
     for stimulus in plan.stimuli:
         if stimulus.channel not in channels:
-            raise BadFile(f"{plan.name} has a stimulus of {stimulus.channel}, which the arm does not sense")
+            raise BadFile(f"{plan.name} has a stimulus for {stimulus.channel}, which the arm does not sense")

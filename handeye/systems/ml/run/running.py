@@ -215,7 +215,7 @@ class RunningMl(NumberedRun):
 
     @property
     def _stopped(self) -> Interpreter | None:
-        """The interpreter whose program was stopped, if there is one."""
+        """The interpreter whose program was stopped; None if there is none."""
         return next((each for each in self.interpreters.values() if each.memory.stopped), None)
 
     def _call(self) -> None:
@@ -248,7 +248,7 @@ class RunningMl(NumberedRun):
         self.recorder.statement()
 
     def _release(self) -> None:
-        """Tell the events that were held back."""
+        """Emit the events that were held back."""
         held, self._held = self._held or [], None
         for event in held:
             self._around.emit(event)

@@ -38,7 +38,7 @@ class MlState(SystemState, kw_only=True):
 
 
 def tables_of(plan: MlPlan, state: MlState) -> History:
-    """Return all tables at all cycles up to a state of a run. Raises BadFile if their record cannot be read."""
+    """Return all tables at all cycles up to a state of a run. Raises BadFile if the recording cannot be read."""
     arms = state.machine.arms
     head = Head(
         program=plan.name,

@@ -1,4 +1,4 @@
-"""Defines MOS and ML as a system. It builds runs, and provides the words for them."""
+"""Defines MOS and ML as a system, which builds runs and provides the words for them."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -95,7 +95,7 @@ VARIATION: Final = Variation(
         "mm",
         Noise(0.1),
         5.0,
-        "Standard deviation of the position of nest, pallets, dispenser and rack along x and y, as taught. No source: "
+        "Standard deviation of the taught position of nest, pallets, dispenser and rack along x and y. No source: "
         "our choice.",
     ),
     quantity(
@@ -110,7 +110,7 @@ VARIATION: Final = Variation(
         "",
         Range(0.87, 1.13),
         2.0,
-        "Friction of the threads, as a factor on its nominal value. No source: our choice, as for the pump's plate.",
+        "Friction of the threads, as a multiple of its nominal value. No source: our choice, as for the pump's plate.",
         1.0,
     ),
     quantity(
@@ -118,13 +118,13 @@ VARIATION: Final = Variation(
         "N m",
         Noise(0.004),
         0.1,
-        "Standard deviation of the screwdriver's torque as its current shows it. No source: our choice.",
+        "Standard deviation of the noise in the screwdriver's torque, as its current shows it. No source: our choice.",
     ),
 )
 
 
 class Lie(NamedTuple):
-    """Where a part or a fixture lies, in scene coordinates: mm, rad."""
+    """Where a part or a fixture lies, in scene coordinates (mm and rad)."""
 
     at: Place
     turned: float = 0.0
@@ -136,7 +136,7 @@ def mm(x: float, y: float) -> Place:
 
 
 def row(places: tuple[tuple[int, int], tuple[int, int]], number: int) -> tuple[int, int]:
-    """Return a place in a row of equal distances."""
+    """Return a place in a row of places at equal distances."""
     (x, y), (dx, dy) = places
     return x + number * dx, y + number * dy
 

@@ -16,12 +16,12 @@ FOUND: Final[dict[int, Found]] = {
     75: "beside",
     76: "tightened",
 }
-"""What the program found, by the number that it prints before that of the screw."""
+"""What the program found, by the number that it prints before the number of the screw."""
 _ENDS: Final[dict[Found, str]] = {
     "seated": "is seated",
-    "crossed": "stopped the screwdriver too early: it is crossed or jammed, and is turned out",
+    "crossed": "is crossed or jammed, because it stopped the screwdriver too early, and is turned out",
     "lost": "is no longer on the bit",
-    "not taken": "turns, and no thread takes it",
+    "not taken": "turns, but no thread takes it",
     "loose": "is deep, but not tight yet",
     "beside": "is next to its hole",
     "tightened": "is tightened again",
@@ -34,8 +34,8 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
     screw: int
     found: Found
     deeper: float
-    """By how much the bit is deeper than it would be over a seated screw, or, if the screw was not turned, over a screw
-    in the mouth of its thread, m.
+    """How much deeper (m) the bit is than it would be over a seated screw or, if the screw was not turned, over a screw
+    in the mouth of its thread.
     """
     torque: float  # N m; 0 if the clutch has not slipped
 

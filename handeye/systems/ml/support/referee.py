@@ -30,8 +30,9 @@ from handeye.systems.ml.support.drawing import (
 from handeye.tasks.stanford_cell.screws import LENGTH, Place
 
 PLACED: Final = 1.5
-"""Greatest distance of a part from its place in the frame, and of the frame from its place in the nest, mm. Fixtures,
-the play of pallets and nest, and two motions can add up to 1.3 mm along a direction without stops.
+"""Greatest distance (mm) of a part from its place in the frame, and of the frame from its place in the nest. Along a
+direction without stops, the errors of fixtures and of two motions and the play of pallets and nest can add up to
+1.3 mm.
 """
 SEATED: Final = 0.5  # mm of a part over its seat
 LEAN: Final = 1.0  # deg
@@ -77,14 +78,14 @@ def judge(truth: Truth, counted: int) -> Findings:
 
 
 def _off(truth: Truth, name: str, at: Place, z: float) -> tuple[float, float, float]:
-    """Return how far a body is from its place: aside (mm), in height (mm), in tilt (deg)."""
+    """Return how far a body is from its place: sideways (mm), in height (mm), and in tilt (deg)."""
     body = truth.data.body(name)
     x, y, height = body.xpos / MILLIMETRE
     return hypot(x - at.x, y - at.y), abs(height - z), degrees(tilt(body.xmat.reshape(3, 3)))
 
 
 def _in_frame(truth: Truth, name: str, at: Place, z: float) -> tuple[float, float, float]:
-    """Return how far a part is from its place in the frame: aside (mm), in height (mm), in tilt (deg)."""
+    """Return how far a part is from its place in the frame: sideways (mm), in height (mm), and in tilt (deg)."""
     frame, part = truth.data.body("frame"), truth.data.body(name)
     axes = frame.xmat.reshape(3, 3)
     x, y, height = (part.xpos - frame.xpos) @ axes / MILLIMETRE

@@ -1,5 +1,5 @@
-"""The lines of the tables whose words have names. A field is a word, in the order of the table. Lines that change in
-every cycle are mutable; the others are replaced, so that saved states can share them.
+"""The lines of the tables whose words have names. The fields of a line are its words, in the order of the table. Lines
+that change in every cycle are mutable; the others are replaced, so that saved states can share them.
 """
 
 from typing import Annotated, Final

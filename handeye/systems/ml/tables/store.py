@@ -45,7 +45,9 @@ PAGE: Final = 16  # lines of an external table in a page
 _BY_PROGRAMS: Final[Mapping[str, tuple[str, ...]]] = {
     "AR": ("coordinate",), "CY": ("used", "share"), "EM": (), "FE": (), "GO": (), "PF": (), "PI": (), "SF": ()
 }  # fmt: skip
-"""Words of a table that a program can write; in other tables, all. Nothing written stops an emergency."""
+"""The words that a program can write, by table; in other tables it can write all words. No word that it can write
+prevents an emergency.
+"""
 
 
 Fine = Annotated[int, msgspec.Meta(ge=100 * LOWEST, le=100 * HIGHEST)]  # hundredths of a unit
@@ -94,7 +96,7 @@ class ArmMemory(MutableRecord, kw_only=True):
     CA: list[Word] = _zeros(SENSORS * RECENT)
     fine: list[Fine] = _zeros(MOTORS)  # set-points
     pace: list[Fine] = _zeros(MOTORS)
-    """Greatest advances of the set-points in the motion under way, in a cycle; 0: the motor's."""
+    """Greatest advance of each set-point in a cycle of the present motion; 0: that of the motor."""
     tools: Word = 0  # the outputs of tools as they are
 
 
@@ -167,7 +169,9 @@ class Tables:
         )
 
     def _page_in(self, table: str, page: int) -> None:
-        """Have a page of an external table in a frame, in place of the page that was used least recently."""
+        """Bring a page of an external table into a frame. If no frame is free, it replaces the page that was used
+        least recently.
+        """
         frames, name, now = self._shared.PF, word_of(table), self._arm.now
         there = [n for n, frame in enumerate(frames) if (frame.table, frame.page) == (name, page)]
         free = [n for n, frame in enumerate(frames) if not frame.table]

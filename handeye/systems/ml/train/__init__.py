@@ -1,1 +1,1 @@
-"""The job `train`: an engine and two wagons are coupled, peg in hole, and pulled."""
+"""The job `train`: an engine and two wagons are coupled by pegs in holes, and pulled."""

@@ -42,7 +42,8 @@ VARIATION: Final = Variation(
         "mm",
         Noise(1.5),
         5.0,
-        "Standard deviation of a vehicle's position along x and y. No source: our choice, for a plate laid by hand.",
+        "Standard deviation of a vehicle's position along x and y. No source: our choice, for a vehicle placed by "
+        "hand.",
     ),
     quantity(
         _TURNED, "deg", Noise(2.0), 8.0, "Standard deviation of a vehicle's rotation. No source: our choice."
@@ -95,13 +96,13 @@ class Train(ReportingTask):
                 float(apart) / MILLIMETRE,
                 COUPLED,
                 "mm",
-                "greatest distance of a peg's axis from that of its hole",
+                "greatest distance between the axes of a peg and its hole",
             ),
             "seated": at_most(
                 high / MILLIMETRE, SEATED, "mm", "greatest height of a vehicle above the table"
             ),
             "pulled": at_most(
-                float(off) / MILLIMETRE, PLACED, "mm", "distance of the engine from where it is pulled to"
+                float(off) / MILLIMETRE, PLACED, "mm", "distance of the engine from where it should be"
             ),
             "flat": at_most(degrees(max(map(tilt, frames))), LEAN, "deg", "greatest tilt of a vehicle"),
         }
