@@ -15,11 +15,11 @@ ENTRY = Entry(
     },
     commands="""
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
-trials chess = handeye.systems.sigma.cli.jobs:chess_trials: Sort chess pieces in many worlds: success rate, errors of heights and places.
+trials chess = handeye.systems.sigma.cli.jobs:chess_trials: Sort chess pieces in many worlds: success rate, height and position errors.
 trials prco = handeye.systems.sigma.cli.jobs:prco_trials: Assemble the plate of the pump in many worlds: success rate, and depth and clamp of its screws.
-trials handover = handeye.systems.sigma.cli.jobs:handover_trials: Hand pieces from arm to arm in many worlds: success rate, and errors of places.
+trials handover = handeye.systems.sigma.cli.jobs:handover_trials: Hand pieces from arm to arm in many worlds: success rate, and position errors.
 trials insert = handeye.systems.sigma.cli.jobs:insert_trials: Find holes by force in many worlds: success rate, forces, and tries.
-trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line in many worlds: success rate, and errors of places.
+trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line in many worlds: success rate, and position errors.
 """,  # noqa: E501 - a command a line
     tasks={
         "mal": "handeye.systems.sigma.run.task:MAL_TASK",

@@ -41,7 +41,7 @@ class Mal:
     def __init__(
         self, text: str, *, arm: Arm = "none", seed: int | None = None, faults: Sequence[str] = ()
     ) -> None:
-        """Compile a program and begin it, without executing a statement.
+        """Compile a program and begin it, without executing any statement yet.
 
         Args:
             text: the numbered lines of the program.
@@ -53,7 +53,7 @@ class Mal:
             InvalidInput: the program has mistakes, or there is no such arm or fault.
         """
         if arm not in get_args(Arm):
-            raise NoSuchName(f"there is no arm {quoted(str(arm))}; there are `none` and `gantries`")
+            raise NoSuchName(f"there is no arm {quoted(str(arm))}; choose `none` or `gantries`")
         if arm == "none" and (faults or seed is not None):
             raise BadArgument("seed and faults are for the gantries; perfect motors have no errors")
         self.text = text
@@ -90,7 +90,7 @@ class Mal:
         first, begun = len(self._events), self.time
         while self._vm.turn and (self.line != until or len(self._events) == first):
             if self.time - begun > _LONGEST:
-                raise Refused(f"the program still runs after {_LONGEST:g} s of simulated time")
+                raise Refused(f"the program is still running after {_LONGEST:g} s of simulated time")
             self._vm.statement()
             self._vm.settle()
         return [event.text for event in self._events[first:] if isinstance(event, Printed)]
@@ -134,12 +134,12 @@ class Mal:
 
     @property
     def believed(self) -> dict[str, float]:
-        """Position of each axis (mm) as the program believes it."""
+        """Position of each axis (mm) in the belief of the program."""
         return {axis: round(count * STEP_MM, 4) for axis, count in self._vm.memory.counts.items()}
 
     @property
     def account(self) -> list[str]:
-        """What has happened so far, a sentence for each event."""
+        """What has happened so far, with one sentence for each event."""
         from handeye.core.units import MILLIMETRES
 
         return [f"{event.time:6.2f} s  {event.sentence(MILLIMETRES)}" for event in self._events]

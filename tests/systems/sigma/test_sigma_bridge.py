@@ -206,7 +206,7 @@ def test_what_the_stanford_arm_lacks_is_refused_by_line(
     file = tmp_path / "lacks.mal"
     file.write_text(f"10 ORIGIN X1\n20 {line}\n", encoding="utf-8")
     code, _, err = command("sigma", "borrow", str(file))
-    assert (code, f"line 20 {why}; the Stanford arm takes the place of arm 1 only" in err) == (2, True)
+    assert (code, f"line 20 {why}; the Stanford arm takes only the place of arm 1" in err) == (2, True)
 
 
 @pytest.mark.parametrize("job", ["bridge", "borrow"])

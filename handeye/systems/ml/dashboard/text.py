@@ -99,7 +99,7 @@ def table(done: History, segment: Segment, cycle: int, line: int | None = None) 
     left_out = shape.lines - len(lines)
     if left_out:
         yield ""
-        yield f"{counted(left_out, 'unused line')} not shown"
+        yield f"{counted(left_out, 'unused line')} left out"
 
 
 def course(done: History, segment: Segment, line: int, word: int) -> Iterator[str]:

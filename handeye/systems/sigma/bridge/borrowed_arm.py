@@ -1,4 +1,4 @@
-"""The Stanford arm in place of arm 1: the words of axes drive its tool coordinates, and there is no bus.
+"""The Stanford arm in place of arm 1: the axes X1, Y1 and Z1 drive coordinates of its tool, and there is no bus.
 
 The central computer sends the same commands as to the motors of SUPERSIGMA, but nothing carries them as bytes: they
 set goals of the tool (`execution/tool_axes.py`), one in each servo period of 1/60 s. Commands, places and times are
@@ -56,7 +56,7 @@ class BorrowedArm(PerfectMotors):
     """
 
     def __init__(self, drive: ArmDrive, at: tuple[float, float] = AT) -> None:
-        """Take an arm that is held in place, and bring its tool to the places of the axes at power-on."""
+        """Take an arm that is held in place, and bring its tool to where the axes are at power-on."""
         super().__init__()
         self._drive, self._axes, self._at = drive, ToolAxes(drive), at
         self._limits: dict[int, float | None] = dict.fromkeys(_AXES)  # N
@@ -121,7 +121,7 @@ class BorrowedArm(PerfectMotors):
 
     @property
     def error(self) -> float:
-        """Distance of the tool from its goal, the greatest along an axis, mm."""
+        """Distance of the tool from its goal (mm), along the axis on which it is greatest."""
         return float(np.abs(self._axes.read().q - self._goal())[:3].max()) / _MM
 
     # -- goals -----------------------------------------------------------------------------------------------
@@ -135,7 +135,7 @@ class BorrowedArm(PerfectMotors):
         return np.array([*tool, *DOWN, gap])
 
     def _place(self, number: int) -> float:
-        """Return where an axis is to be now, mm."""
+        """Return where an axis should be now (mm)."""
         motor = self._memory.motors[number]
         return (motor.place + motor.steps * self._share(number, motor)) * STEP_MM
 
@@ -148,7 +148,7 @@ class BorrowedArm(PerfectMotors):
         return s if number in self._slow else s**3 * (10 - 15 * s + 6 * s * s)
 
     def _approach(self) -> None:
-        """Move the tool straight to the places of the axes at power-on."""
+        """Move the tool straight to where the axes are at power-on."""
         here, goal = self._axes.read().q, self._goal()
         steps = math.ceil(float(np.abs(goal - here)[:3].max()) / _START_SPEED / self._axes.period)
         for share in [*np.linspace(0, 1, steps + 1)[1:], *np.ones(20)]:
@@ -197,11 +197,11 @@ class BorrowedArm(PerfectMotors):
 def borrowed(
     spec: WorldSpec, at: tuple[float, float], poll: Callable[[], None] = lambda: None
 ) -> BorrowedArm:
-    """Return the Stanford arm over the table of a world of the water pump, with the friction of its joints measured.
+    """Return the Stanford arm over the table of a world of the water pump. It first measures the friction of its joints.
 
     Args:
-        at: place of the board's corner X1 = 0, Y1 = 0 on the table, mm.
-        poll: called again and again; may raise an exception.
+        at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).
+        poll: called repeatedly during the measurement; may raise an exception.
     """
     cell = build_cell(PumpWorld.draw(spec), camera="ray").devices
     state = DriveState.holding(cell.sense(), STANFORD)

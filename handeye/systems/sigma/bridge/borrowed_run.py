@@ -43,7 +43,7 @@ def check_program(lines: Sequence[Line]) -> None:
     for line in lines:
         why = next(_lacks(line), None)
         if why is not None:
-            raise BadFile(f"line {line.number} {why}; the Stanford arm takes the place of arm 1 only")
+            raise BadFile(f"line {line.number} {why}; the Stanford arm takes only the place of arm 1")
 
 
 def _lacks(line: Line) -> Iterator[str]:
@@ -104,5 +104,5 @@ def lines(found: BorrowedRun) -> list[str]:
         found.message or "all tasks have ended",
         f"{counted(found.commands, 'command')} in {found.seconds:.1f} s, none of them over a bus",
         f"the arm felt up to {found.most_n:.1f} N along an axis",
-        f"at the end, the tool is up to {found.error_mm:.1f} mm from the counts",
+        f"at the end, the tool is up to {found.error_mm:.1f} mm from where the counts of the axes put it",
     ]

@@ -1,4 +1,4 @@
-"""The places, limits and speeds that hold at each line of a single task, wherever the task comes from."""
+"""Finds which places, limits and speeds hold at each line of a single task, whichever way the task reaches the line."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -73,14 +73,14 @@ def force_test(line: Line, after: int | None) -> ForceTest | None:
 
 
 def _jump(statement: Statement) -> int | None:
-    """Return the line to which a branch of IF leads: -1 if the branch does something else."""
+    """Return the line to which a branch of IF leads; -1 if the branch does something else."""
     if statement.word in ("END", "STOP"):
         return END
     return int(statement.target.text) if statement.word == "GOTO" and statement.target is not None else -1
 
 
 def goals(statement: Statement, places: Axes) -> dict[str, Known]:
-    """Return the place of each axis that a MOVE moves, mm; UNKNOWN after a distance from an unknown place."""
+    """Return the place (mm) to which a MOVE moves each of its axes; UNKNOWN after a distance from an unknown place."""
     found: dict[str, Known] = {}
     for goal in statement.goals:
         name, distance = goal.axis.text[0], constant(goal.distance)
@@ -93,7 +93,7 @@ def goals(statement: Statement, places: Axes) -> dict[str, Known]:
 
 
 Tests = Mapping[int, ForceTest]
-"""The force tests of the motions right before them, by the line of the motion."""
+"""The force test that directly follows a motion, by the line of the motion."""
 
 
 def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:

@@ -24,7 +24,7 @@ _SAID = {
 
 
 def bridge(at: tuple[float, float] = AT) -> Language:
-    """Return the language of programs for a board whose corner is at `at` on the table, mm."""
+    """Return the language of programs for a board whose corner is at `at` (mm) on the table."""
     return Language(name=LANGUAGE, read=read_source, compile=partial(translated, at=at), phrase=phrase)
 
 

@@ -74,7 +74,7 @@ _CURE: Final = (
 
 
 class _Stop(NamedTuple):
-    """The line after a step, or the step after it: `here` is the number of steps to go on by."""
+    """Where a step leads: to a line or, if `here` is given, to the step that is so many steps farther on."""
 
     line: int | None = None
     here: int | None = None
@@ -92,7 +92,7 @@ def translated(source: Source, taught: Taught, at: tuple[float, float] = AT) -> 
     """Translate a program. Returns None with the reasons if a line cannot become a motion.
 
     Args:
-        at: place of the board's corner X1 = 0, Y1 = 0 on the table, mm.
+        at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).
     """
     lines, found = checked(source)
     if has_errors(found):
@@ -123,7 +123,7 @@ def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
 
 
 def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
-    """Yield the lines with statements for which there is no operation, and with values that are not numbers."""
+    """Yield the lines that have a statement for which there is no operation, or a value that is not a number."""
     for line in lines:
         statement = line.statement
         word = statement.word
@@ -152,12 +152,12 @@ def _device(statement: Statement) -> str:
     if kind not in ("HAND", "DRIVER"):
         return f"the arm has no {statement.names[0].text}"
     if kind == "DRIVER" and value not in SPINDLE:
-        return f"{statement.names[0].text} is 0, 1 or 2"
+        return f"{statement.names[0].text} must be 0, 1 or 2"
     return ""
 
 
 def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
-    """Yield the first line that uses another arm than the lines before it."""
+    """Yield the first line that uses a different arm from the lines before it."""
     first: tuple[int, Line] | None = None
     for line in lines:
         for arm in sorted(_arms_of(line.statement)):
@@ -180,7 +180,7 @@ def _arms_of(statement: Statement) -> set[int]:
 
 
 def _force_tests(lines: Sequence[Line]) -> tuple[dict[int, ForceTest], list[Diagnostic]]:
-    """Return the force tests by the motions right before them, and the refused IF statements."""
+    """Return the force test that directly follows each motion, by the line of the motion, and the refused IFs."""
     targets = {int(each.target.text) for line in lines for each in _branches(line.statement) if each.target}
     tests, wrong = dict[int, ForceTest](), list[Diagnostic]()
     following = [*(line.number for line in lines[1:]), END]
@@ -255,7 +255,8 @@ class _Translation:
         least = min((limit for limit in limits if isinstance(limit, float)), default=None)
         if test is not None and least is not None and test.limit > least:
             self._refuse(
-                line, f"the LIMIT of {least:g} N stops the motion before the test of {test.limit:g} N"
+                line,
+                f"its LIMIT of {least:g} N stops the motion before the force reaches the {test.limit:g} N of the test",
             )
             return []
         guard = least if test is None else test.limit
@@ -304,7 +305,7 @@ class _Translation:
             arm = statement.goals[0].axis.text[1]
             told = f"the place of {' and '.join(f'{name}{arm}' for name in lost)} is not known here"
             self._refuse(
-                line, f"{told}; begin with ORIGIN, and after a motion that a force may stop, name all axes"
+                line, f"{told}; begin with ORIGIN, and name all axes after a motion that a force may stop"
             )
             return None
         if statement.slow is not None or (statement.straight and len(ways) > 1):
@@ -314,7 +315,7 @@ class _Translation:
         return Move(goal=self._position(goal), direct=True, guards=guards)
 
     def _speed(self, statement: Statement, before: Before) -> float | None:
-        """Return the speed of a straight motion, m/s; None: the usual one."""
+        """Return the speed of a straight motion (m/s); None for the usual speed."""
         slow = None if statement.slow is None else constant(statement.slow)
         speeds = [slow, *(before.speeds[goal.axis.text[0]] for goal in statement.goals)]
         known = [speed for speed in speeds if isinstance(speed, float)]
@@ -325,7 +326,7 @@ class _Translation:
         return (-x if self._mirrored else x) * _MM, y * _MM, -z * _MM
 
     def _position(self, place: Sequence[float]) -> str:
-        """Return the name of the position of a place in the coordinates of the arm, mm."""
+        """Add a position of the tool for a place in the coordinates of the arm (mm), and return its name."""
         x, y, z = place
         across = ACROSS - x if self._mirrored else x
         name = f"X{x:g}_Y{y:g}_Z{z:g}".replace(".", "p").replace("-", "m")
@@ -357,7 +358,7 @@ class _Translation:
 
 
 def _way(moved: Axes, before: Before, name: str) -> Known:
-    """Return the distance of an axis to its goal, mm; unknown if its place is."""
+    """Return how far an axis has to go to its goal (mm); unknown if its present place or goal is unknown."""
     goal, here = moved[name], before.places[name]
     return goal - here if isinstance(goal, float) and isinstance(here, float) else UNKNOWN
 
@@ -373,7 +374,7 @@ def _length(span: Span) -> int:
 
 
 def _branches(statement: Statement) -> Iterator[Statement]:
-    """Yield a statement with the branches of IF."""
+    """Yield a statement and, if it is an IF, the statements of its branches."""
     yield statement
     for each in (statement.then, statement.otherwise):
         if each is not None:

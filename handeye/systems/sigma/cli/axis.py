@@ -13,29 +13,29 @@ from handeye.systems.sigma.cli.studies import put_study
 def axis(
     *,
     mass: Annotated[
-        float, Parameter(help="Mass that the motor moves, kg; in SUPERSIGMA 12 (X), 8 (Y) and 2.5 (Z).")
+        float, Parameter(help="Mass that the motor moves, in kg: in SUPERSIGMA 12 for X, 8 for Y and 2.5 for Z.")
     ] = 12.0,
-    steps: Annotated[WholeNumber, Parameter(help="Length of the move in steps; a step is 0.0375 mm.")] = 8000,
+    steps: Annotated[WholeNumber, Parameter(help="Length of the move, in steps of 0.0375 mm.")] = 8000,
     curve: Annotated[
         WholeNumber,
         Parameter(
-            help="Acceleration curve. 0: up to 13333 steps/s; 1: up to 15000 steps/s; 2 and 3: half and a quarter "
-            "of the acceleration; 4: half of the start/stop speed."
+            help="Acceleration curve. 0 is the usual curve, with a top speed of 13333 steps/s; 1 has a top speed of "
+            "15000 steps/s; 2 accelerates half as fast as 0, and 3 a quarter as fast; 4 has half the start/stop speed."
         ),
     ] = 0,
     slow: Annotated[
         float | None,
-        Parameter(help="Constant speed, mm/s; above 37.5 mm/s the move begins and ends with ramps."),
+        Parameter(help="Constant speed, in mm/s. Above 37.5 mm/s, the move begins and ends with ramps."),
     ] = None,
-    load: Annotated[float, Parameter(help="Force against the motion, N.")] = 0.0,
-    stop_after: Annotated[float | None, Parameter(help="Make an emergency stop after this time, ms.")] = None,
+    load: Annotated[float, Parameter(help="Force against the motion, in N.")] = 0.0,
+    stop_after: Annotated[float | None, Parameter(help="Make an emergency stop after this time, in ms.")] = None,
     cut: Annotated[
         bool, Parameter(negative=(), help="Stop by sending no more pulses, instead of by the steepest ramp.")
     ] = False,
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
 ) -> int:
-    """Make one move of one motor: its pulses, the force that they require, and whether the rotor follows or slips.
+    """Make one move of one motor: its speed, the force that it requires, and whether the rotor follows or slips.
 
     Exit code 0: no step was lost; 1: steps were lost; 2: bad input.
     """

@@ -200,11 +200,11 @@ def errors(
     clock: Annotated[
         list[float] | None,
         Parameter(
-            help="Greatest error of the clocks, percent; may be repeated. Default: 1 to 15.", negative=()
+            help="Greatest error of the clocks, in percent; may be repeated. Default: 1 to 15.", negative=()
         ),
     ] = None,
     commands: Annotated[
-        WholeNumber, Parameter(help="Number of commands to draw for each clock error.")
+        WholeNumber, Parameter(help="Number of random commands for each clock error.")
     ] = 200_000,
     seed: Annotated[
         WholeNumber,
@@ -214,7 +214,7 @@ def errors(
     ] = 0,
     json: Json = False,
 ) -> int:
-    """Draw random commands, clocks, and moments at which a receiver becomes free, and count the misread bytes.
+    """Send random commands to receivers that become free at random moments, and count the misread bytes.
 
     Exit code 0: counted; 2: bad input.
     """

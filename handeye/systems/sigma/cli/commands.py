@@ -44,10 +44,9 @@ Arm = Annotated[
     ArmName,
     Parameter(
         name="--arm",
-        help="The machine: `none` has perfect motors; `wired` has ten microcomputers with their firmware, on a bus "
-        "whose wires they sample with their own clocks. Neither of these machines has obstacles. `gantries` has the "
-        "same "
-        "microcomputers, and the simulated machine: two gantries over an empty board.",
+        help="What the program drives. `none`: perfect motors. `wired`: ten microcomputers that run their firmware, "
+        "each sampling the wires of their bus with its own clock. Neither of these two has obstacles. `gantries`: the "
+        "same microcomputers, and a simulated machine with two gantries over an empty board.",
     ),
 ]
 
@@ -175,7 +174,7 @@ def words(word: str | None = None, /) -> int:
 def console(
     file: Annotated[Path | None, Parameter(help="A program in MAL to load at the start, `.mal`.")] = None, /
 ) -> int:
-    """Open the console of 1981: type a program by numbered lines, and NEW LOAD SAVE LIST COMPILE RUN BREAK STATUS.
+    """Open the console of 1981: type the numbered lines of a program, or a command such as RUN; HELP lists them all.
 
     Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
     """

@@ -33,7 +33,7 @@ def crash(
     ] = "none",
     json: Json = False,
 ) -> int:
-    """Let arm 1 run into the stationary hand of arm 2: force, steps lost, what the program believes, and what is true.
+    """Let arm 1 run into the stationary hand of arm 2, and compare what the program believes with what is true.
 
     The collision is a study, so no outcome is right or wrong. The page `docs/safety_study.md` compares fourteen
     collisions.

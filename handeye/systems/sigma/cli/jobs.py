@@ -102,10 +102,10 @@ def insert(
 ) -> int:
     """Straighten pegs in a rack, and find the holes for them by force, with both arms.
 
-    `plans/insert.mal` runs on two simulated gantries in a world drawn from a seed. Pegs stand turned by up to 20
-    degrees, and plates lie up to 3 mm beside their places. A referee then checks that each peg stands in its hole,
-    no plate moved by more than 1 mm, no wrist felt more than 25 N, no motor lost a step, the program counted the
-    inserted pegs correctly, and the arms never touched each other.
+    `plans/insert.mal` runs on two simulated gantries in a world drawn from a seed. Each peg is rotated by up to 20
+    degrees, and plates lie up to 3 mm beside their places. A referee then checks that each peg stands in its hole, no
+    plate moved by more than 1 mm, no wrist felt more than 25 N, no motor lost a step, the program counted the inserted
+    pegs correctly, and the arms never touched each other.
 
     Exit code 0: right; 1: the program stopped before its end; 3: the program ended, but the referee disagrees; 2:
     bad input; 130: interrupted.
@@ -167,7 +167,7 @@ def chess_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Sort the pieces of many boards: how often all are right, errors of heights and places, and the load of the bus.
+    """Sort the pieces of many boards. Shows how often all are right, height and position errors, and the bus load.
 
     Each trial does what `handeye sigma chess` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.
@@ -188,7 +188,7 @@ def handover_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Hand four pieces from arm to arm on many boards: how often all is right, errors of places, and load of the bus.
+    """Hand four pieces from arm to arm on many boards. Shows how often all is right, position errors, and bus load.
 
     Each trial does what `handeye sigma handover` does. Ctrl-C ends the batch and prints the trials that have
     finished; with --out, the same command continues the batch.
@@ -207,7 +207,7 @@ def insert_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Insert the pegs of many boards: how often all is right, forces, and the load of the bus.
+    """Insert the pegs of many boards. Shows how often all is right, the forces, and the bus load.
 
     Each trial does what `handeye sigma insert` does. Ctrl-C ends the batch and prints the trials that have
     finished; with --out, the same command continues the batch.
@@ -229,7 +229,7 @@ def line_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Run the assembly line in many worlds: how often all is right, errors of places, and the load of the bus.
+    """Run the assembly line in many worlds. Shows how often all is right, position errors, and the bus load.
 
     Each trial does what `handeye sigma line` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.
@@ -249,7 +249,7 @@ def prco_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble the plate of the pump in many worlds: how often all is right, depth and clamp of screws, and bus load.
+    """Assemble the plate of the pump in many worlds. Shows how often all is right, screw depth and clamp, and bus load.
 
     Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.
@@ -287,7 +287,7 @@ def _plan(job: "JobName", pieces: int | None, file: Path | None) -> "MalPlan | N
 def _carry_out(
     job: "JobName", pieces: int | None, file: Path | None, seed: int, errors: OwnErrorOptions, options: JobOptions
 ) -> int:  # fmt: skip
-    """Run a job and let its referee judge; make the video. Returns the exit code."""
+    """Run a job, let its referee judge the result, and make the video. Returns the exit code."""
     from handeye.systems.sigma.cli.commands import Printer
     from handeye.systems.sigma.run.jobs import job_setup
 

@@ -17,7 +17,7 @@ def moves(
     seed: FirstSeed = 0,
     json: Json = False,
 ) -> int:
-    """Make fast moves in empty space, with and without the accelerometers of the wrists: forces, and false stops.
+    """Make fast moves in empty space, with and without the wrists' accelerometers, and show forces and false stops.
 
     Exit code 0: with accelerometers, no reflex stopped a move; 1: a reflex stopped a move; 2: bad input.
     """

@@ -5,7 +5,7 @@ from handeye.systems.sigma.cli.studies import put_study
 
 
 def table1(*, json: Json = False) -> int:
-    """Compare four programs with table 1 of the paper: commands, seconds, load of the bus, idle time.
+    """Compare the commands, seconds, bus load and idle time of four programs with table 1 of the paper.
 
     Layer 1 repeats one move. Layer 2 runs programs like those of the paper, `table1_*.mal` in `plans`. All motors are
     perfect.

@@ -253,7 +253,7 @@ class Bench:
         self.machine.pulls[NUMBERS[axis]] = newtons
 
     def shade(self, arm: int, passes: float) -> None:
-        """Hold an object into the light beam of a hand. `passes` is the fraction of light that passes: 0 for a
+        """Hold an object in the light beam of a hand. `passes` is the fraction of light that passes: 0 for a
         rod, .7 for a grey filter, 1 for no object."""
         self.machine.light[NUMBERS[f"HAND{arm}"]] = passes
 

@@ -94,8 +94,7 @@ class Game:
         return [*MEANS]
 
     def hear(self, line: str) -> None:
-        """Do what the player has typed. Raises InvalidInput if that is impossible; it then does not count as a
-        test."""
+        """Do what the player has typed. If that is impossible, raises InvalidInput and counts no test."""
         word, _, rest = line.strip().partition(" ")
         word, rest = word.lower(), rest.strip()
         if not word:
@@ -185,7 +184,7 @@ class Game:
         end = (
             fault.told
             if fault
-            else f"it still runs after {_LONGEST_RUN / 1e6:g} s"
+            else f"it is still running after {_LONGEST_RUN / 1e6:g} s"
             if vm.memory.tasks
             else "the program finished"
         )

@@ -322,7 +322,7 @@ class Beam:
 
 
 def beam(at: Technician, arm: int) -> Beam:
-    """Hold nothing, a rod, and a grey filter into a light beam, and read it."""
+    """Read a light beam with nothing in it, then with a rod in it, then with a grey filter in it."""
     found: list[bool | None] = []
     for passes in (1.0, 0.0, GREY):
         at.shade(arm, passes)

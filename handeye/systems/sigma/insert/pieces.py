@@ -1,4 +1,5 @@
-"""The pieces of the insertion: square pegs that stand turned before a rack, and plates with a square hole each.
+"""The pieces of the insertion: square pegs that stand in front of a rack, each rotated by up to 20 degrees, and plates
+that each have a square hole.
 
 Nothing holds a plate but its friction on the board, and nothing holds a peg but the friction of the fingers.
 """
@@ -45,7 +46,7 @@ class Peg(Record, frozen=True, kw_only=True):
 
 
 def rack_y(number: int) -> float:
-    """Return the Y coordinate of a place in the rack, mm. Places are numbered from 1; odd ones are those of arm 1."""
+    """Return the Y coordinate (mm) of a place in the rack. Places are numbered from 1; arm 1 uses the odd ones."""
     return 80.0 * number - 20.0
 
 

@@ -347,9 +347,9 @@ SLOWEST: Final = 2.0  # mm/s
 FASTEST_SLOW: Final = 254.0
 _RANGES: Final = {
     "CURVE": (0.0, 4.0, "a curve"),
-    "SPEED": (0.0, 2400.0, "a speed limit, mm/s,"),
-    "LIMIT": (0.0, 655.0, "a force limit, N,"),
-    "DELAY": (0.0, 86400.0, "a delay, s,"),
+    "SPEED": (0.0, 2400.0, "a speed limit (mm/s)"),
+    "LIMIT": (0.0, 655.0, "a force limit (N)"),
+    "DELAY": (0.0, 86400.0, "a delay (s)"),
 }  # least and most that each takes
 
 

@@ -79,7 +79,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "syntax": Mistake(
         meaning="a statement does not have the form that its word requires", example="10 MOVE X1 50",
-        cure="`handeye sigma words` with the word of the statement shows its form",
+        cure="`handeye sigma words WORD` shows the form of a statement",
     ),
     "task-missing": Mistake(
         meaning="START or KILL names no task of the program", example="10 START FEDER\n20 TASK FEEDER\n30 END",
@@ -115,7 +115,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "wrong-value": Mistake(
         meaning="a statement has a number outside its allowed range", example="10 CURVE X1, 7",
-        cure="`handeye sigma words` with the word of the statement says which values are allowed",
+        cure="`handeye sigma words WORD` says which values a statement allows",
     ),
 }  # fmt: skip
 

@@ -97,7 +97,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "LIMIT": Word(
         "statement", "LIMIT axis, (expression|STANDARD)",
-        "Set the force (in N) above which the axis stops; STANDARD restores the machine's standard limit.",
+        "Set the force (in N) above which the axis stops; STANDARD sets the standard limit of the machine again.",
         "10 LIMIT Z2, 25",
     ),
     "ACTUATE": Word(
@@ -107,15 +107,14 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "ON": Word(
         "statement", "ON ABORT [axis] GOTO line",
-        "Go to a line if a motion of this task is aborted: a motion of the named axis or, if none is named, of any "
-        "axis.",
+        "Go to a line if a motion of this task is aborted on the named axis or, if no axis is named, on any axis.",
         "10 ON ABORT GOTO 900",
     ),
     "RESUME": Word("statement", "RESUME", "Continue after the MOVE that was aborted.", "920 RESUME"),
     "THEN": Word("part", "THEN (line|statement)", "What to do if the condition of IF holds."),
     "ELSE": Word("part", "ELSE (line|statement)", "What to do if the condition of IF does not hold."),
-    "TO": Word("part", "axis TO expression", "In MOVE: the position (in mm). In FOR: the last value."),
-    "BY": Word("part", "axis BY expression", "The distance (in mm)."),
+    "TO": Word("part", "axis TO expression", "In MOVE: the position, in mm. In FOR: the last value."),
+    "BY": Word("part", "axis BY expression", "The distance, in mm."),
     "STEP": Word("part", "STEP expression", "In FOR: by how much the value grows; 1 if STEP is left out."),
     "SLOW": Word("part", "SLOW expression", "Move at this constant speed, 2 to 254 mm/s."),
     "LINE": Word(
@@ -131,16 +130,16 @@ WORDS: Final[dict[str, Word]] = {
     "SQR": Word("function", "SQR(expression)", "The square root."),
     "POS": Word(
         "function", "POS(axis)",
-        "The position to which the axis was sent (in mm). The computer knows this position from its own commands, "
+        "The position (in mm) to which the axis was sent. The computer knows this position from its own commands, "
         "without asking the motor.",
     ),
     "FORCE": Word(
         "function", "FORCE(axis)",
-        "The force on the wrist along the axis (in N), as reported by the force microcomputer.",
+        "The force (in N) on the wrist along the axis, as the force microcomputer reports it.",
     ),
     "CRASHPOS": Word(
         "function", "CRASHPOS(axis)",
-        "The position (in mm) at which the last motion of the axis was aborted, as reported by the motor.",
+        "The position (in mm) at which the last motion of the axis was aborted, as the motor reports it.",
     ),
     "STATUS": Word("function", "STATUS(axis)", "0 free, 1 busy, 2 stopped at the end of its rail, 3 stopped by a "
     "force."),

@@ -69,10 +69,10 @@ def study(
     """Simulate a move with the sine model and with the balance model.
 
     Args:
-        mass: moving mass, kg.
+        mass: mass that the motor moves (kg).
         slow: constant speed (mm/s), or None for the profile that belongs to the length of the move.
-        load: force against the motion, N.
-        stop_after: time after which an emergency stop begins, s; None: no stop.
+        load: force against the motion (N).
+        stop_after: time after which an emergency stop begins (s); None: no stop.
         cut: stop by sending no more pulses, instead of by the steepest ramp.
     """
     _check(mass, steps, curve, slow, load)

@@ -69,7 +69,7 @@ class MalFaultWork:
             trial=case.trials[0], seed=case.seed, condition=case.condition, part=planted.part, named=named
         )
         if pause.kind == "break":
-            message = f"the program still runs after {_LONGEST:g} s"
+            message = f"the program is still running after {_LONGEST:g} s"
             return [msgspec.structs.replace(row, result="endless", message=message)]
         result = finished(runner, pause, Meter(), judged=True)
         wrong = [check.told for check in result.referee.values() if check.refuses]
@@ -123,7 +123,7 @@ MAL_FAULTS: Final = Sweep(
         "right": "right", "named": "right", "stopped": "wrong", "misnamed": "wrong", "endless": "wrong",
         "silent": "silent",
     },
-    success="work right, or stopped and named by DIAGNOSE",
+    success="work right, or stopped and the fault named by DIAGNOSE",
     noun="fault",
     sentence=_sentence,
     summary=_summary,
