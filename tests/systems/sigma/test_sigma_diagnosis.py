@@ -202,7 +202,7 @@ def test_every_part_that_can_have_a_fault_can_be_accused() -> None:
     [
         ("--fault nonsense", "there is no fault `nonsense`; the faults are bit, interface"),
         ("--fault bit --all", "--fault, --all and --game exclude each other"),
-        ("--game --json", "a game has no --json"),
+        ("--game --json", "--json does not apply to a game"),
     ],
 )
 def test_options_that_make_no_sense_are_refused(words: str, why: str, command: Command) -> None:

@@ -164,8 +164,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "test": (
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
         ("TESTAO", "x y", "Set analog output x to y. No limit is checked, so the pump must be off.", "TESTAO 3 100"),
-        ("TESTDO", "x y [mask]", "Set digital output word x to y; with a mask, only its bits. The pump must be off.",
-         "TESTDO 1 1"),
+        ("TESTDO", "x y [mask]", "Set digital output word x to y, or only those bits that a mask selects. The pump "
+                                 "must be off.", "TESTDO 1 1"),
     ),
     "host": (
         ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),

@@ -44,8 +44,8 @@ class Posted(LevelEvent, frozen=True, kw_only=True):
     cycles: int  # that the motion took
 
     def sentence(self, measures: Measures) -> str:
-        ends = {"goal": "at its goal", "force": "by a sensor", "emergency": "by an emergency"}[self.what]
-        return f"the motion of the {self.arm} arm has ended {ends} after {self.cycles * 10} ms"
+        ends = {"goal": "has reached its goal", "force": "was frozen", "emergency": "was stopped by an emergency"}
+        return f"the motion of the {self.arm} arm {ends[self.what]} after {self.cycles * 10} ms"
 
 
 class EmergencyStopped(LevelEvent, frozen=True, kw_only=True):

@@ -31,7 +31,7 @@ class Ending(NamedTuple):
 
 
 class Hardware(ABC):
-    """The machine of a run: what the run shows of it, and what its job is told about the run."""
+    """The machine of a run: what the run shows of it, and what its job learns about the run."""
 
     machine: Machine
     joints: Sequence[str] = ()

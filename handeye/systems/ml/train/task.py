@@ -27,7 +27,7 @@ EXPECTED: Final = {"engine": (0, -3500), "wagon_1": (-5000, 2500), "wagon_2": (5
 PULLED: Final = 0.050  # m by which the engine is pulled
 COUPLED: Final = 0.5  # mm between the axes of a peg and its hole
 SEATED: Final = 0.5  # mm of a wagon over the table: its peg is in to the shoulder
-PLACED: Final = 3.0  # mm of the engine from where it is pulled to
+PLACED: Final = 3.0  # mm from the engine to where it should have been pulled
 LEAN: Final = 2.0  # deg
 TROUBLES: Final = {
     "1": "the hand has met something on its way down",

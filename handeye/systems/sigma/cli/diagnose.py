@@ -49,7 +49,7 @@ def diagnose(
         raise BadArgument("--fault, --all and --game exclude each other")
     if game or demo:
         if json:
-            raise BadArgument("a game has no --json")
+            raise BadArgument("--json does not apply to a game")
         return _play(seed or 0, demo=demo)
     from handeye.systems.sigma.diagnosis import report
     from handeye.systems.sigma.diagnosis.bench import Bench

@@ -43,11 +43,11 @@ class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
     began: int = 0  # ps
     sense: int = 1  # of the train, 1 or -1
     ended: int = -REST * PS  # ps, when the last train ended
-    pulses: int = 0  # sent to the driver before the train, forward less backward
+    pulses: int = 0  # sent to the driver before the train, forward minus backward
     zero: int = 0  # of them where the count is 0
     at_abort: int = 0  # count when the last abort began, or where ORIGIN ended, before it became 0
     cause: Status = Status.FREE  # of the stop under way
-    pressed: int = 0  # the sense of the motion that has met the force there is
+    pressed: int = 0  # the sense of the motion that met the present force
     curve: int = 0
     limit: int = 0  # steps/s; 0: none
     low: bool = False  # levels of its pins

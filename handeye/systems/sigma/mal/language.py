@@ -36,8 +36,8 @@ class MalLanguage(OwnLanguage):
         return checked(source)[1]
 
     def explanation(self, word: str) -> str | None:
-        """Return the meaning of a code or a word of MAL, or None. `handeye sigma words` explains those words
-        that the arm language also has."""
+        """Return the meaning of a code or a word of MAL, or None. For a word that the arm language has too,
+        `handeye sigma words` explains its meaning in MAL."""
         return code_explained(word) or explained(word)
 
     def words(self, source: Source, offset: int) -> list[tuple[str, str]]:

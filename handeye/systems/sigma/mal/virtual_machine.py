@@ -307,7 +307,7 @@ class VirtualMachine:
             self._after_abort(axis, owner, f"ABORT {axis} {cause} {at:.2f}")
 
     def _doubt(self, name: str) -> None:
-        """Query the greatest forces on both wrists, because a standing motor that was hit does not report it.
+        """Query the greatest forces on both wrists, because a standing motor does not report that it was hit.
 
         The wrist of an arm that was hit above it feels nothing. Therefore, while the arms are near each other, a
         great force on one wrist makes the count of the same axis of the other arm doubtful, too.
@@ -324,7 +324,7 @@ class VirtualMachine:
                 self._tell(CountDoubtful(time=self.time, axis=axis, force=force, above=not felt))
 
     def _peak(self, name: str, axis: str) -> float | None:
-        """Query the greatest force on a wrist along an axis (N); None if it does not answer."""
+        """Query the greatest force on a wrist along an axis (N). Returns None if the wrist does not answer."""
         try:
             answer = self._operations.ask(name, protocol.force(int(axis[1]), axis[0], peak=True))
         except BusFault:

@@ -48,7 +48,7 @@ DISPENSER_PITCH: Final = 20.0
 DISPENSER_HEIGHT: Final = 30.0
 
 # The screwdriver of arm 2
-BIT: Final = 5.0  # of its face over the tips of the fingers: a screw on it cuts the light beam
+BIT: Final = 5.0  # of its face over the tips of the fingers: a screw on it breaks the light beam
 
 _HOLE: Final = 0.03  # by which a hole is off its place in x and in y, at most
 _FRICTION: Final = (0.87, 1.13)  # of a thread, over its nominal friction

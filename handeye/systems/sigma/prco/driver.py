@@ -35,7 +35,7 @@ class HandDriver(Mechanism[DriverState]):
         return _SPEEDS.get(self._state.value, 0.0)
 
     def actuated(self, number: int, devices: Sequence[int]) -> None:
-        """Take over the outputs of a hand microcomputer."""
+        """Set the screwdriver as the outputs of its hand microcomputer say."""
         if number == _HAND:
             self._state = DriverState(value=devices[DEVICES["DRIVER"]])
 
