@@ -76,7 +76,8 @@ class Level(ABC):
 
     @abstractmethod
     def write(self, table: str, line: int, word: int, value: int) -> None:
-        """Write a word of a table. The real-time level uses the new value from the next cycle on. Raises MlError (M11).
+        """Write a word of a table. The real-time level uses the new value from the next cycle on. Raises MlError
+        (M11).
         """
 
     @abstractmethod

@@ -73,8 +73,8 @@ class Mal:
         self._rows.append((self._gantries.bench.now, self._gantries.places * STEP_MM, self._gantries.felt))
 
     def run(self, until: int | None = None) -> list[str]:
-        """Execute statements until the program ends or stops, or until the task whose turn it is stands before the
-        line numbered `until`.
+        """Execute statements until the program ends or stops, or until the line with the number `until` is the next to
+        be executed.
 
         Returns:
             The lines that were printed.
@@ -114,7 +114,7 @@ class Mal:
 
     @property
     def tasks(self) -> dict[str, str]:
-        """For each unfinished task, the line at which it stands, and what it waits for."""
+        """For each unfinished task, the line that it has reached, and what it waits for."""
         found = {}
         for name, task in self._vm.memory.tasks.items():
             waits = self._vm.waits_for(name)

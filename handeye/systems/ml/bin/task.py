@@ -57,9 +57,7 @@ VARIATION: Final = Variation(
         "Probability that a part is bad: 1 mm too narrow, or half as heavy as a good one. No source: our choice.",
     ),
     quantity(_SIZE, "mm", Noise(0.05), 0.2, "Standard deviation of a part's width. No source: our choice."),
-    quantity(
-        _FRICTION, "", Range(0.3, 0.4), 2.0, "Friction between parts. No source: our choice.", 0.35
-    ),
+    quantity(_FRICTION, "", Range(0.3, 0.4), 2.0, "Friction between parts. No source: our choice.", 0.35),
     quantity(
         _SMOOTH,
         "",

@@ -90,8 +90,7 @@ class Console:
         self._say(counted(len(self._program.numbers), "statement"))
 
     def hear(self, line: str) -> None:
-        """Execute a line, and a program that it starts, to the end. Raises InvalidInput if the line cannot be executed.
-        """
+        """Execute a line, and a program that it starts, to the end. Raises InvalidInput if that is impossible."""
         if line.strip().upper() == "HELP":
             self._help()
             return
@@ -165,7 +164,9 @@ class Console:
                     self._machine.cycle()
                 self._say(f"motor {motor} is at {level.position(motor)}")
             else:
-                self._say(f"the flag of sensor {min(level.flags)} is on: CANCEL first, then clear it with SENSOR")
+                self._say(
+                    f"the flag of sensor {min(level.flags)} is on: CANCEL first, then clear it with SENSOR"
+                )
         except InvalidInput as error:
             self._say(str(error))
 

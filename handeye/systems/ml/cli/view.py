@@ -54,9 +54,7 @@ def view(
     file = Path(program)
     if program in PROGRAMS and not file.is_file():
         if arm is not None or sense:
-            raise BadArgument(
-                f"the job {program} has an arm and sensors of its own; omit --arm and --sense"
-            )
+            raise BadArgument(f"the job {program} has an arm and sensors of its own; omit --arm and --sense")
         setup = job_setup(job_plan(program, variant), WorldSpec(seed=seed))
     else:
         if variant:

@@ -61,8 +61,7 @@ class History:
 
     @property
     def last(self) -> int:
-        """The number of the next cycle. It has not passed, but the words that statements have changed for it are known.
-        """
+        """The number of the next cycle, which has not passed. What statements have changed for it is known."""
         return self.head.cycles
 
     def find(self, table: str, side: str = "") -> Segment:

@@ -91,7 +91,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
          "70 IF &1 100 200 300"),
         ("LOOPI", "x [v]", "Run the statements up to NEXTI x times; variable v counts from 1.", "10 LOOPI 3 20"),
-        ("LOOPJ", "x [v]", "Run the statements up to NEXTJ x times; LOOPJ may stand inside LOOPI, and LOOPI inside "
+        ("LOOPJ", "x [v]", "Run the statements up to NEXTJ x times; LOOPJ may be inside LOOPI, and LOOPI inside "
         "LOOPJ.",
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),

@@ -44,7 +44,11 @@ class Posted(LevelEvent, frozen=True, kw_only=True):
     cycles: int  # that the motion took
 
     def sentence(self, measures: Measures) -> str:
-        ends = {"goal": "has reached its goal", "force": "was frozen", "emergency": "was stopped by an emergency"}
+        ends = {
+            "goal": "has reached its goal",
+            "force": "was frozen",
+            "emergency": "was stopped by an emergency",
+        }
         return f"the motion of the {self.arm} arm {ends[self.what]} after {self.cycles * 10} ms"
 
 

@@ -97,7 +97,9 @@ def sound(plan: MlPlan) -> None:
     if plan.arm != "none" and (plan.stimuli or plan.outline):
         raise BadFile(f"{plan.name} has stimuli or an outline, which only perfect motors sense")
     if plan.arm != "none" and plan.left is not None:
-        raise BadFile(f"{plan.name} has a program for the left arm, but the rectilinear arm has no left arm beside it")
+        raise BadFile(
+            f"{plan.name} has a program for the left arm, but the rectilinear arm has no left arm beside it"
+        )
     channels = {source.channel for source in RIGHT.analog.values()}
     channels |= {name for names in (*RIGHT.digital.values(), RIGHT.interlocks) for name in names}
     for stimulus in plan.stimuli:

@@ -47,7 +47,7 @@ class MlSystem(System):
     state = MlState
     words = StepperWords(
         about=(
-            "A step is one statement with all its cycles of 10 ms; the arrow stands before the statement that comes",
+            "A step is one statement with all its cycles of 10 ms; the arrow points to the statement that comes",
             "next. `type right FILE MT 3 8 10` executes a line of ML for the right arm between two statements.",
         ),
         places=(

@@ -13,7 +13,8 @@ from handeye.systems.sigma.cli.studies import put_study
 def axis(
     *,
     mass: Annotated[
-        float, Parameter(help="Mass that the motor moves, in kg: in SUPERSIGMA 12 for X, 8 for Y and 2.5 for Z.")
+        float,
+        Parameter(help="Mass that the motor moves, in kg: in SUPERSIGMA 12 for X, 8 for Y and 2.5 for Z."),
     ] = 12.0,
     steps: Annotated[WholeNumber, Parameter(help="Length of the move, in steps of 0.0375 mm.")] = 8000,
     curve: Annotated[
@@ -28,7 +29,9 @@ def axis(
         Parameter(help="Constant speed, in mm/s. Above 37.5 mm/s, the move begins and ends with ramps."),
     ] = None,
     load: Annotated[float, Parameter(help="Force against the motion, in N.")] = 0.0,
-    stop_after: Annotated[float | None, Parameter(help="Make an emergency stop after this time, in ms.")] = None,
+    stop_after: Annotated[
+        float | None, Parameter(help="Make an emergency stop after this time, in ms.")
+    ] = None,
     cut: Annotated[
         bool, Parameter(negative=(), help="Stop by sending no more pulses, instead of by the steepest ramp.")
     ] = False,

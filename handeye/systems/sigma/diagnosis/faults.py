@@ -61,7 +61,7 @@ class Draw:
 
 
 class _InTurn(Draw):
-    """Chooses by the numbers of the options, which are given in advance; from there on, always the first."""
+    """Chooses the options whose numbers are given in advance; when these are used up, always the first option."""
 
     def __init__(self, numbers: Sequence[int]) -> None:
         super().__init__(None)

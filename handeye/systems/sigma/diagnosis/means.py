@@ -169,7 +169,7 @@ class Motion:
 
     @property
     def astray(self) -> bool:
-        """True if the far switch stopped the motion at another count than the drawing says."""
+        """True if the far switch stopped the motion at a count that differs from the one in the drawing."""
         return self.at_abort is not None and abs(self.at_abort - TRAVEL[self.axis[0]]) > _OFF_STEPS
 
     @property

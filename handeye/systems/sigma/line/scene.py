@@ -56,7 +56,7 @@ def _text() -> str:
 
 
 def _part(text: str, name: str) -> str:
-    """Return what stands inside an element of a scene; empty if the scene lacks it."""
+    """Return the content of an element of a scene; empty if the scene has no such element."""
     found = re.search(rf"<{name}>(.*?)</{name}>", text, re.DOTALL)
     return found[1] if found else ""
 

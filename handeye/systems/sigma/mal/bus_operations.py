@@ -248,7 +248,7 @@ def names_of(instruction: Instruction) -> tuple[str, ...]:
 
 
 def _takes_time(command: Command) -> bool:
-    """Return True if a microcomputer that executes a command is busy for longer than the command is sent."""
+    """Return True if a command keeps its microcomputer busy for longer than it takes to send the command."""
     fingers = command.op == Op.ACTUATE and command.detail == protocol.DEVICES["HAND"]
     return fingers or command.op in (Op.MOVE, Op.MOVE_SLOW, Op.ORIGIN)
 

@@ -98,8 +98,8 @@ class MalProgram:
         return None
 
     def check_alone(self) -> None:
-        """Raise BadFile unless SUPERSIGMA alone can run the program. A microcomputer that is missing does not report
-        it, and the program would not notice.
+        """Raise BadFile unless SUPERSIGMA alone can run the program. A missing microcomputer reports nothing, so the
+        program would not notice that it is missing.
         """
         if self.beyond is not None:
             raise BadFile(

@@ -78,7 +78,7 @@ class MalFaultWork:
 
 
 def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[MalFaultRow], MalFaultWork]:
-    """Return the kind of sweep and the work that try faults in a job. Raises Refused if no referee judges the task."""
+    """Return the sweep that tries faults in a job, and its work. Raises Refused if no referee judges the task."""
     plan = SIGMA.own_plan(task)
     if not plan.pieces:
         raise Refused(f"the task {quoted(task)} has no referee, so no outcome is right or wrong")

@@ -29,7 +29,7 @@ class SigmaSystem(System):
     words = StepperWords(
         about=(
             "A step is one statement of the task whose turn it is. Each task has its own position; the arrow",
-            "stands before the statement that comes next. `back` takes all tasks back together.",
+            "points to the statement that comes next. `back` takes all tasks back together.",
         ),
         places=(
             "PLACE is the number of a line (160), a task (FEEDER), or the first word of a statement (TAKE).",
