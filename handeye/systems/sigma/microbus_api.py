@@ -81,7 +81,7 @@ class Microbus:
         """
         kind = _op(op)
         if kind in ANSWERS:
-            raise BadArgument(f"{kind.name} asks; use ask({name!r}, {kind.name!r})")
+            raise BadArgument(f"{kind.name} is a question; use ask({name!r}, {kind.name!r})")
         self._bus.send(move(name, steps, curve) if kind is Op.MOVE else _command(name, kind, detail, value))
 
     def ask(self, name: str | int, op: str = "POSITION", *, detail: int = 0, count: int | None = None) -> int:

@@ -117,7 +117,7 @@ def test_the_straight_motions_add_up_to_where_the_perfect_motors_are() -> None:
         ("ACTUATE BELL", "the arm has no BELL"),
         ("ORIGIN X1", "ORIGIN is a single motion of the arm: name all three axes"),
         ("IF BEAM(1) = 1 THEN 10", "an IF can only compare ABS(FORCE(axis)) with a number"),
-        ("IF ABS(FORCE(X1)) > 3 THEN 10", "a test of FORCE must follow the MOVE of this axis alone"),
+        ("IF ABS(FORCE(X1)) > 3 THEN 10", "a test of FORCE must directly follow a MOVE of only this axis"),
     ],
 )
 def test_a_line_that_cannot_become_a_motion_is_refused_by_its_number(line: str, why: str) -> None:

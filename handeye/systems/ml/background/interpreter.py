@@ -92,7 +92,9 @@ class Interpreter:
         self.memory.at, self.memory.waits, self.memory.trying = 0, "", False
 
     def conclude(self) -> None:
-        """End the program, and stop it if a last look at the sensors and interlocks finds an emergency."""
+        """End the program. If a last look at the sensors and interlocks finds an emergency, the program counts as
+        stopped by it.
+        """
         self.end()
         for level in (self._own, self.level):
             level.look()

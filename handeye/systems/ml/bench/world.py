@@ -95,7 +95,8 @@ ARM: Final = (
         "N",
         Noise(0.02),
         1.0,
-        "Standard deviation of a strain gauge's noise. Chosen so that a reading is better than the paper's 5 g.",
+        "Standard deviation of a strain gauge's noise. Chosen so that a reading is more accurate than the paper's "
+        "5 g.",
     ),
     quantity(
         RANGE,

@@ -45,7 +45,7 @@ def judge(touches: Array, outline: Array, before: Array) -> Findings:
             "mm",
             "greatest distance from a place on the outline to the nearest touch",
         ),
-        "turned": at_most(turning, 0, "", "difference between 1 and the number of times around the plate"),
+        "turned": at_most(turning, 0, "", "difference between 1 and the number of turns around the plate"),
         "unmoved": at_most(moved, UNMOVED, "mm", "greatest displacement of the plate"),
     }
 

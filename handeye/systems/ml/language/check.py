@@ -141,7 +141,7 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that loops and subroutines have both a beginning and an end."""
+        """Check that each end of a loop or subroutine has its beginning, and each loop its end."""
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])

@@ -24,7 +24,7 @@ Axes = Mapping[str, Known]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Before:
-    """What holds before a line. All values are by axis component: X, Y and Z."""
+    """What holds before a line. Each field has a value for each component: X, Y and Z."""
 
     places: Axes = field(default_factory=lambda: dict.fromkeys(COMPONENTS, UNKNOWN))  # mm
     limits: Axes = field(default_factory=lambda: dict.fromkeys(COMPONENTS))  # N; None is the standard limit
@@ -33,7 +33,7 @@ class Before:
     """The line to which an abort leads; None if the program stops."""
 
     def met(self, other: "Before") -> "Before":
-        """Return what holds if a line is reached in both ways."""
+        """Return what holds before a line that can be reached in both of these states."""
 
         def same(one: Mapping[str, object], two: Mapping[str, object]) -> dict[str, object]:
             return {name: value if value == two[name] else UNKNOWN for name, value in one.items()}

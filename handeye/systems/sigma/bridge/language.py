@@ -18,8 +18,8 @@ _SAID = {
     "carries-through-fixture": "what the hand holds would go through a fixture",
     "stop-beyond-arm": "the arm cannot exert the force of this limit",
     "force-beyond-arm": "the arm cannot exert this force",
-    "faint-force": "the arm may feel this force in free motion, from the friction of its joints",
-    "faint-moment": "the arm may feel this moment in free motion, from the friction of its joints",
+    "faint-force": "the arm may feel this force in free motion, because of the friction of its joints",
+    "faint-moment": "the arm may feel this moment in free motion, because of the friction of its joints",
 }
 
 
@@ -29,7 +29,7 @@ def bridge(at: tuple[float, float] = AT) -> Language:
 
 
 def phrase(program: Program, arm: NamedArm, findings: Iterable[PlanFinding]) -> list[Diagnostic]:
-    """Make diagnostics from the findings of the planner, at their lines."""
+    """Turn each finding of the planner into a diagnostic at its line."""
     return arranged(_phrased(program, arm, finding) for finding in findings)
 
 

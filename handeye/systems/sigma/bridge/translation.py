@@ -191,10 +191,10 @@ def _force_tests(lines: Sequence[Line]) -> tuple[dict[int, ForceTest], list[Diag
         moved = [] if before is None else [goal.axis.text for goal in before.statement.goals]
         if test is None:
             wrong.append(
-                _refused(line, "an IF can only compare ABS(FORCE(axis)) with a number, and go to lines")
+                _refused(line, "an IF can only compare ABS(FORCE(axis)) with a number, and go to a line")
             )
         elif before is None or moved != [test.axis] or line.number in targets:
-            told = "a test of FORCE must follow the MOVE of this axis alone, and no line may jump to it"
+            told = "a test of FORCE must directly follow a MOVE of only this axis, and no line may jump to it"
             wrong.append(_refused(line, told))
         else:
             tests[before.number] = test
@@ -272,7 +272,9 @@ class _Translation:
         ways = {before.aborts[name] for name in moved if before.limits[name] is not None}
         way = ways.pop() if len(ways) == 1 else UNKNOWN
         if isinstance(way, Unknown):
-            self._refuse(line, "ON ABORT leads to different lines")
+            self._refuse(
+                line, "ON ABORT leads to different lines for its axes, or in different paths of the program"
+            )
             return []
         tested = _Draft(
             Test(number=NO_FORCE, raised=None), _Stop(way) if way is not None else _Stop(here=1), _Stop(after)

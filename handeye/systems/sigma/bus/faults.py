@@ -37,14 +37,14 @@ KINDS: Final[dict[str, Defects]] = {
         help="a regenerator does not reverse its direction for answers", where="segment", default=1
     ),
     "long-strobe": Defects(
-        help="the computer raises /DATA READY late, by this time",
+        help="the computer raises /DATA READY too late: this many microseconds after the command begins",
         value="microseconds",
         amount=35,
         least=3,
         most=99,
     ),
     "slow-lines": Defects(
-        help="a data line shows each new level late, by this time",
+        help="a data line shows each new level this many microseconds too late",
         value="microseconds",
         amount=6,
         most=19,

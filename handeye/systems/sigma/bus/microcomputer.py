@@ -1,4 +1,4 @@
-"""A microcomputer on the bus. It polls the strobe by its own clock, takes five bytes, and executes the command
+"""A microcomputer on the bus. It polls the strobe with its own clock, takes five bytes, and executes the command
 if the bytes are addressed to it.
 """
 

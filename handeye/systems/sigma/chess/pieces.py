@@ -1,6 +1,4 @@
-"""Draws chess pieces at random positions along three lines of a board. They have the shapes of pieces turned from
-boxwood.
-"""
+"""Draws chess pieces, in the shapes of pieces turned from boxwood, at random positions along three lines of a board."""
 
 from typing import Final, NamedTuple
 

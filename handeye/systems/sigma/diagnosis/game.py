@@ -90,7 +90,7 @@ class Game:
         )
 
     def words(self) -> Sequence[str]:
-        """Return words that complete a line."""
+        """Return the words that can complete a line."""
         return [*MEANS]
 
     def hear(self, line: str) -> None:

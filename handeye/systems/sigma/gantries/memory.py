@@ -1,4 +1,4 @@
-"""Defines the state of the gantries that is not in their scene."""
+"""Defines the part of the gantries' state that their scene does not contain."""
 
 from msgspec import field
 

@@ -62,5 +62,5 @@ def _part(text: str, name: str) -> str:
 
 
 def _second(text: str) -> str:
-    """Return a part with the numbers of the arms 3 and 4 in place of 1 and 2."""
+    """Return a part of the scene in which arms 1 and 2 are renumbered as arms 3 and 4."""
     return _NUMBERED.sub(lambda found: f'"{found[1]}{int(found[2]) + 2}"', text)

@@ -11,7 +11,7 @@ CODES: Final[dict[str, Mistake]] = {
     "axis-shared": Mistake(
         meaning="two tasks move the same axis",
         example="10 START OTHER\n20 MOVE X1 TO 5\n30 TASK OTHER\n40 MOVE X1 TO 9",
-        cure="move each axis from one task only, or use flags to pass it from task to task; "
+        cure="move each axis in only one task, or use flags to pass it from task to task; "
         "`handeye sigma check FILE --interleavings` tries every order in which the tasks can run",
         severity="warning",
     ),

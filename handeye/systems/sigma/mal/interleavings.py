@@ -114,7 +114,7 @@ class _Search:
 
     @cached_property
     def rails(self) -> tuple[tuple[str, str], ...]:
-        """The X axes of the two arms on each rail along which arms of different tasks move."""
+        """For each rail along which arms of different tasks move, the X axes of its two arms."""
         users = self._users
         return tuple(pair for pair in RAILS if len(users.get(pair[0], set()) | users.get(pair[1], set())) > 1)
 
@@ -256,7 +256,7 @@ class _Search:
     # -- looking --------------------------------------------------------------------------------------
 
     def _see_events(self, key: bytes, state: _State, act: Act) -> None:
-        """Find signals that are lost by an act."""
+        """Find flags that an act sets although they are set already, so that a signal is lost."""
         taken = {each.operand for each in self.program.code if each.op == "TAKEF"}
         for event in self.events:
             lost = (
@@ -332,7 +332,7 @@ class _Search:
     def _find(
         self, kind: FindingKind, told: str, lines: Sequence[int], key: bytes, act: Act | None = None
     ) -> None:
-        """Record a finding once for its lines. The first path that leads to it is the shortest."""
+        """Record a finding, only once for the same lines. The first path that leads to it is the shortest."""
         name = (kind, tuple(sorted(lines)) if kind != "variable" else told)
         if name not in self.found:
             schedule = (*self._schedule(key), *(() if act is None else (act,)))
