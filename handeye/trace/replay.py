@@ -57,7 +57,9 @@ class Motion(Brief):
     times: Array  # ends of the servo periods, shape (n,), s
     joints: Array  # sensed positions, shape (n, m): rad, or m for prismatic joints
     rates: Array  # sensed rates, shape (n, m): rad/s, or m/s for prismatic joints
-    efforts: Array  # commanded torques, shape (n, m): N m, or N for prismatic joints; zero while the brakes are on
+    efforts: (
+        Array  # commanded torques, shape (n, m): N m, or N for prismatic joints; zero while the brakes are on
+    )
     gaps: Array  # opening of the fingers, shape (n,), m
 
 

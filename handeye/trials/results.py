@@ -70,7 +70,9 @@ class Results(Sequence[Result]):
         of the referee."""
         findings = {name: each for result in self.each for name, each in result.referee.items()}
         columns = (
-            Column(name="seed", about="seed of the world", values=np.array([each.seed for each in self.each])),
+            Column(
+                name="seed", about="seed of the world", values=np.array([each.seed for each in self.each])
+            ),
             _words("world", "how the world was generated", (str(each.world) for each in self.each)),
             _words("verdict", "assembled, stopped or not right", (_verdict(each)[0] for each in self.each)),
             _words("why", "why the result is not right", map(why, self.each)),

@@ -167,8 +167,7 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """Return the format for a file name. Raises BadArgument if the file extension is not that of a video format.
-    """
+    """Return the format for a file name. Raises BadArgument if the file extension is not that of a video format."""
     ending = path.suffix.lower()
     if ending == ".mp4":
         try:

@@ -47,7 +47,9 @@ class Schedule(Record, frozen=True, kw_only=True):
 
     seed: int
     level: Level = "nominal"
-    start: Annotated[int, msgspec.Meta(ge=0)]  # Steps of the fault-free run that are done when this run begins
+    start: Annotated[
+        int, msgspec.Meta(ge=0)
+    ]  # Steps of the fault-free run that are done when this run begins
     steps: Count | None = None  # Greatest number of steps; None: the run ends with its first stage
     faults: tuple[str, ...] = ()  # As they would be typed
     breaks: tuple[Break, ...] = ()

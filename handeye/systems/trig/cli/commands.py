@@ -24,7 +24,8 @@ ArmKind = Annotated[
     ),
 ]
 TrigFile = Annotated[
-    Path, Parameter(help="A script of typed lines (.trig), or a program that the command W wrote (.trig.json).")
+    Path,
+    Parameter(help="A script of typed lines (.trig), or a program that the command W wrote (.trig.json)."),
 ]
 ALL: Final = 1_000_000_000  # steps: more than can be recorded
 

@@ -231,7 +231,8 @@ def pallet_trials(
     seed: FirstSeed = 0,
     blocks: Annotated[WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20.")] = 7,
     interrupt: Annotated[
-        bool, Parameter(help="Interrupt each run after a random number of steps, and undo the work from there.")
+        bool,
+        Parameter(help="Interrupt each run after a random number of steps, and undo the work from there."),
     ] = False,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,

@@ -41,7 +41,9 @@ class JobReport(Record, frozen=True, kw_only=True):
     back: RunLeg | None = None
     checks: Mapping[str, Check] = {}  # the referee's findings at the end of the program
     checks_back: Mapping[str, Check] = {}  # the referee's findings after the reversal
-    goals: tuple[tuple[float, float], ...] = ()  # wanted places of the blocks, in the order in which the arm takes them, mm
+    goals: tuple[
+        tuple[float, float], ...
+    ] = ()  # wanted places of the blocks, in the order in which the arm takes them, mm
     lying: Mapping[When, tuple[BlockPose, ...]] = {}  # true poses, in the order of `goals`
     told: tuple[str, ...] = ()  # a sentence on how each leg ended
     ended_s: float | None = None  # time at which the program ended, on the arm's clock

@@ -143,15 +143,15 @@ def _base() -> Iterator[MishapFault]:
 
 
 def _losses() -> Iterator[MishapFault]:
+    # A part that leaves the fingers at once makes the gap jump: GAP_WRONG.
     gasket = ExpectedDetection(
-        errors=(NOTHING_HELD, WRONG_HEIGHT),
+        errors=(NOTHING_HELD, GAP_WRONG, WRONG_HEIGHT),
         calls=(detect.GASKET_LOST, detect.TOO_LOW, detect.NOT_LIFTED),
         stages=(detect.PUT_ON_GASKET,),
     )
-    # A pin that leaves the fingers at once makes the gap jump.
     pin = replace(detect.NO_PIN, errors=(NOTHING_HELD, GAP_WRONG))
     top = ExpectedDetection(
-        errors=(NOTHING_HELD,),
+        errors=(NOTHING_HELD, GAP_WRONG),
         calls=(detect.TOP_LOST, "THE TOP MEETS NOTHING: IT IS LOST"),
         stages=(detect.PUT_ON_TOP,),
     )
