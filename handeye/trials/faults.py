@@ -92,7 +92,7 @@ class FaultTrial(Record, frozen=True, kw_only=True):
     name: str  # The fault, as it would be typed
     outcome: Outcome
     stage: str | None  # Stage in which the run stopped; None: the run finished, or never began
-    message: str  # The call of the operator, or the referee’s complaints
+    message: str  # The call to the operator, or the referee’s complaints
     error: int | None
     line: str | None  # Line of the script at which the run stopped within a stage
     exit_code: Annotated[int, msgspec.Meta(ge=0)]

@@ -138,7 +138,7 @@ class Watch:
 
 
 def answered(rows: Sequence[Row]) -> int:
-    """Return the number of trials in which calls of the operator were answered, no matter how the trials ended."""
+    """Return the number of trials in which calls to the operator were answered, no matter how the trials ended."""
     return sum(row.result is not None and bool(row.result.interventions) for row in rows)
 
 

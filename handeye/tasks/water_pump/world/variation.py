@@ -100,7 +100,7 @@ def _camera() -> Iterator[Quantity]:
             "`field`: the same, but down the picture. Honesty study, finding 10: 1 % at the corners."),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
             "Shift of each picture from the previous one, as a fraction of half the picture's width and height: half "
-            "a pixel. The paper mentions a slight shift between two pictures; vision study, section 4: up to one pixel."),
+            "a pixel. The paper mentions a slight shift between two pictures; vision study, section 4: up to a pixel."),
     )  # fmt: skip
 
 
