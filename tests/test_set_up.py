@@ -94,7 +94,7 @@ def test_an_environment_that_was_left_half_made_is_made_anew(
     pip.fails_at = "requirements.lock"
     assert start.main(["check"]) == 2
     said = capfd.readouterr().err
-    assert "could not install what requirements.lock lists" in said
+    assert "could not install the packages that requirements.lock lists" in said
     assert said.endswith("pip said:\nthere is no network\n")
     (start.VENV / "half").touch()
     pip.fails_at = None

@@ -247,5 +247,5 @@ def test_what_is_no_error_cannot_be_scaled(name: str) -> None:
 
 
 def test_where_all_sizes_have_sources_none_can_be_scaled_for_having_none() -> None:
-    with pytest.raises(InvalidInput, match=r"^the world has no error without a source"):
+    with pytest.raises(InvalidInput, match=r"^the world has no unsourced error to scale"):
         TABLE.draw(WorldSpec(seed=1, overrides=Overrides(scale={UNSOURCED: 2.0})))

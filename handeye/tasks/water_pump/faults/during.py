@@ -21,7 +21,6 @@ from handeye.core.errors import (
     NOTHING_HELD,
     SEARCH_EXHAUSTED,
     SERVO_LAG,
-    WRONG_HEIGHT,
 )
 from handeye.core.faults import ExpectedDetection, Fault, Size
 from handeye.core.record import Record
@@ -145,14 +144,14 @@ def _base() -> Iterator[MishapFault]:
 def _losses() -> Iterator[MishapFault]:
     # A part that leaves the fingers at once makes the gap jump: GAP_WRONG.
     gasket = ExpectedDetection(
-        errors=(NOTHING_HELD, GAP_WRONG, WRONG_HEIGHT),
-        calls=(detect.GASKET_LOST, detect.TOO_LOW, detect.NOT_LIFTED),
+        errors=(NOTHING_HELD, GAP_WRONG),
+        calls=(detect.GASKET_LOST,),
         stages=(detect.PUT_ON_GASKET,),
     )
     pin = replace(detect.NO_PIN, errors=(NOTHING_HELD, GAP_WRONG))
     top = ExpectedDetection(
         errors=(NOTHING_HELD, GAP_WRONG),
-        calls=(detect.TOP_LOST, "THE TOP MEETS NOTHING: IT IS LOST"),
+        calls=("THE TOP MEETS NOTHING: IT IS LOST",),
         stages=(detect.PUT_ON_TOP,),
     )
     for name, part, told, expected in (
