@@ -12,7 +12,7 @@ MalFile = Annotated[Path, Parameter(help="A program in MAL with a single task, `
 BoardCorner = Annotated[
     tuple[float, float] | None,
     Parameter(
-        help="Place of the board's corner X1 = 0, Y1 = 0 on the table, x and y in millimetres. Default: 350 550."
+        help="Where the board's corner X1 = 0, Y1 = 0 lies on the table: x and y, in millimetres. Default: 350 550."
     ),
 ]
 _FARTHEST: Final = 10_000.0  # mm
