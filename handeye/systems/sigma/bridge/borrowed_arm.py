@@ -197,7 +197,7 @@ class BorrowedArm(PerfectMotors):
 def borrowed(
     spec: WorldSpec, at: tuple[float, float], poll: Callable[[], None] = lambda: None
 ) -> BorrowedArm:
-    """Return the Stanford arm over the table of a world of the water pump. It first measures the friction of its joints.
+    """Return the Stanford arm over the table of a world of the water pump, with the friction of its joints measured.
 
     Args:
         at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).
