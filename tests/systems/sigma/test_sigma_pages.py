@@ -58,3 +58,16 @@ def test_the_page_of_words_is_made_from_the_table_of_words() -> None:
     made = module_from_spec(spec)
     spec.loader.exec_module(made)
     assert made.PAGE.read_text(encoding="utf-8") == made.page()
+
+
+def test_pages_count_the_lines_of_a_program_as_they_are() -> None:
+    counted = {
+        found
+        for page in (ROOT / "docs").glob("*.md")
+        for found in re.findall(
+            r"\[`plans/(\w+)\.mal`\]\(\S+\)[^\[]*?(\d+)\s+lines of \[MAL\]", page.read_text(encoding="utf-8")
+        )
+    }
+    assert counted == {
+        (name, str(len(mal(name).splitlines()))) for name in ("chess", "handover_pieces", "prco")
+    }
