@@ -241,9 +241,9 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'WAIT "SEE TO THE DRIVER"\nTOOL 0',
     ),
     errors.PICTURE_WRONG: Remedy(
-        "Noise makes two pictures of a live camera differ, even of a scene at rest. A picture that equals an "
-        "earlier one, or is uniform, does not show the scene; a picture with far more noise than that of a sound "
-        "camera must not be used for measurement.",
+        "Because of noise, two pictures taken by a working camera differ, even if the scene is at rest. A picture "
+        "that equals an earlier one, or is uniform, does not show the scene. A picture with far more noise than a "
+        "working camera produces must not be used for measurement.",
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
     errors.JOINT_STIFF: Remedy(

@@ -109,7 +109,7 @@ class PauseRequest(StopCondition, frozen=True, kw_only=True, tag="Asked"):
 
 
 class ByHand(StopCondition, frozen=True, kw_only=True):
-    """Pause because a person stopped controlling the run."""
+    """Pause because the user ended the stepping session before the run had ended."""
 
 
 class DriverFailure(StopCondition, frozen=True, kw_only=True, tag="BrokenOff"):

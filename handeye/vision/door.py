@@ -56,10 +56,10 @@ def beams(
     if len(ways) and np.abs(np.linalg.norm(ways, axis=1) - 1).max() > _UNIT:
         raise BadArgument("the directions of beams must be unit vectors (du, dv)")
     _settings(polarity, step, beyond)
-    lengths = numbers(reach, "the reach of a beam is a number of pixels")
+    lengths = numbers(reach, "the reach of a beam must be a number of pixels")
     if lengths.shape not in ((), (len(ways),)) or (lengths < 0).any():
         raise BadArgument(
-            f"the reach of a beam is a number of pixels, for all or for each of {counted(len(ways), 'beam')}"
+            f"the reach of a beam must be a number of pixels, for all or for each of {counted(len(ways), 'beam')}"
         )
     return beam.beams(
         scan, from_where, ways, polarity, float(step), lengths, wide=bool(wide), beyond=float(beyond)
@@ -133,11 +133,11 @@ def characterise(
         BadArgument: an argument has the wrong type or shape, or is not finite.
     """
     _scan(scan)
-    place = places(seed, "the seed is a place (u, v)")
+    place = places(seed, "the seed must be a place (u, v)")
     if place.shape != (2,):
-        raise BadArgument(f"the seed is a place (u, v), but the given one has shape {place.shape}")
+        raise BadArgument(f"the seed must be a place (u, v), but the given one has shape {place.shape}")
     _settings(polarity, step, beyond)
-    length = _number(reach, "the reach of a beam is a number of pixels")
+    length = _number(reach, "the reach of a beam must be a number of pixels")
     if length <= 0:
         raise BadArgument(f"the reach of a beam must be above 0 pixels, not {length:g}")
     u, v = place.tolist()
@@ -162,7 +162,7 @@ def _settings(polarity: object, step: object, beyond: object) -> None:
         raise BadArgument(
             f"the polarity must be BRIGHTER ({BRIGHTER}) or DARKER ({DARKER}), not {polarity!r:.40}"
         )
-    if _number(step, "the step is a difference of intensity") <= 0:
+    if _number(step, "the step must be a difference of intensity") <= 0:
         raise BadArgument(f"the step of intensity must be above 0, not {step!r:.40}")
     _number(beyond, "the least intensity beyond an edge must be a number")
 

@@ -113,8 +113,8 @@ def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
 
 @dataclass(slots=True, kw_only=True)
 class Watch:
-    """Stops a run that takes too long, as the panic button would. Only simulated time and CPU time count, so a
-    paused or slow computer makes no difference.
+    """Stops a run that takes too long, as the panic button would. Only simulated time and CPU time count, so it
+    makes no difference if the computer is paused or busy with other work.
     """
 
     simulated_s: float

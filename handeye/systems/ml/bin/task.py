@@ -77,7 +77,7 @@ class Poured(Record, frozen=True, kw_only=True):
 
 
 class Pile(Mechanism[Poured]):
-    """The witness of the parts, for the referee only."""
+    """The true qualities of the parts that were poured into the bin, kept for the referee only."""
 
     name, kind = POURED, Poured
 

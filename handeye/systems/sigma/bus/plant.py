@@ -17,7 +17,7 @@ Kept = TypeVar("Kept", bound=MutableRecord)
 
 
 class Level(NamedTuple):
-    """A level of a pin that the machine has changed."""
+    """A change, made by the machine, in the level of a microcomputer's pin."""
 
     number: int  # of a motor, or of the force microcomputer that has to scan its wrist
     pin: Pin = "force"

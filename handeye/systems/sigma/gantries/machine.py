@@ -98,7 +98,9 @@ def vary(spec: mujoco.MjSpec, world: GantryWorld, rig: Rig) -> None:
 
 
 class Field(NamedTuple):
-    """The position of a motor's magnetic field from a physics step on. The field stays at the last row."""
+    """Positions and speeds of a motor's magnetic field, one row for each physics step, beginning with step `first`. After
+    the last row, the field stays where it is.
+    """
 
     first: int
     places: Table  # pulses
@@ -391,7 +393,7 @@ def _hold(lags: Array, begins: Array, ends: Array) -> Array:
 
 
 def _field(motor: Motor, first: int) -> Field:
-    """Return the position of a motor's field from a physics step on."""
+    """Return the positions and speeds of a motor's field in the physics steps from `first`."""
     memory = motor.memory
     if memory.train is None:
         return Field(first, np.array([float(memory.pulses)]), np.zeros(1))

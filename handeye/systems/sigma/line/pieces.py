@@ -32,7 +32,7 @@ PINS: Final = ("a", "b")  # pressed in by the first SUPERSIGMA, and by the secon
 
 
 class LinePiece(Record, frozen=True, kw_only=True):
-    """A piece on the tray of the feeder, as the power comes on (mm)."""
+    """A piece on the feeder's tray, as it lies when the power is switched on. Lengths are in mm."""
 
     name: str  # of its body
     x: float
