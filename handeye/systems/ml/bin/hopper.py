@@ -21,7 +21,9 @@ _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
 def add_hopper(spec: mujoco.MjSpec, friction: float) -> None:
-    """Add the hopper where the arm's x and y axes are at 0. A part slides on it with the friction of the hopper, not its own."""
+    """Add the hopper where the arm's x and y axes are at 0. A part slides on it with the friction of the hopper, not
+    its own.
+    """
     hopper = spec.worldbody.add_body(name="hopper")
 
     def plate(size: list[float], pos: list[float], quat: list[float]) -> None:

@@ -25,7 +25,8 @@ MOST_PEGS: Final = 4
 MOST_FED: Final = 4
 
 Program = Annotated[
-    Path | None, Parameter(help="A MAL program (`.mal`) to run on the same board, in place of handeye's own program.")
+    Path | None,
+    Parameter(help="A MAL program (`.mal`) to run on the same board, in place of handeye's own program."),
 ]
 JobSeed = Annotated[
     WholeNumber, Parameter(help="Seed of the world: it determines the pieces and the errors of the machine.")

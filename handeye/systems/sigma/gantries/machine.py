@@ -98,8 +98,8 @@ def vary(spec: mujoco.MjSpec, world: GantryWorld, rig: Rig) -> None:
 
 
 class Field(NamedTuple):
-    """Positions and speeds of a motor's magnetic field, one row for each physics step, beginning with step `first`. After
-    the last row, the field stays where it is.
+    """Positions and speeds of a motor's magnetic field, one row for each physics step from step `first` on. After the
+    last row, the field stays where it is.
     """
 
     first: int
