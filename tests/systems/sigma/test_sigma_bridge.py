@@ -20,7 +20,7 @@ from handeye.program.guards import Against
 from handeye.program.motion_operations import Change, Close, Move, Open
 from handeye.program.program import Program
 from handeye.program.taught import Taught
-from handeye.systems.sigma.bridge.borrowed_run import SAID, run_borrowed
+from handeye.systems.sigma.bridge.borrowed_run import SAID, BorrowedRun, lines, run_borrowed
 from handeye.systems.sigma.bridge.language import bridge
 from handeye.systems.sigma.bridge.translation import AT, translated
 from handeye.systems.sigma.machine.perfect import PerfectMotors
@@ -186,6 +186,8 @@ def test_the_stanford_arm_finds_the_table_under_the_board_and_the_run_says_that_
     assert float(said[1]) == pytest.approx(180, abs=1)  # the board of SUPERSIGMA is 180 mm under Z1 = 0
     assert -14 < float(said[2]) < -12
     assert found["figures"]["error_mm"] < 2  # while it presses
+    shown = [*err.splitlines()[:2], *lines(BorrowedRun(**found["figures"]))]
+    assert "\n".join(shown) in (ROOT / "docs/other_arm.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.sigma_row(54)

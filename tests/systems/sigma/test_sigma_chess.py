@@ -4,6 +4,7 @@ import json
 import re
 from collections.abc import Callable
 from itertools import pairwise
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -12,7 +13,9 @@ from gantry_bench import Machine
 from mal_bench import ROOT, mal
 from msgspec.structs import replace
 
+from handeye.core import resources
 from handeye.core.errors import BadArgument, BadFile
+from handeye.core.processor import processor
 from handeye.core.variation import WorldSpec
 from handeye.judge.finding import Findings
 from handeye.program.events import to_line
@@ -28,6 +31,8 @@ from handeye.systems.sigma.gantries.machine import Gantries
 from handeye.systems.sigma.gantries.world import GantryWorld
 from handeye.systems.sigma.run.jobs import job_plan, job_setup
 from handeye.systems.sigma.run.plan import MOST_PIECES, MalPlan, decode
+from handeye.trace.compare import compared
+from handeye.trace.reading import read_trace
 from handeye.trials.jobs import JobRow, JobWork
 from handeye.trials.sweep import Case
 
@@ -61,11 +66,11 @@ def test_a_drawn_board_has_room_for_a_hand_between_its_pieces_and_no_height_near
 
 @pytest.mark.sigma_row(30)
 @pytest.mark.slow
-def test_three_pieces_are_found_measured_and_put_on_their_lines_as_the_page_shows(
+def test_three_pieces_are_found_measured_and_put_on_their_lines_as_the_page_and_the_recorded_run_show(
     command: Command, request: pytest.FixtureRequest
 ) -> None:
     text = PAGE.read_text(encoding="utf-8")
-    code, out, _ = command(*SHOWN.split()[1:])
+    code, out, _ = command(*SHOWN.replace("--no-keep", "--out again").split()[1:])
     assert code == 0
     shown = "".join(f"{line.rstrip()}\n" for line in out.splitlines() if not line.startswith("computer"))
     written = re.sub(rf"(?<=\$ {SHOWN}\n).*?(?=```)", shown, text, count=1, flags=re.DOTALL)
@@ -73,6 +78,10 @@ def test_three_pieces_are_found_measured_and_put_on_their_lines_as_the_page_show
         PAGE.write_text(written, encoding="utf-8")
     else:
         assert written == text
+    recorded = read_trace(resources.demo() / "chess/trace.mcap")
+    if recorded.head.versions.get("processor", processor()) == processor():
+        found = compared(recorded, read_trace(Path("again/trace.mcap")), events=len(recorded.events))
+        assert (found.parts, found.rounded) == (None, None), "run: python docs/make_demo.py chess"
 
 
 @pytest.mark.slow
@@ -101,12 +110,10 @@ def test_without_accelerometers_the_first_motion_trips_a_reflex_and_the_program_
 @pytest.mark.slow
 def test_a_kept_board_goes_on_to_the_same_events() -> None:
     whole = begun()
-    advance(whole)
-    assert finished(whole, advance(whole), Meter(), judged=True).exit_code == 0
-    first = begun()
-    advance(first, steps=70)
-    second = Runner(first.checkpoint())
-    assert finished(second, advance(second), Meter(), judged=True).exit_code == 0
+    advance(whole, steps=70)
+    second = Runner(whole.checkpoint())
+    for each in (whole, second):
+        assert finished(each, advance(each), Meter(), judged=True).exit_code == 0
     assert [*map(to_line, second.events)] == [*map(to_line, whole.events)]
 
 

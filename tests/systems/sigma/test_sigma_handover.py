@@ -95,11 +95,11 @@ def test_four_pieces_are_handed_over_as_the_page_shows(
 @pytest.mark.sigma_row(40)
 @pytest.mark.slow
 def test_a_kept_hand_over_goes_on_to_the_same_events_and_result() -> None:
-    whole, first = begun(ONE), begun(ONE)
+    whole = begun(ONE)
+    advance(whole, steps=60)
+    second = Runner(whole.checkpoint())
     result = ended(whole)
     assert (result.exit_code, wrong(judged(whole))) == (0, [])
-    advance(first, steps=60)
-    second = Runner(first.checkpoint())
     assert ended(second).figures == result.figures
     assert second.events == whole.events
 

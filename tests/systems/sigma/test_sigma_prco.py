@@ -80,13 +80,13 @@ def test_a_kept_run_goes_on_to_the_same_events_while_the_screwdriver_turns() -> 
     """Without plate and pins, the screw is too deep for its seat, and the program says so."""
     lines = [line for line in ONE.splitlines() if not 105 <= int(line.split()[0]) <= 300]
     text = "\n".join(lines)
-    whole, first = begun(text), begun(text)
+    whole = begun(text)
+    while whole.cell.truth.states["screwdriver"] == DriverState():
+        advance(whole, steps=20)
+    second = Runner(whole.checkpoint())
     result = ended(whole)
     assert result.exit_code == 1
     assert "SCREW         1             IS NOT AT ITS SEAT" in _heard(whole).heard.lines
-    while first.cell.truth.states["screwdriver"] == DriverState():
-        advance(first, steps=20)
-    second = Runner(first.checkpoint())
     assert ended(second).figures == result.figures
     assert second.events == whole.events
 

@@ -8,8 +8,7 @@ import pytest
 from mal_bench import mal
 
 from handeye.core import resources
-from handeye.core.processor import processor
-from handeye.runs.verify import repetition, setup_of
+from handeye.runs.verify import setup_of
 from handeye.systems.sigma.run.plan import MalPlan
 from handeye.trace.reading import read_trace
 
@@ -32,12 +31,3 @@ def test_its_page_says_how_the_board_ended(command: Command) -> None:
     assert "<h1>Each piece stands on the line for its height.</h1>" in page
     for part in ("HEIGHT        63.375        AT            194.363", "pieces.across", "No source"):
         assert part in page
-
-
-@pytest.mark.slow
-def test_the_present_program_repeats_it_byte_for_byte(tmp_path: Path) -> None:
-    trace = read_trace(CHESS / "trace.mcap")
-    if trace.head.versions.get("processor", processor()) != processor():
-        pytest.skip("recorded on another kind of processor")
-    found = repetition(trace, tmp_path / "again")
-    assert (found.parts, found.rounded) == (None, None), AGAIN
