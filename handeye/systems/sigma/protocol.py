@@ -123,7 +123,7 @@ def move(axis: str | int, steps: int, curve: int = 0) -> Command:
     return Command(
         number=number_of(axis),
         op=Op.MOVE,
-        detail=(steps < 0) | within(curve, 0, 7, "a curve") << 1,
+        detail=(steps < 0) | within(curve, 0, 4, "a curve") << 1,
         value=within(abs(steps), 1, LONGEST_MOVE, "a move in steps"),
     )
 

@@ -251,6 +251,7 @@ def test_the_log_from_python_is_that_of_the_port() -> None:
         ),
         (lambda bus: bus.command("X1", "JUMP"), "there is no operation `JUMP`; the operations are MOVE"),
         (lambda bus: bus.command("X1"), "a move in steps must be between 1 and 65535, not 0"),
+        (lambda bus: bus.command("X1", steps=1, curve=5), "a curve must be between 0 and 4, not 5"),
         (lambda bus: bus.command("X1", "POSITION"), "POSITION is a question; use ask"),
         (lambda bus: bus.ask("X1", "MOVE"), "the answer to MOVE has no known length"),
         (lambda bus: bus.pause(-1), "a time on the bus must be between 0 and 86400 s, not -1 s"),
