@@ -334,4 +334,4 @@ def test_faults_are_listed_for_programs(command: Command) -> None:
     assert known["gap_potentiometer.off"]["must"].startswith(
         "The program stops with error 51 (the gap differs"
     )
-    assert known["thread.1.scarred"]["must"] == "The pump is right."
+    assert known["thread.1.scarred"]["must"] == "The work is right."

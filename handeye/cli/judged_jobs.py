@@ -13,7 +13,7 @@ from handeye.cli.common import Details, Json, NoKeep, Out, Overwrite, positive
 from handeye.cli.runs import Break, Live, OnStop, Step, check_kept
 from handeye.cli.sweeps import SweepOptions, carry_out_sweep
 from handeye.cli.videos import check_apart, filmed
-from handeye.cli.world_options import OwnErrorOptions
+from handeye.cli.world_options import Faults, OwnErrorOptions
 
 if TYPE_CHECKING:
     from handeye.core.variation import WorldSpec
@@ -48,8 +48,17 @@ class JobOptions(RunOptions):
     ] = None
 
 
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaultyJobOptions(JobOptions):
+    """Options for running a job whose world may have faults."""
+
+    fault: Faults = None
+
+
 USUAL_RUN: Final = RunOptions()
 ANY_RUN: Final = JobOptions()
+ANY_FAULTY_RUN: Final = FaultyJobOptions()
 
 
 def carry_out_run(

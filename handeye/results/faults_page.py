@@ -88,7 +88,7 @@ def _must(expected: ExpectedDetection) -> str:
         stops += f", in {' or '.join(f'“{stage}”' for stage in expected.stages)}"
     if not expected.harmless:
         return f"The program {stops}." if stops else "No outcome is specified."
-    return f"The program {stops}, or the pump is right." if stops else "The pump is right."
+    return f"The program {stops}, or the work is right." if stops else "The work is right."
 
 
 def _head(fault: FaultReport) -> Text:

@@ -29,12 +29,12 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
 """The outcome of a run with a fault.
 
-- recovered: the pump is right, and the fault may remain unnoticed
+- recovered: the work is right, and the fault may remain unnoticed
 - stopped: by an error that names the fault, in a correct stage, and with the brakes on
 - misnamed: stopped, but by another error or in another stage
-- unnoticed: the pump is right, but the fault should have been noticed
+- unnoticed: the work is right, but the fault should have been noticed
 - unbraked: stopped, but the brakes were not on
-- silent: the pump is wrong, but the program reported success
+- silent: the work is wrong, but the program reported success
 """
 
 UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")

@@ -8,7 +8,7 @@ ENTRY = Entry(
     title="ML",
     help="Run programs of guarded motions in ML, above a real-time level that watches every 10 ms (IBM, 1975).",
     system="handeye.systems.ml.run.system:ML",
-    can=("levels", "console", "video"),
+    can=("faults", "levels", "console", "video"),
     reasons={
         "plans": "`handeye ml run FILE.ml` runs its programs",
         "undo": "its motions are not recorded; `back` in the stepper returns to an earlier state of the run",
@@ -44,6 +44,7 @@ trials bin = handeye.systems.ml.cli.parts:bin_trials: Take parts out of a bin an
         "orient": "handeye.systems.ml.run.job_trials:ORIENT_TRIALS",
         "bin": "handeye.systems.ml.run.job_trials:BIN_TRIALS",
     },
+    faults="handeye.systems.ml.run.fault_trials:fault_trials",
     events="handeye.systems.ml.happenings:EVENTS",
     files=("tables.gz", "follow.json"),
 )

@@ -274,7 +274,7 @@ def test_a_motion_whose_motors_do_not_come_to_their_goals_is_an_emergency() -> N
     arm.right.write("MT", 3, 8, 0)
     arm.right.start({3: 100})
     arm.pass_cycles(1100)
-    assert (arm.right.posted, arm.right.stopped) == ("emergency", "the motors do not reach their goals")
+    assert (arm.right.posted, arm.right.stopped) == ("emergency", "motor 3 (y) does not reach its goal")
 
 
 def test_a_calibrated_sensor_has_the_mean_of_its_last_8_readings_as_zero() -> None:

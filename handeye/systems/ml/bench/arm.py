@@ -19,7 +19,7 @@ from handeye.core.errors import BadFile, NoSuchName
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.execution.servo import ServoPeriod
-from handeye.ports.axes import Axes, AxesReading, Channel
+from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel
 from handeye.ports.workcell import Sensed
 from handeye.systems.ml.bench import world as drawn
 from handeye.systems.ml.bench.world import ArmWorld
@@ -68,7 +68,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
 
     name = "arm"
     kind = ArmState
-    specs = AXES
+    specs: tuple[AxisSpec, ...] = AXES
     channels = (WAND, *STRAINS, RANGE, TORQUE, *INSIDE, *(Channel(name=name) for name in INTERLOCKS))
     period = CYCLE
 
@@ -95,7 +95,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         """Function that takes the number of a cycle and returns the torque of the power tool, as its current shows
         it (N m).
         """
-        self._servos = BenchAxes(bench, AXES, period=CYCLE, name="servos", bent=self._bent)
+        self._servos = BenchAxes(bench, self.specs, period=CYCLE, name="servos", bent=self._bent)
         self._servos.power(on=False)
         self._goal = self._servos.read().q[_SLIDES]
         self._ways, self._motions = np.zeros(len(self._goal)), [0] * len(self._goal)

@@ -15,13 +15,13 @@ DENSITY: Final = 2700.0  # kg/m3: a bar weighs 26.5 g
 
 def add_bar(
     spec: mujoco.MjSpec, name: str, at: Array, quat: Array, friction: float, *, wide: float = WIDE,
-    density: float = DENSITY,
+    long: float = LONG, density: float = DENSITY,
 ) -> None:  # fmt: skip
     """Put a bar into a scene, with its middle at `at` (m)."""
     body = spec.worldbody.add_body(name=name, pos=at.tolist(), quat=quat.tolist())
     body.add_freejoint(name=name)
     body.add_geom(
-        name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=[wide / 2, LONG / 2, wide / 2], density=density,
+        name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=[wide / 2, long / 2, wide / 2], density=density,
         friction=[friction, 0.003, 0.0001], rgba=[0.72, 0.73, 0.75, 1], group=1,
     )  # fmt: skip
 

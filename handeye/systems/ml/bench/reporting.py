@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from handeye.cell.mechanism import Mechanism
 from handeye.core.errors import BadFile
+from handeye.core.faults import Catalogue
 from handeye.core.record import Record
 from handeye.core.variation import Variation, WorldSpec
 from handeye.systems.ml.bench.hardware import ArmTask, StationHardware
@@ -34,6 +35,11 @@ def counted(heard: object) -> int:
     assert isinstance(heard, Printed)
     words = heard.lines[-1].split() if heard.lines else []
     return int(words[1]) if len(words) == 2 and words[0] == "0" else 0
+
+
+def calls_of(troubles: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the messages with which a program reports its troubles, as faults are expected to be named."""
+    return tuple(f"{sentence} ({{count}})" for sentence in troubles.values())
 
 
 class Listener(Mechanism[Printed]):
@@ -98,9 +104,14 @@ class ReportingTask(ArmTask):
     quantities: ClassVar[Variation]
     troubles: ClassVar[Mapping[str, str]]
     """A sentence for each number that the program may print."""
+    planted: ClassVar[Catalogue]
+    """The faults that the job can have."""
 
     def variation(self) -> Variation:
         return self.quantities
+
+    def faults(self, world: WorldSpec) -> Catalogue:
+        return self.planted
 
     @abstractmethod
     def station(self, world: ArmWorld) -> Station:

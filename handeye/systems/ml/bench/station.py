@@ -11,7 +11,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.resources import scenes
 from handeye.program.events import SystemEvent
-from handeye.systems.ml.bench.arm import RectilinearArm
+from handeye.systems.ml.bench.faults import arm_of
 from handeye.systems.ml.bench.world import ArmWorld
 from handeye.systems.ml.machine.rectilinear import RIGHT
 from handeye.systems.ml.realtime.machine import Machine
@@ -58,7 +58,7 @@ class Station:
         """
         self.bench = Bench(spec.compile())
         _stand(self.bench, at or {})
-        self.arm = RectilinearArm(self.bench, world)
+        self.arm = arm_of(self.bench, world)
         switched = dict.fromkeys(RIGHT.tools, _nothing) | dict(tools or {})
         self.outputs = BenchOutputs(self.bench, "outputs", switched)
         self.others: Sequence[Mechanism[Any]] = others

@@ -135,6 +135,11 @@ class ArmWorld:
             return nominal.nominal * nominal.measure.size
         return self.variation.value(name, self.spec)
 
+    def fault(self, name: str) -> float | None:
+        """Return the size of a fault (SI; 1 for a fault without a size), or None if the world does not have it."""
+        faults = () if self.spec is None else self.spec.faults
+        return next((1.0 if each.value is None else each.value for each in faults if each.name == name), None)
+
     def normal(self, name: str, sigma: str) -> float:
         """Draw the normally distributed number called `name`. Its standard deviation is the world's value of the
         quantity `sigma`, and it is clipped at two standard deviations.

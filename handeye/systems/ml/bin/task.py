@@ -13,6 +13,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.core.diagnostics import quoted
 from handeye.core.distributions import Fixed, Noise, Range
 from handeye.core.errors import BadFile, NoSuchName
+from handeye.core.faults import Catalogue
 from handeye.core.record import Record
 from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings, at_most
@@ -21,6 +22,7 @@ from handeye.systems.ml.bench.hardware import ArmTask
 from handeye.systems.ml.bench.reporting import Printed, ReportingHardware
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
+from handeye.systems.ml.bin.faults import EMPTY, FAULTS, TROUBLES
 from handeye.systems.ml.bin.hopper import BOX, BOXES, RIM, add_boxes, add_hopper
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.systems.ml.run.hardware import Hardware, Tell
@@ -38,15 +40,13 @@ POURED = "poured"
 USUAL: Final = 8  # parts
 MOST: Final = 12
 NARROW: Final = 0.001  # m by which a narrow part is narrower
+_WIDER: Final = 0.003  # m, of a part of another kind
+_STEEL: Final = 2.9  # times as heavy as a part of aluminium
 LIGHT: Final = 0.5  # weight of a light part, as a share of a good one's
 _ASIDE: Final = 0.028  # m of the parts from the middle along x and y, as they are poured
 _LAYER: Final = 0.055  # m from one layer of four parts to the next
 _LOWEST: Final = 0.045  # m, the lowest layer over the table
 _WRONG, _SIZE, _FRICTION, _SMOOTH = "parts.wrong", "parts.size", "parts.friction", "hopper.friction"
-TROUBLES: Final = {
-    "1": "parts that the hand cannot get out are left in the bin",
-    "2": "the hand has lost a part on the way",
-}  # by the number that the program prints
 VARIATION: Final = Variation(
     *ARM,
     quantity(
@@ -118,20 +118,27 @@ class Bin(ArmTask):
     def variation(self) -> Variation:
         return VARIATION
 
+    def faults(self, world: WorldSpec) -> Catalogue:
+        return FAULTS
+
     def station(self, parts: int, world: ArmWorld) -> Station:
         """Return the station with two boxes and a hopper, into which the parts fall when time begins."""
         spec = scene(world, wand=False)
         add_hopper(spec, world.value(_SMOOTH))
         add_boxes(spec)
+        if world.fault(EMPTY) is not None:
+            parts = 0
         qualities = tuple(_quality(world, number) for number in range(1, parts + 1))
         places = product((_LOWEST + n * _LAYER for n in range(3)), (-1, 1), (-1, 1))
         for number, (quality, (z, x, y)) in enumerate(zip(qualities, places, strict=False), 1):
             wide = WIDE + world.normal(f"part_{number}.size", _SIZE) - NARROW * (quality == "narrow")
+            wide += _WIDER * (world.fault(f"part_{number}.wide") or 0.0)
+            heavy = _STEEL if world.fault(f"part_{number}.heavy") is not None else 1.0
             turn = world.numbers(f"part_{number}.turned").standard_normal(4)
             at = np.array([x * _ASIDE, y * _ASIDE, z])
             add_bar(
                 spec, f"part_{number}", at, turn / np.linalg.norm(turn), world.value(_FRICTION), wide=wide,
-                density=DENSITY * (LIGHT if quality == "light" else 1.0),
+                density=DENSITY * heavy * (LIGHT if quality == "light" else 1.0),
             )  # fmt: skip
         return Station(spec, world, at={4: BOXES["good"]}, others=(Pile(Poured(qualities=qualities)),))
 
@@ -150,8 +157,9 @@ class Bin(ArmTask):
         poured, heard = truth.states[POURED], truth.states["heard"]
         assert isinstance(poured, Poured)
         assert isinstance(heard, Printed)
-        places = np.array([truth.data.body(f"part_{n}").xpos for n in range(1, len(poured.qualities) + 1)])
-        good = np.array([quality == "good" for quality in poured.qualities])
+        parts = range(1, len(poured.qualities) + 1)
+        places = np.array([truth.data.body(f"part_{n}").xpos for n in parts]).reshape(-1, 3)
+        good = np.array([quality == "good" for quality in poured.qualities], dtype=np.bool_)
         boxed = {name: _inside(places, x * LINEAR, BOX) for name, x in BOXES.items()}
         left = _inside(places, 0.0, RIM)
         out = ~(left | boxed["good"] | boxed["bad"])

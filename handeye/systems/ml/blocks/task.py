@@ -14,9 +14,11 @@ from handeye.core.units import MILLIMETRE
 from handeye.core.variation import Variation
 from handeye.judge.finding import Findings, at_most
 from handeye.judge.measured import tilt
+from handeye.systems.ml.bench.faults import put_away
 from handeye.systems.ml.bench.reporting import ReportingTask
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
+from handeye.systems.ml.blocks.faults import FAULTS, OCCUPIED, SLIPPERY, TROUBLES
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.tasks.interface import Words
 
@@ -37,11 +39,7 @@ HEIGHT: Final = 1.0  # mm
 LEAN: Final = 2.0  # deg
 PLACED: Final = 3.0  # mm of the lowest block from its place
 _PLACE, _TURNED, _SIZE, _FRICTION = "blocks.place", "blocks.turned", "blocks.size", "blocks.friction"
-TROUBLES: Final = {
-    "1": "the hand has met something on its way down",
-    "2": "the hand holds no block",
-    "3": "the block meets nothing on its way down",
-}  # by the number that the program prints
+SHORTER, LONGER = 0.008, 0.006  # m, of the sides of blocks of a wrong size
 _DENSITY: Final = 600.0  # kg/m3, wood
 VARIATION: Final = Variation(
     *ARM,
@@ -69,16 +67,26 @@ class Blocks(ReportingTask):
     words = Words(product="the stack", done="The three blocks are stacked.")
     quantities = VARIATION
     troubles = TROUBLES
+    planted = FAULTS
 
     def station(self, world: ArmWorld) -> Station:
         """Return the station with its blocks."""
         spec = scene(world, wand=False)
+        friction = world.fault(SLIPPERY) or world.value(_FRICTION)
         for number, (x, y) in enumerate(EXPECTED, 1):
             name = f"block_{number}"
             half = SIDE / 2 + world.normal(f"{name}.size", _SIZE) / 2
+            half += (
+                LONGER * (world.fault(f"{name}.large") or 0.0)
+                - SHORTER * (world.fault(f"{name}.small") or 0.0)
+            ) / 2
             off = world.normal(f"{name}.x", _PLACE), world.normal(f"{name}.y", _PLACE)
-            _lay(spec, name, half, (x * LINEAR + off[0], y * LINEAR + off[1]), world.normal(f"{name}.turned", _TURNED),
-                 world.value(_FRICTION))  # fmt: skip
+            at = x * LINEAR + off[0] + (world.fault(f"{name}.moved.x") or 0.0), y * LINEAR + off[1]
+            _lay(spec, name, half, at, world.normal(f"{name}.turned", _TURNED), friction)
+            if world.fault(f"{name}.missing") is not None:
+                put_away(spec, name)
+        if world.fault(OCCUPIED) is not None:
+            _lay(spec, "stray", SIDE / 2, (STACK[0] * LINEAR, STACK[1] * LINEAR), 0.0, friction)
         return Station(spec, world)
 
     def judge(self, truth: Truth) -> Findings:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.judged_jobs import ANY_RUN, JobOptions
+from handeye.cli.judged_jobs import ANY_FAULTY_RUN, FaultyJobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
 from handeye.systems.ml.cli.jobs import (
@@ -23,7 +23,7 @@ def follow(
     outline: Outline = "square",
     seed: JobSeed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
-    options: JobOptions = ANY_RUN,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
     """Follow the outline of a plate by touch with the program of the paper. A wand signals when it touches the plate.
 

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import WholeNumber
-from handeye.cli.judged_jobs import JobOptions, carry_out_job, carry_out_job_trials
+from handeye.cli.judged_jobs import FaultyJobOptions, carry_out_job, carry_out_job_trials
 from handeye.cli.sweeps import SweepOptions
-from handeye.cli.world_options import OwnErrorOptions
+from handeye.cli.world_options import OwnErrorOptions, broken
+from handeye.tasks import any_task
 
 if TYPE_CHECKING:
     from handeye.systems.ml.run.job_trials import MlJobRow
@@ -24,11 +25,12 @@ NumberOfWorlds = Annotated[
 ]
 
 
-def carry_out(plan: "MlPlan", seed: int, errors: OwnErrorOptions, options: JobOptions) -> int:
+def carry_out(plan: "MlPlan", seed: int, errors: OwnErrorOptions, options: FaultyJobOptions) -> int:
     """Run the plan of a job, let its referee judge the result, and make the video. Returns the exit code."""
     from handeye.systems.ml.run.jobs import job_setup
 
-    return carry_out_job(job_setup(plan, errors.of(plan.job).spec(seed)), options)
+    world = broken(errors.of(plan.job).spec(seed), options.fault, any_task(plan.job))
+    return carry_out_job(job_setup(plan, world), options)
 
 
 def carry_out_trials(

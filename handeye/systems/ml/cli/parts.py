@@ -5,7 +5,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import WholeNumber
-from handeye.cli.judged_jobs import ANY_RUN, JobOptions
+from handeye.cli.judged_jobs import ANY_FAULTY_RUN, FaultyJobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
 from handeye.core.plain_text import counted
@@ -20,7 +20,7 @@ Parts = Annotated[WholeNumber, Parameter(help="Number of parts in the bin, from 
 
 
 def orient(
-    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: FaultyJobOptions = ANY_FAULTY_RUN
 ) -> int:
     """Take a bar in an unknown attitude, and turn it into a known one by touch.
 
@@ -65,7 +65,7 @@ def take_from_bin(
     parts: Parts = 8,
     seed: JobSeed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
-    options: JobOptions = ANY_RUN,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
     """Take parts of one kind out of a bin, one at a time, and judge each by its width and weight.
 

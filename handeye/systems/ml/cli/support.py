@@ -1,13 +1,13 @@
 """The commands of the rail support, for one world and for many worlds."""
 
-from handeye.cli.judged_jobs import ANY_RUN, JobOptions
+from handeye.cli.judged_jobs import ANY_FAULTY_RUN, FaultyJobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
 from handeye.systems.ml.cli.jobs import JobSeed, NumberOfWorlds, carry_out, carry_out_trials
 
 
 def support(
-    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: FaultyJobOptions = ANY_FAULTY_RUN
 ) -> int:
     """Assemble the rail support of a typewriter from 22 parts by touch.
 

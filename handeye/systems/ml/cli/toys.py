@@ -1,6 +1,6 @@
 """The commands of the toy blocks and the toy train, for one world and for many worlds."""
 
-from handeye.cli.judged_jobs import ANY_RUN, JobOptions
+from handeye.cli.judged_jobs import ANY_FAULTY_RUN, FaultyJobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
 from handeye.systems.ml.cli.jobs import (
@@ -12,7 +12,7 @@ from handeye.systems.ml.cli.jobs import (
 
 
 def blocks(
-    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: FaultyJobOptions = ANY_FAULTY_RUN
 ) -> int:
     """Stack three toy blocks by touch.
 
@@ -29,7 +29,7 @@ def blocks(
 
 
 def train(
-    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: JobOptions = ANY_RUN
+    *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: FaultyJobOptions = ANY_FAULTY_RUN
 ) -> int:
     """Couple an engine and two wagons by touch, inserting each peg into its hole, and pull them.
 

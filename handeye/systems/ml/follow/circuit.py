@@ -20,6 +20,11 @@ STEP: Final = 1000.0  # units of the slides
 ROUND: Final = 4  # turns of a circuit
 NEAR: Final = 1.5 * STEP  # from the first touch, at most, of the touch that closes a circuit
 IDLE: Final = 40  # squares without a touch after which a follower is lost
+ALONE: Final = 19  # statements without any touch, eight steps: a plate is at most six steps ahead
+NOTHING: Final = (
+    "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"
+)
+EVERYWHERE: Final = "the wand signals wherever it goes, so it is stuck, or walls are all around it"
 LONGEST: Final = 3000  # statements in which it closes a circuit, or is lost
 
 Point = tuple[float, float]
@@ -53,8 +58,23 @@ class Felt(Record, frozen=True, kw_only=True):
 
     @property
     def lost(self) -> bool:
-        """True if the follower has touched nothing for too long, or needs too many statements to close its circuit."""
-        return self.missed >= ROUND * IDLE or self.statements >= LONGEST
+        """True if the follower has touched nothing for too long, touches something everywhere, or needs too many
+        statements to close its circuit.
+        """
+        return bool(self._lost)
+
+    @property
+    def _lost(self) -> str:
+        """Why the follower is lost; empty if it is not."""
+        if not self.touches and self.statements >= ALONE:
+            return NOTHING
+        if self.turns <= -2 * ROUND:
+            return EVERYWHERE
+        if self.missed >= ROUND * IDLE:
+            return f"the wand has touched nothing in {counted(self.missed // ROUND, 'square')}"
+        if self.statements >= LONGEST:
+            return f"the circuit is open after {counted(self.statements, 'statement')}"
+        return ""
 
     @property
     def text(self) -> str:
@@ -65,12 +85,7 @@ class Felt(Record, frozen=True, kw_only=True):
         )
         if self.closed:
             return f"the circuit is closed: {felt}"
-        why = (
-            f"the wand has touched nothing in {counted(self.missed // ROUND, 'square')}"
-            if self.missed >= ROUND * IDLE
-            else f"the circuit is open after {counted(self.statements, 'statement')}"
-        )
-        return f"the follower is lost: {why} ({felt})"
+        return f"the follower is lost: {self._lost} ({felt})"
 
 
 def followed(felt: Felt, forward: Sequence[int], touch: Point, noticed: tuple[int, int]) -> Felt:

@@ -11,6 +11,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.core.diagnostics import quoted
 from handeye.core.distributions import Noise, Range
 from handeye.core.errors import BadFile, NoSuchName
+from handeye.core.faults import Catalogue
 from handeye.core.markup import PagePart
 from handeye.core.pose import Array
 from handeye.core.record import Record
@@ -18,10 +19,12 @@ from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
 from handeye.results.result import Result
 from handeye.runs.folder import REPORT
+from handeye.systems.ml.bench.faults import put_away
 from handeye.systems.ml.bench.hardware import ArmTask, StationHardware
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.follow.circuit import LONGEST, Felt, followed
+from handeye.systems.ml.follow.faults import FAULTS, MISSING, MOVED, SLIPPERY
 from handeye.systems.ml.follow.happenings import CircuitClosed
 from handeye.systems.ml.follow.names import OutlineName
 from handeye.systems.ml.follow.outlines import OUTLINES, PLATE, lay, placed
@@ -167,11 +170,17 @@ class Follow(ArmTask):
     def variation(self) -> Variation:
         return VARIATION
 
+    def faults(self, world: WorldSpec) -> Catalogue:
+        return FAULTS
+
     def station(self, outline: OutlineName, world: ArmWorld) -> tuple[Station, Tracker, Plate]:
         """Return the station with a plate, and the wand beside it."""
         spec, shape = scene(world), OUTLINES[outline]
-        off = world.normal("plate.x", _PLACE), world.normal("plate.y", _PLACE)
-        lay(spec, shape, off, world.normal(_TURNED, _TURNED), world.value(_FRICTION))
+        off = world.normal("plate.x", _PLACE) + (world.fault(MOVED) or 0.0), world.normal("plate.y", _PLACE)
+        friction = world.fault(SLIPPERY) or world.value(_FRICTION)
+        lay(spec, shape, off, world.normal(_TURNED, _TURNED), friction)
+        if world.fault(MISSING) is not None:
+            put_away(spec, PLATE)
         station = Station(spec, world, at={2: HEIGHT, _Y: shape.start[1], _X: shape.start[0]})
         corners = outline_now(station.bench.data, outline)
         tracker, plate = Tracker(), Plate(Laid(outline=outline, corners=tuple(map(tuple, corners.tolist()))))

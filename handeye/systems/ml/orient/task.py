@@ -11,10 +11,13 @@ from handeye.core.units import MILLIMETRE
 from handeye.core.variation import Variation
 from handeye.judge.finding import Findings, at_least, at_most
 from handeye.systems.ml.bench.bars import LONG, WIDE, add_bar, after, off_attitude, turned
+from handeye.systems.ml.bench.faults import put_away
 from handeye.systems.ml.bench.reporting import ReportingTask
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.machine.spec import LINEAR
+from handeye.systems.ml.orient import faults
+from handeye.systems.ml.orient.faults import FAULTS, TROUBLES
 from handeye.tasks.interface import Words
 
 if TYPE_CHECKING:
@@ -34,15 +37,10 @@ STOP_RADIUS: Final = 0.004  # m: the stop fits between fingers that hold a bar
 HIGH: Final = 0.050  # m, the middle of the bar in its cradle over the table
 _PITCH, _YAW = "cradle.pitch", "cradle.yaw"
 _PLACE, _STOP, _FRICTION = "cradle.place", "stop.place", "bar.friction"
+_OFF: Final = 0.003  # m, of the width of a wrong bar
+_SHORTER: Final = 0.004  # m, of a bar that is too short
 _PLATE: Final = (0.0025, 0.004, 0.0015)  # m, half sizes of the two plates on which the ends of the bar lie
 _LIP: Final = (0.0025, 0.0015, 0.004)  # of the lip at the lower end
-TROUBLES: Final = {
-    "1": "the hand has met something on its way down",
-    "2": "the hand does not hold one bar by its sides",
-    "3": "the bar meets nothing where the table should be",
-    "4": "the bar does not lie flat on the table",
-    "5": "the bar does not meet the stop",
-}  # by the number that the program prints
 VARIATION: Final = Variation(
     *ARM,
     quantity(
@@ -88,19 +86,29 @@ class Orient(ReportingTask):
     words = Words(product="the bar", done="The bar is in the attitude and at the place that were asked for.")
     quantities = VARIATION
     troubles = TROUBLES
+    planted = FAULTS
 
     def station(self, world: ArmWorld) -> Station:
         """Return the station with the cradle and its bar, and with the stop."""
         spec = scene(world, wand=False)
         at = np.array(CRADLE) * LINEAR + [
-            world.normal("cradle.x", _PLACE),
+            world.normal("cradle.x", _PLACE) + (world.fault(faults.CRADLE) or 0.0),
             world.normal("cradle.y", _PLACE),
         ]
         pitch, yaw = (world.value(name) * world.numbers(name).choice((-1, 1)) for name in (_PITCH, _YAW))
         friction = world.value(_FRICTION)
-        _add_cradle(spec, at, pitch, yaw, friction)
-        stop = np.array(STOP) * LINEAR + [world.normal("stop.x", _STOP), world.normal("stop.y", _STOP)]
-        _add_stop(spec, stop)
+        wide = WIDE + _OFF * ((world.fault(faults.WIDE) or 0.0) - (world.fault(faults.NARROW) or 0.0))
+        long = LONG - _SHORTER * (world.fault(faults.SHORT) or 0.0)
+        _add_cradle(spec, at, pitch, yaw, friction, wide=wide, long=long)
+        if world.fault(faults.MISSING) is not None:
+            put_away(spec, "bar")
+        moved = world.fault(faults.STOP) or 0.0
+        stop = np.array(STOP) * LINEAR + [
+            world.normal("stop.x", _STOP),
+            world.normal("stop.y", _STOP) + moved,
+        ]
+        if world.fault(faults.NO_STOP) is None:
+            _add_stop(spec, stop)
         return Station(spec, world)
 
     def judge(self, truth: Truth) -> Findings:
@@ -125,7 +133,9 @@ def _touch(truth: Truth, one: str, other: str) -> bool:
     return any({*map(int, geoms)} == pair for geoms in truth.data.contact.geom)
 
 
-def _add_cradle(spec: mujoco.MjSpec, at: Array, pitch: float, yaw: float, friction: float) -> None:
+def _add_cradle(
+    spec: mujoco.MjSpec, at: Array, pitch: float, yaw: float, friction: float, *, wide: float, long: float
+) -> None:
     """Add the bar and its cradle, at x and y of the slides (m). The cradle has two narrow plates on feet, on which the
     ends of the bar lie, and a lip at the lower end of the bar.
     """
@@ -133,7 +143,7 @@ def _add_cradle(spec: mujoco.MjSpec, at: Array, pitch: float, yaw: float, fricti
 
     middle = np.array([at[0], -at[1], HIGH])
     quat = after(turned("z", yaw), turned("x", pitch))
-    add_bar(spec, "bar", middle, quat, friction)
+    add_bar(spec, "bar", middle, quat, friction, wide=wide, long=long)
     R, below = _matrix(quat), -WIDE / 2 - _PLATE[2]
     lower = -1 if pitch > 0 else 1  # a positive pitch lifts the end along y
     cradle = spec.worldbody.add_body(name="cradle", pos=middle.tolist(), quat=quat.tolist())

@@ -192,7 +192,10 @@ class Cycles:
             memory.GO[:] = [done, *memory.GO[:-1]]
             self._post("goal")
         elif arm.still > STUCK_AFTER:
-            self._stop(Danger("STUCK"), self._statement)
+            late = next(
+                m.number for _, m, line in self._motors if not _arrived(line, memory.fine[m.number - 1])
+            )
+            self._stop(Danger("STUCK", late), self._statement)
 
     def output(self) -> None:
         """Advance the tactical goals toward the strategic goals, and output them to all motors and tools."""

@@ -29,7 +29,7 @@ class Danger(NamedTuple):
     """A cause of an emergency."""
 
     cause: str
-    number: int = 0  # of the sensor, or of the line of SF
+    number: int = 0  # of the sensor, of the line of SF, or of the first motor that has not reached its goal
 
 
 def danger(memory: ArmMemory, spec: ArmSpec) -> Danger | None:
@@ -51,6 +51,11 @@ def emergency_text(found: Danger, spec: ArmSpec) -> str:
         return _INTERLOCKS[spec.interlocks[found.number - 1]][1]
     return {
         "SENSOR": f"sensor {found.number} is outside its emergency limits",
-        "STUCK": "the motors do not reach their goals",
+        "STUCK": _stuck(found.number, spec),
         "PROGRAM": "an error of the program",
     }.get(found.cause, found.cause.lower())
+
+
+def _stuck(number: int, spec: ArmSpec) -> str:
+    axis = next((motor.axis for motor in spec.motors if motor.number == number), "")
+    return f"motor {number} ({axis}) does not reach its goal"

@@ -19,6 +19,7 @@ PROGRAMS: Final = {
     "bin": "bin.ml",
 }
 SYMBOLIC: Final = ".sym"  # ending of programs that the symbolic assembler translates off line
+FEW: Final = {"bin": "3"}  # variant of a job with little work, for trials of faults
 USUAL: Final = {"follow": "square", "bin": "8"}  # variant of a job where none is named
 
 

@@ -25,6 +25,7 @@ from handeye.systems.ml.run.jobs import PROGRAMS, job_plan
 from handeye.systems.ml.run.plan import MlPlan, decode, listing, sound
 from handeye.systems.ml.run.running import RunningMl
 from handeye.systems.ml.run.state import MlState
+from handeye.tasks import any_task
 
 OWN: Final = "guarded_move.ml"  # the program that is run where none is named
 
@@ -75,6 +76,12 @@ class MlSystem(System):
         self.check(setup)
         sound(setup.plan)  # type: ignore[arg-type]  # as `check` has found
         return RunningMl(setup, around)
+
+    def check(self, setup: Setup) -> None:
+        super().check(setup)
+        task, world = any_task(setup.task), setup.world
+        task.variation().check(world)
+        task.faults(world).check(world.faults)
 
     def own_plan(self, task: str) -> MlPlan:
         if task in PROGRAMS:

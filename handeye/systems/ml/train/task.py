@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees
+from math import degrees, pi
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -12,11 +12,13 @@ from handeye.core.units import MILLIMETRE
 from handeye.core.variation import Variation
 from handeye.judge.finding import Findings, at_most
 from handeye.judge.measured import tilt
+from handeye.systems.ml.bench.faults import put_away
 from handeye.systems.ml.bench.reporting import ReportingTask
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.machine.spec import LINEAR
-from handeye.systems.ml.train.vehicles import CLEARANCE, REACH, add_vehicle
+from handeye.systems.ml.train.faults import FAULTS, TROUBLES
+from handeye.systems.ml.train.vehicles import CLEARANCE, PEG, REACH, THICKER, add_vehicle
 from handeye.tasks.interface import Words
 
 if TYPE_CHECKING:
@@ -29,11 +31,6 @@ COUPLED: Final = 0.5  # mm between the axes of a peg and its hole
 SEATED: Final = 0.5  # mm of a wagon over the table: its peg is in to the shoulder
 PLACED: Final = 3.0  # mm from the engine to where it should have been pulled
 LEAN: Final = 2.0  # deg
-TROUBLES: Final = {
-    "1": "the hand has met something on its way down",
-    "2": "the hand holds no vehicle",
-    "3": "the peg does not go into its hole",
-}  # by the number that the program prints
 _PLACE, _TURNED, _FRICTION, _CLEARANCE = "train.place", "train.turned", "train.friction", "train.clearance"
 VARIATION: Final = Variation(
     *ARM,
@@ -69,17 +66,26 @@ class Train(ReportingTask):
     words = Words(product="the train", done="Both wagons are coupled, and have followed the engine.")
     quantities = VARIATION
     troubles = TROUBLES
+    planted = FAULTS
 
     def station(self, world: ArmWorld) -> Station:
         """Return the station with its vehicles."""
         spec = scene(world, wand=False)
         for name, (x, y) in EXPECTED.items():
             at = (
-                x * LINEAR + world.normal(f"{name}.x", _PLACE),
+                x * LINEAR + world.normal(f"{name}.x", _PLACE) + (world.fault(f"{name}.moved.x") or 0.0),
                 y * LINEAR + world.normal(f"{name}.y", _PLACE),
             )
             turned = world.normal(f"{name}.turned", _TURNED)
-            add_vehicle(spec, name, at, turned, world.value(_FRICTION), world.value(_CLEARANCE))
+            turned += pi * (world.fault(f"{name}.reversed") or 0.0)
+            peg = PEG + THICKER * (world.fault(f"{name}.peg.thick") or 0.0)
+            if world.fault(f"{name}.peg.missing") is not None:
+                peg = 0.0
+            blocked = world.fault(f"{name}.hole.blocked") is not None
+            friction, clearance = world.value(_FRICTION), world.value(_CLEARANCE)
+            add_vehicle(spec, name, at, turned, friction, clearance, peg=peg, blocked=blocked)
+            if world.fault(f"{name}.missing") is not None:
+                put_away(spec, name)
         return Station(spec, world)
 
     def judge(self, truth: Truth) -> Findings:

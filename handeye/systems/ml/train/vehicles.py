@@ -13,6 +13,7 @@ HIGH: Final = 0.040
 REACH: Final = 0.042  # m from the middle of a body to its hole and to its peg
 TAB: Final = (0.010, 0.016)  # m, heights of the lower and upper side of the tab with the hole
 PEG: Final = 0.00635  # m, diameter
+THICKER: Final = 0.001  # m, of a peg that is too thick
 CLEARANCE: Final = 0.0003  # m between hole and peg, of their diameters
 TIP: Final = 0.009  # m, height of the lower end of a peg
 _SHOULDER: Final = 0.0163  # m, height at which a peg widens
@@ -24,9 +25,15 @@ _BRASS, _WOOD = 8000.0, 600.0  # kg/m3
 
 
 def add_vehicle(
-    spec: mujoco.MjSpec, name: str, at: tuple[float, float], turned: float, friction: float, clearance: float
-) -> None:
-    """Put the engine, or a wagon with its peg, on the table, at x and y of the slides (m)."""
+    spec: mujoco.MjSpec, name: str, at: tuple[float, float], turned: float, friction: float, clearance: float, *,
+    peg: float = PEG, blocked: bool = False,
+) -> None:  # fmt: skip
+    """Put the engine, or a wagon with its peg, on the table, at x and y of the slides (m).
+
+    Args:
+        peg: diameter of its peg, m; 0 if it has lost its peg.
+        blocked: whether its hole is blocked.
+    """
     wagon = name != "engine"
     turn = [np.cos(turned / 2), 0, 0, -np.sin(turned / 2)]
     body = spec.worldbody.add_body(name=name, pos=[at[0], -at[1], 0], quat=turn)
@@ -50,12 +57,16 @@ def add_vehicle(
             type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh, pos=[0, -REACH, TAB[1]], friction=[0.2, 0.003, 0.0001],
             density=_WOOD, rgba=colour, group=1,
         )  # fmt: skip
+    if blocked:
+        box((0.010, 0.010, tab), (0, -REACH, sum(TAB) / 2))
     if not wagon:
         return
     long = REACH + PEG - LONG / 2
     box((0.012, long, _ARM - _SHOULDER), (0, LONG / 2 + long / 2, (_ARM + _SHOULDER) / 2))
+    if not peg:
+        return
     body.add_geom(
-        name=f"{name}_peg", type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=[PEG / 2, (_SHOULDER - TIP) / 2, 0],
+        name=f"{name}_peg", type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=[peg / 2, (_SHOULDER - TIP) / 2, 0],
         pos=[0, REACH, (_SHOULDER + TIP) / 2], friction=[0.2, 0.003, 0.0001], density=_BRASS,
         rgba=[0.7, 0.7, 0.72, 1], group=1,
     )  # fmt: skip

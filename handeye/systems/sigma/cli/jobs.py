@@ -1,17 +1,15 @@
 """The commands of all jobs on the board: one world, and many."""
 
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli import judged_jobs
 from handeye.cli.common import WholeNumber, note, say
-from handeye.cli.judged_jobs import carry_out_job, carry_out_job_trials
+from handeye.cli.judged_jobs import ANY_FAULTY_RUN, FaultyJobOptions, carry_out_job, carry_out_job_trials
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
-from handeye.cli.world_options import ANY_OWN_ERRORS, Faults, OwnErrorOptions, broken
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions, broken
 from handeye.core.errors import BadArgument
 from handeye.core.plain_text import counted
 from handeye.systems.sigma.run.plan import MOST_PIECES
@@ -41,23 +39,12 @@ Pegs = Annotated[
 Fed = Annotated[WholeNumber, Parameter(help=f"Number of pieces on the feeder, 1 to {MOST_FED}.")]
 
 
-@Parameter(name="*")
-@dataclass(frozen=True, slots=True, kw_only=True)
-class JobOptions(judged_jobs.JobOptions):
-    """Options for running a job, except its world."""
-
-    fault: Faults = None
-
-
-ANY_RUN: Final = JobOptions()
-
-
 def chess(
     *,
     pieces: Pieces = USUAL,
     seed: JobSeed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
-    options: JobOptions = ANY_RUN,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
     """Find chess pieces along three lines, measure their heights with a light beam, and sort them: the paper's example.
 
@@ -78,7 +65,7 @@ def handover(
     *,
     seed: JobSeed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
-    options: JobOptions = ANY_RUN,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
     """Hand four pieces from arm to arm: arm 1 brings them, arm 2 presses their pins in and takes them away.
 
@@ -99,7 +86,7 @@ def insert(
     pegs: Pegs = MOST_PEGS,
     seed: JobSeed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
-    options: JobOptions = ANY_RUN,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
     """Straighten pegs in a rack, and find the holes for them by force, with both arms.
 
@@ -122,7 +109,7 @@ def line(
     pieces: Fed = MOST_FED,
     seed: JobSeed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
-    options: JobOptions = ANY_RUN,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
     """Run an assembly line: a feeder brings pieces, each of two SUPERSIGMAs presses a pin into every piece, and a
     belt withdraws them.
@@ -145,7 +132,7 @@ def prco(
     *,
     seed: JobSeed = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
-    options: JobOptions = ANY_RUN,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
     """Assemble the plate of the pump with two arms: arm 1 lays it down and puts in two pins, arm 2 drives six screws.
 
@@ -286,7 +273,7 @@ def _plan(job: "JobName", pieces: int | None, file: Path | None) -> "MalPlan | N
 
 
 def _carry_out(
-    job: "JobName", pieces: int | None, file: Path | None, seed: int, errors: OwnErrorOptions, options: JobOptions
+    job: "JobName", pieces: int | None, file: Path | None, seed: int, errors: OwnErrorOptions, options: FaultyJobOptions
 ) -> int:  # fmt: skip
     """Run a job, let its referee judge the result, and make the video. Returns the exit code."""
     from handeye.systems.sigma.cli.commands import Printer

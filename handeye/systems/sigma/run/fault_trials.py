@@ -11,17 +11,13 @@ from handeye.core.diagnostics import quoted
 from handeye.core.errors import Refused
 from handeye.core.plain_text import counted
 from handeye.core.variation import WorldSpec
-from handeye.results.finishing import finished
-from handeye.runs.advance import advance
-from handeye.runs.host_seconds import Meter
-from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint
 from handeye.systems.sigma.diagnosis.bench import Bench
 from handeye.systems.sigma.diagnosis.strategy import Strategy
 from handeye.systems.sigma.gantries.faults import catalogue, every_fault
 from handeye.systems.sigma.run.jobs import job_setup
 from handeye.systems.sigma.run.plan import MalPlan
 from handeye.systems.sigma.run.system import SIGMA
+from handeye.trials.job_faults import judged_run
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 _ENDED: Final = {0: "right", 1: "stopped", 3: "silent"}
@@ -60,18 +56,14 @@ class MalFaultWork:
         planted = every_fault()[case.condition]
         fault = catalogue().kind(case.condition).usual()
         world = msgspec.structs.replace(self.world, seed=case.seed, faults=(fault,))
-        runner = Runner(Checkpoint(setup=job_setup(self.plan, world)))
-        pause = advance(runner, steps=1)
-        while pause.kind == "break" and runner.time < _LONGEST:
-            pause = advance(runner, steps=200)
+        _, result = judged_run(job_setup(self.plan, world), _LONGEST)
         named = Strategy(Bench(planted, case.seed)).diagnose().part
         row = MalFaultRow(
             trial=case.trials[0], seed=case.seed, condition=case.condition, part=planted.part, named=named
         )
-        if pause.kind == "break":
+        if result is None:
             message = f"the program is still running after {_LONGEST:g} s"
             return [msgspec.structs.replace(row, result="endless", message=message)]
-        result = finished(runner, pause, Meter(), judged=True)
         wrong = [check.told for check in result.referee.values() if check.refuses]
         message = "; ".join(wrong) if result.completed else result.message
         return [msgspec.structs.replace(row, result=_ENDED[result.exit_code], message=message)]

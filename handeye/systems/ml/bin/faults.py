@@ -1,0 +1,32 @@
+"""The faults that the job `bin` can have, and the sentences for the numbers that its program prints."""
+
+from typing import Final
+
+from handeye.core.faults import Catalogue
+from handeye.systems.ml.bench.faults import arm_fault, planted
+from handeye.systems.ml.bench.reporting import calls_of
+
+TROUBLES: Final = {
+    "1": "parts that the hand cannot get out are left in the bin",
+    "2": "the hand has lost a part on the way",
+    "3": "the range finder does not see that the hand comes down",
+    "4": "a finger's gauge does not feel the table",
+    "5": "the fingers do not open",
+}  # by the number that the program prints
+_LEFT, _LOST, _RANGE, _GAUGE, _SHUT = calls_of(TROUBLES)
+EMPTY, WIDE, HEAVY = "bin.empty", "part_1.wide", "part_1.heavy"
+FAULTS: Final = Catalogue(
+    arm_fault("range.frozen", _RANGE),
+    arm_fault("range.silent", _RANGE),
+    arm_fault("gauge.left.z.dead", _GAUGE),
+    arm_fault("gauges.dead", _GAUGE),
+    arm_fault("motor.z.dead"),
+    arm_fault("motor.x.dead"),
+    arm_fault("motor.roll.dead"),
+    arm_fault("motor.separation.dead", _SHUT),
+    arm_fault("motor.separation.weak", _LEFT, _LOST),
+    arm_fault("potentiometer.x.stuck"),
+    planted(EMPTY, "No parts were poured into the bin.", harmless="An empty bin is reported as empty."),
+    planted(WIDE, "The first part is 3 mm too wide, as a part of another kind.", _LEFT),
+    planted(HEAVY, "The first part is of steel, as a part of another kind.", _LEFT),
+)  # fmt: skip

@@ -1,0 +1,30 @@
+"""The faults that the job `follow` can have."""
+
+from typing import Final
+
+from handeye.core.faults import Catalogue, Size
+from handeye.systems.ml.bench.faults import arm_fault, planted
+from handeye.systems.ml.follow.circuit import EVERYWHERE, NOTHING
+
+_NOTHING: Final = f"the follower is lost: {NOTHING} ({{felt}})"
+_EVERYWHERE: Final = f"the follower is lost: {EVERYWHERE} ({{felt}})"
+MISSING, MOVED, SLIPPERY = "plate.missing", "plate.moved.x", "plate.slippery"
+FAULTS: Final = Catalogue(
+    arm_fault("wand.open", _NOTHING),
+    arm_fault("wand.closed", _EVERYWHERE),
+    arm_fault("motor.x.dead"),
+    arm_fault("motor.y.dead"),
+    arm_fault("motor.x.slow", harmless="A slow slide still goes to its goals."),
+    arm_fault("potentiometer.y.stuck"),
+    planted(MISSING, "No plate lies on the table.", _NOTHING),
+    planted(
+        MOVED, "The plate lies this far from its place, along x.", _NOTHING,
+        harmless="The follower finds the plate if it lies ahead.",
+        size=Size(unit="mm", usual=30.0, limits=(-60.0, 60.0)),
+    ),
+    planted(
+        SLIPPERY, "The table is oiled; the value is the friction coefficient of the plate.",
+        harmless="The wand presses with less force than moves the plate.",
+        size=Size(unit="", usual=0.1, limits=(0.01, 0.25)),
+    ),
+)  # fmt: skip
