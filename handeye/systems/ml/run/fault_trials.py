@@ -45,4 +45,6 @@ def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[FaultRow], MlFaultW
     """Return the sweep that tries faults in a job, and its work. Raises Refused if no referee judges the task."""
     if task not in PROGRAMS:
         raise Refused(f"the task {quoted(task)} has no referee, so no outcome is right or wrong")
+    if not any_task(task).faults(world).kinds:
+        raise Refused(f"no faults are declared for the task {quoted(task)}")
     return FAULTS, MlFaultWork(plan=job_plan(task, FEW.get(task, "")), world=world)
