@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Final
 
 from handeye.cell.physics_stepper import allow
 from handeye.cell.threads import ThreadFigures, Threads
+from handeye.core.faults import Catalogue
 from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
+from handeye.systems.ml.bench.faults import put_away
 from handeye.systems.ml.bench.hardware import ArmTask
 from handeye.systems.ml.bench.reporting import Listener, ReportingHardware, counted
 from handeye.systems.ml.bench.station import Station, scene
@@ -18,6 +20,7 @@ from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.systems.ml.support.drawing import VARIATION, Drawing
 from handeye.systems.ml.support.equipment import ForceGauge, PowerScrewdriver, ScrewdriverCurrent
+from handeye.systems.ml.support.faults import FAULTS, MAY_LACK, TROUBLES
 from handeye.systems.ml.support.happenings import FOUND, reported
 from handeye.systems.ml.support.referee import judge
 from handeye.systems.ml.support.scene import add_support
@@ -28,15 +31,6 @@ if TYPE_CHECKING:
 
     from handeye.cell.truth import Truth
     from handeye.systems.ml.run.plan import MlPlan
-
-TROUBLES: Final = {
-    "1": "the hand has met something on its way down",
-    "2": "the hand holds no part, or a wrong one",
-    "3": "a part, or the screwdriver, is not down in its place",
-    "4": "the bit finds no screw in the dispenser",
-    "5": "a screw finds no thread",
-    "6": "a screw does not become tight",
-}  # by the number that the program prints
 
 
 class SupportHardware(ReportingHardware):
@@ -72,10 +66,16 @@ class Support(ArmTask):
     def variation(self) -> Variation:
         return VARIATION
 
+    def faults(self, world: WorldSpec) -> Catalogue:
+        return FAULTS
+
     def station(self, world: ArmWorld) -> tuple[Station, ForceGauge]:
         """Return the station with its parts."""
         spec, drawing, driver = scene(world, wand=False), Drawing(world), PowerScrewdriver()
         add_support(spec, drawing)
+        for part in MAY_LACK:
+            if world.fault(f"{part}.missing") is not None:
+                put_away(spec, part)
         station = Station(spec, world, tools={"screwdriver": driver.turn, "reverse": driver.reverse})
         bench = station.bench
         for name in ("frame", "driver"):
