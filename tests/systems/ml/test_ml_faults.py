@@ -16,7 +16,8 @@ from handeye.trials.sweep import Case
 Command = Callable[..., tuple[int, str, str]]
 WORLD = WorldSpec(seed=7)
 QUICK = (
-    "support frame.missing", "follow wand.open", "follow wand.closed", "follow plate.missing", "blocks motor.separation.dead",
+    "support frame.missing",
+    "follow wand.open", "follow wand.closed", "follow plate.missing", "blocks motor.separation.dead",
     "train motor.separation.dead", "orient cradle.moved.x", "bin range.frozen", "bin gauge.left.z.dead",
 )  # fmt: skip
 
