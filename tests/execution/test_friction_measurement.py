@@ -105,7 +105,7 @@ def test_a_pull_that_no_weight_of_a_link_explains_is_told() -> None:
 
 
 @pytest.mark.parametrize(
-    ("number", "said"), [(1, "column takes 2"), (4, "wrist roll takes 2"), (6, "hand roll takes 2")]
+    ("number", "said"), [(1, "column needs 2"), (4, "wrist roll needs 2"), (6, "hand roll needs 2")]
 )
 def test_a_drive_that_bears_no_weight_and_gives_half_of_its_torque_is_told(number: int, said: str) -> None:
     cell = (

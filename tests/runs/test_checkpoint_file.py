@@ -170,7 +170,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("cell", "figures"), {}, "values that change"),
         (("cell", "noise"), "{}", "not a state of this work cell"),
         (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
-        (("cell", "mechanisms", "camera", "lens"), 0.5, "no lens"),
+        (("cell", "mechanisms", "camera", "lens"), 0.5, "the turret has no"),
     ],
 )
 def test_a_state_that_does_not_fit_is_refused_before_it_is_used(
