@@ -58,6 +58,14 @@ R:      SKIPN   6               ;all places tried
         CHANGE  [0 0 1] .8      ;its hole guides the screw out, and the screw the socket: else it hangs askew
         CHANGE  [0 0 1] .7
 
+; How high does the socket stand on the head that it is over? The hand lifts it off, and comes down slowly. Only such touches can
+; be compared: as the driver turns, it may press with 0 to 44 oz, which are .09 in.
+DEFINE SEAT
+        CHANGE  [0 0 1] .15     ;its ring off the head, where the touch takes its zero
+        STOP    [0 0 -40]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .5 .1  ;on from the edge of a head, too
+
 ; That screw into a hole, to the torque stop. One that was not on the bit is fetched once more; one that stands wrong,
 ; meets no torque, or stops high is driven again, four times in all, from where its hole was felt.
 DEFINE SCREW S H ACROSS NR
@@ -123,40 +131,64 @@ LOOSE:  TOOL    0
         SEARCH  .05
         SOJG    N K
         WAIT    "SCREW {NR} MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-HOME:   SAVE    H               ;how high the socket stands on its head
+HOME:   SEAT
+        SAVE    H               ;how high its head stands
         CHANGE  [0 0 1] 1
+        HERE    H               ;and where: from here it is found again
 
-; A driven screw once more, to the torque stop: one that has worked loose is tight again.
-DEFINE TIGHTEN H ACROSS NR
-        SEARCH  .05 STEPS 1
-TT:     SKIPN   6               ;all places tried
-        WAIT    "SCREW {NR} DOES NOT HOLD, OR IS GONE: IT MEETS NO TORQUE"
+; The socket down to the head of a driven screw, from where the hand left it.
+DEFINE FIND H NR
         MOVE    H
-        RESTORE ACROSS
-        RESTORE X2
-        RESTORE HS LEVEL        ;as far off as the last one
-        CHANGE  [0 0 -1] .5
+        CHANGE  [0 0 -1] .3     ;still over the hub
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
-        CHANGE  [0 0 -1] .6 .4
+        CHANGE  [0 0 -1] .8 .4
         SKIPN   23
         WAIT    "SCREW {NR} IS GONE: NO HEAD IS UNDER THE SOCKET, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
-        TOOL    190
+
+; A driven screw once more, to the torque stop: one that has worked loose is tight again. On the edge of its head the socket
+; stands .1 in higher than over it: there the bit would turn without torque, and work the driver up in the hand. A screw that is
+; loose by a turn and a half stands .075 in high.
+DEFINE TIGHTEN H NR
+        ASSIGN  N 2
+        ASSIGN  STOOD 1
+        SEARCH  .05 STEPS 2
+TT:     SKIPN   6               ;high at all places: it is the head that stands high
+        JUMP    HIGH
+        FIND    H NR
+        SEAT
+        HEIGHT  H .085 2
+        SKIPE   9
+        JUMP    EDGE
+        HEIGHT  H .05 .085
+        SKIPE   9
+        JUMP    LOOSE
+        HEIGHT  H -.05 .05      ;as high as when it was driven, within a turn of the thread?
+        SKIPN   9
+        WAIT    "SCREW {NR} IS GONE: NO HEAD IS UNDER THE SOCKET, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+        JUMP    DRIVE
+EDGE:   CHANGE  [0 0 1] .6
+        AOJ     TT
+HIGH:   FIND    H NR
+LOOSE:  ASSIGN  STOOD 2
+DRIVE:  TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5
         SKIPE   24
         JUMP    TIGHT
-        TOOL    0               ;the socket may stand on the edge of its head
-        CHANGE  [0 0 1] .6
-        AOJ     TT
+        TOOL    0
+        SOJG    N EDGE
+        WAIT    "SCREW {NR} DOES NOT HOLD, OR IS GONE: IT MEETS NO TORQUE"
 TIGHT:  TOOL    0
-        HEIGHT  H -.05 .05      ;as high as when it was driven, within a turn of the thread?
+        SOJG    STOOD LOW
+        JUMP    ON
+LOW:    SEAT                    ;one that stood high: it should be down again
+        HEIGHT  H -.05 .05
         SKIPN   9
         WAIT    "SCREW {NR} DOES NOT STAND AS IT WAS DRIVEN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
-        SAVE    HS
-        CHANGE  [0 0 1] 1
+ON:     CHANGE  [0 0 1] 1
 
 ; The screwdriver out of its rack, its place felt both ways: the first time it is as far off as rack and arm may be, the
 ; second time it stands where it stood.
@@ -566,12 +598,12 @@ DEFINE ROTATION
 ; The heads, one after the other around the pump: so the driver never goes over the crank.
 DEFINE HEADS
         DRIVER  .1
-        TIGHTEN H1 Y1 4
-        TIGHTEN H0 Y1 1
-        TIGHTEN H4 Y2 5
-        TIGHTEN H5 Y2 3
-        TIGHTEN H3 Y1 6
-        TIGHTEN H2 Y1 2
+        TIGHTEN H1 4
+        TIGHTEN H0 1
+        TIGHTEN H4 5
+        TIGHTEN H5 3
+        TIGHTEN H3 6
+        TIGHTEN H2 2
         RACK
 
 ; Screwdriver and pins in their places.

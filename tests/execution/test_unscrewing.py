@@ -83,7 +83,7 @@ def test_the_magnet_is_on_again_when_the_screw_is_left_behind() -> None:
 
 
 def test_a_screw_that_was_only_tightened_stays_until_the_step_that_drove_it_is_undone() -> None:
-    run = bench(f"{ONE}        TIGHTEN H0 Y1 1\n", lay=stacked(), felt={"LAID": LAID}).to("SEARCH  .05 STEPS")
+    run = bench(f"{ONE}        TIGHTEN H0 1\n", lay=stacked(), felt={"LAID": LAID}).to("SEARCH  .05 STEPS")
     before = len(run.executor.state.done)
     assert run.go().finished
     run.executor.undo(ReversalOrder(left=before, halts=True))
