@@ -230,23 +230,46 @@ DEFINE DRIVER MOST
         WAIT    "THE BIT OF THE SCREWDRIVER DOES NOT TURN FREELY"
         TOOL    0
 
-; The screwdriver back into its rack.
-DEFINE RACK
-        SEARCH  .07
-PUT:    SKIPN   6
-        WAIT    "THE SCREWDRIVER DOES NOT GO INTO ITS RACK: IT HAS MOVED, OR A JOINT READS WRONG"
+; The screwdriver down into its rack, as the hand holds it over it.
+DEFINE INTO
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the guides guide it
+        CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
+        TRAVEL  2 2.25          ;on the guides it would stand higher
+
+; The screwdriver over its rack.
+DEFINE OVER
         MOVE    DUP
         RESTORE DRX
         RESTORE DRV
         SKIPN   4
         WAIT    "THE SCREWDRIVER DOES NOT GO INTO ITS RACK: IT HAS MOVED, OR A JOINT READS WRONG"
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the guides guide it
-        CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
-        TRAVEL  2 2.25          ;on the guides it would stand higher
+
+; The screwdriver back into its rack: straight, then turned to either side, then beside that place. The guides centre it, but
+; cannot turn it: its block has play for 2.3 degrees, and rack and hand may be turned more against each other.
+DEFINE RACK
+        OVER
+        INTO
+        SKIPE   8
+        JUMP    STANDS
+        OVER
+        TURN    DUP 1.5
+        INTO
+        SKIPE   8
+        JUMP    STANDS
+        OVER
+        TURN    DUP -1.5
+        INTO
+        SKIPE   8
+        JUMP    STANDS
+        SEARCH  .07
+PUT:    SKIPN   6
+        WAIT    "THE SCREWDRIVER DOES NOT GO INTO ITS RACK: IT HAS MOVED, OR A JOINT READS WRONG"
+        OVER
+        INTO
         SKIPN   8
         AOJ     PUT
-        LOAD    0
+STANDS: LOAD    0
         OPEN    1.6
         CHANGE  [0 0 1] 2
 
