@@ -483,7 +483,7 @@ DEFINE FEEL SPOT
         RESTORE Y1
         RESTORE X2
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .1
+        CHANGE  [0 0 -1] .7 .1
 
 ; How high is the face of the base there? It is 1.75 in over the table: closed fingers begin .1 in over it.
 DEFINE PRESS SPOT UNEVEN
@@ -501,12 +501,12 @@ DEFINE FLATNESS
         OPEN    0
 LEAN:   MOVE    TABLEL
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .1
+        CHANGE  [0 0 -1] .7 .1
         SAVE    TABLEL          ;how high the arm finds the table on one side of the base
         CHANGE  [0 0 1] 3       ;over the base
         MOVE    TABLE
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .1
+        CHANGE  [0 0 -1] .7 .1
         SAVE    TABLE
         HEIGHT  TABLEL -.027 .027 ;as high on the other side, or does something lie there, and under the base?
         SKIPN   9
@@ -566,14 +566,15 @@ DEFINE NUDGE SPOT PUSH WAY
         SKIPN   8
         WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED, OR A JOINT READS WRONG"
 
-; Does it still stand in its place? Closed fingers come down on its end, .3 in away.
+; Does it still stand in its place? Closed fingers come down on its end, .2 in away: as high as the arm finds the table.
 DEFINE STANDS END
         OPEN    0
         MOVE    END
+        RESTORE TABLE
         RESTORE C1 LEVEL
         RESTORE C2 LEVEL
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .1
+        CHANGE  [0 0 -1] .7 .1
 
 ; A pin in its holder: its end is 3.51 in over the table, unless it stands on something.
 DEFINE PLUGGED END NR
@@ -877,7 +878,7 @@ IN2:    OPEN    .5
         RESTORE X2
         OPEN    0
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .1  ;slowly: .002 in a servo period
+        CHANGE  [0 0 -1] .7 .1  ;slowly: .002 in a servo period
         SAVE    BARE            ;how high its face is
         CHANGE  [0 0 1] 1
 
@@ -917,7 +918,7 @@ LAYING: LAY
         RESTORE X2
         OPEN    0
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .1
+        CHANGE  [0 0 -1] .7 .1
         HEIGHT  BARE .04 .08    ;one gasket, .06 in thick
         SKIPE   9
         JUMP    FLAT
