@@ -1053,6 +1053,7 @@ ALL:    BLOCKS                  ;home, before it is felt
         HEADS
         BLOCKS                  ;the driver has drawn it off a little
         ROTATION                ;driven again, the screws may have made the rotor bind
+        OPEN    0               ;as in the last picture: the shadow of the hand may lie on the pump
         PARK
         LOOK    WHOLE           ;what is lost from here on, the last picture shows
         BLOCKS                  ;home, if it was moved before the picture: then the next one differs
