@@ -288,6 +288,8 @@ DEFINE UNPIN Q P NR
         WAIT    "PIN {NR} IS NOT WHERE IT WAS PUT: IT OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
 PIN:    CLOSE   .1
         CHANGE  [0 0 1] 2
+        SKIPN   4
+        WAIT    "PIN {NR} DOES NOT COME OUT OF ITS HOLE, OR A JOINT READS WRONG"
         SEARCH  .05
 R:      SKIPN   6
         WAIT    "PIN {NR} DOES NOT GO INTO ITS HOLDER: IT HAS MOVED, OR A JOINT READS WRONG"
@@ -383,6 +385,8 @@ DEFINE LIFT
         SKIPN   2
         WAIT    "THE GASKET CANNOT BE TAKEN UP AGAIN"
         CHANGE  [0 0 1] 2
+        SKIPN   4
+        WAIT    "THE GASKET CANNOT BE TAKEN UP AGAIN: IT DOES NOT COME OFF, OR A JOINT READS WRONG"
 
 ; Down to the flange of the top on its stand, a finger on each side of its hub.
 DEFINE BESTRIDE
@@ -475,6 +479,8 @@ DEFINE UNCOVER
         WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET, OR THE GASKET IS MISSING"
         LOAD    36
         CHANGE  [0 0 1] 2.3
+        SKIPN   4               ;a pin holds it
+        WAIT    "THE TOP DOES NOT COME OFF ITS PINS, OR A JOINT READS WRONG"
 
 ; How high is what lies there? Closed fingers go down to it, slowly: .002 in a servo period.
 DEFINE FEEL SPOT
