@@ -149,7 +149,7 @@ _OPERANDS: Final[dict[str, tuple[Operand, ...]]] = {
         number("speed", IN_PER_S, 0.0, optional=True, ours=True),
         _ZERO,
     ),
-    "TURN": (_POSITION, number("angle", DEG)),
+    "TURN": (_POSITION, replace(number("angle", DEG), nonzero=True)),
     "STOP": (_STOP_FORCE, MOMENT),
     "FORCE": (_FORCE, MOMENT),
     "FREE": (_AXES,),

@@ -162,6 +162,8 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     samples = turn_samples(run.arm, run.drive.state.q, run.world.position(operation.centre), operation)
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
+    if len(samples.q) == 0:
+        return None
     along = directions(samples, run.arm, run.drive.state.q)
     guards = run.watching(operation.guards)
     _report_faint(run, guards, along[0])

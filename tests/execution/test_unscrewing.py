@@ -12,6 +12,7 @@ from handeye.arm.kinematics import forward
 from handeye.cell.hand import SimulatedScrewdriver
 from handeye.cell.state import CellState
 from handeye.cell.threads import holes_of
+from handeye.core.errors import NO_TORQUE
 from handeye.core.mutable_records import copied
 from handeye.core.pose import translated
 from handeye.core.units import INCH, OUNCE_INCH
@@ -90,6 +91,28 @@ def test_a_screw_that_was_only_tightened_stays_until_the_step_that_drove_it_is_u
     run.go()
     assert (run.executor.state.stopped, holes_of(run.cell.truth)[0].screw) == (None, 0)
     assert in_the_dispenser(undo(run))
+
+
+def tightened(dx: float) -> Bench:
+    """A driven screw is tightened once more, by a hand that looks for its head `dx` (in) beside it."""
+    run = bench(f"{ONE}        TIGHTEN H0 1\n", lay=stacked(), felt={"LAID": LAID})
+    cell, state = finished()
+    run.cell.restore(cell)
+    run.run.restore(state)
+    found = run.run.state.world.moved
+    x, *rest = found["H0"].at
+    found["H0"] = replace(found["H0"], at=(x + dx * INCH, *rest))
+    texts = [step.text for step in run.run.plan.program.steps]
+    run.executor.state.at = texts.index("ASSIGN  N 2")
+    return run.go()
+
+
+@pytest.mark.parametrize(("dx", "places"), [(0.0, 1), (0.09, 2)])
+def test_the_bit_does_not_turn_on_the_edge_of_a_head(dx: float, places: int) -> None:
+    """There it would meet no torque (error 24). The socket stands .1 in too high, and the hand goes on."""
+    run = tightened(dx)
+    assert (run.finished, run.tries) == (True, places)
+    assert NO_TORQUE not in run.errors
 
 
 def turned_out() -> Bench:
