@@ -37,6 +37,7 @@ def test_numbers_beyond_all_measure_are_refused(number: str) -> None:
         "CENTER 5",
         "SEARCH 0",
         "CHANGE [0 0 1] 0",
+        "TURN T 0",
         "STOP -3\nPARK",
     ],
 )
