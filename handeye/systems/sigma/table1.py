@@ -257,6 +257,7 @@ def page_tables(found: Table1) -> str:
         out.append("")
     out += [
         "## Arithmetic\n",
+        "A program on one arm moves X1 back and forth, and calculates before each move.\n",
         "| calculations before each move | commands/s | saturation of the bus | computer idle |",
         "|---|---|---|---|",
     ]

@@ -51,7 +51,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="`QUERY` shows a table; `handeye ml words` lists all tables",
     ),
     "M13": Mistake(
-        meaning="the end of a loop, or a RETURN, without its beginning", example="10 NEXTI",
+        meaning="a loop ends that has not begun, or a RETURN has no GOSUB before it", example="10 NEXTI",
         cure="write LOOPI before NEXTI, and LOOPJ before NEXTJ; call a subroutine that ends with RETURN by GOSUB",
     ),
     "bad-parameter": Mistake(
@@ -104,7 +104,7 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
         cure="write `NAME EQU number`, or `NAME VAR`",
     ),
     "bad-name": Mistake(
-        meaning="a name is a command or a table, or contains characters other than letters, digits and `_`",
+        meaning="a name is that of a command or a table, or contains characters other than letters, digits and `_`",
         example="STOP EQU 5", cure="choose another name, which begins with a letter",
     ),
     "name-twice": Mistake(

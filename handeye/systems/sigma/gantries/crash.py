@@ -190,7 +190,7 @@ _MEETS: Final = (
     "with its column, above its wrist, into the stationary hand of arm 2",
     "into the stationary column of arm 2, above the wrist",
 )
-_HITS: Final = {1: "the hand of arm 2, with its own column", 2: "the column of arm 2"}
+_HITS: Final = {1: "the hand of arm 2, with the column of arm 1", 2: "the column of arm 2"}
 
 
 STUDY: Final = (
