@@ -1,4 +1,4 @@
-"""The grammar that colours arm programs in VS Code and its like, made from the table of instructions.
+"""The grammar that colours arm programs in VS Code and similar editors, made from the table of instructions.
 
 `python editors/make_grammar.py` prints it; `editors/vscode/syntaxes/armal.tmLanguage.json` holds it.
 """
@@ -50,12 +50,12 @@ def _match(pattern: str, names: dict[str, str]) -> Rule:
 
 
 def _line(begin: str, name: str, patterns: Iterable[Rule]) -> Rule:
-    """An instruction and its operands, to the comment or the end of the line."""
+    """An instruction and its operands, up to the comment or the end of the line."""
     return _begun(begin, {"1": name}, patterns)
 
 
 def _begun(begin: str, names: dict[str, str], patterns: Iterable[Rule]) -> Rule:
-    """What stands behind some words, to the comment or the end of the line."""
+    """What follows some words, up to the comment or the end of the line."""
     return {
         "begin": begin,
         "beginCaptures": {number: {"name": name} for number, name in names.items()},

@@ -68,10 +68,10 @@ run
 #
 # The table in the middle compares the times with those printed in 1973. *Manipulation* is the motion of the arm.
 # During the rest of the working phase, the arm waits for the television camera, whose lens turret, pan, tilt and
-# focus have slow motors. As the paper of 1973 suggests, today's program lets these motors work while the arm moves,
-# where possible. So the camera takes less time than in 1973. Manipulation, however, takes minutes longer than in
-# 1973, because the arm is slower than that of 1973, and the program measures more by touch. The whole run therefore
-# also takes minutes longer. The last stage, which inspects the pump, was not in the program of 1973.
+# focus have slow motors. As the paper of 1973 suggests, our program lets these motors work while the arm moves,
+# where possible. So the arm waits less for the camera than in 1973. Manipulation, however, takes minutes longer than
+# in 1973, because the simulated arm is slower than that of 1973, and our program measures more by touch. The whole
+# run therefore also takes minutes longer. The last stage, which inspects the pump, was not in the program of 1973.
 #
 # ## Look at it
 #
@@ -113,7 +113,7 @@ lines = [axis.axvline(stage.begin / 60, color="0.85", zorder=0) for stage in tra
 
 # %% [markdown]
 # The trace also describes events in words. `trace.table("events")` lists all events. A slice of this table shows
-# part of it, a column is an array or a list, and `to_pandas()` makes a DataFrame if pandas is installed.
+# part of it. A column is an array or a list, and `to_pandas()` makes a DataFrame if pandas is installed.
 
 # %%
 events = trace.table("events")

@@ -167,7 +167,7 @@ print("new places:", sorted({*after.record.program.positions} - {*before.record.
 # %% [markdown]
 # `world = handeye.World(set={"pump.screws": 7})` makes a world whose pump has seven holes.
 # `handeye.assemble(world=world, script=after)` assembles this pump in a minute of processor time, and the referee
-# finds seven screws in their threads. With `before`, the referee finds six screws, and rejects the pump. The
+# finds seven screws in their threads. With `script=before`, the referee finds six screws, and rejects the pump. The
 # [exercise](../docs/language/seventh-screw.md) does the same with a text editor, without Python.
 #
 # [One page](../docs/language/README.md) describes the whole language. In the next notebook, [3. Beams, blobs and

@@ -99,7 +99,8 @@ print(
 )
 
 # %% [markdown]
-# The simulated physics agrees with this sum, although the simulator does not compute the sum.
+# The simulated physics agrees with the sum of clearance, chamfer and bevel, although the simulator never computes
+# this sum.
 #
 # ## The rule
 #
@@ -146,16 +147,17 @@ right.set(title="step .18 in: a gap", aspect="equal", xlim=(-0.15, 0.33), ylim=(
 print(f"fine: ended at place {fine.state.memory.place + 1}; coarse: at place {coarse.state.memory.place + 1}")
 
 # %% [markdown]
-# The fine search found the hole from its first place, although this place is at the edge of the area. The coarse
-# search struck the holder at all four places, and continued outwards until it met no resistance. Where did it end?
+# The fine search found the hole from its first place, although the hole is near the edge of the area around this
+# place. The coarse search struck the holder at all four places, and continued outwards until it met no resistance.
+# Where did it end?
 
 # %%
 x, y, _ = coarse.state.hand[:3, 3] / 0.0254
 print(f"({x:.2f}, {y:.2f}) in; the hole is at (15, 35)")
 
 # %% [markdown]
-# It ended beside the holder. The pin hangs in the air beyond the edge of the holder. The motion met no resistance
-# because there was nothing under the pin, not because there was a hole.
+# The search ended beside the holder. The pin hangs in the air beyond the edge of the holder. The motion met no
+# resistance because there was nothing under the pin, not because there was a hole.
 #
 # ## Why the pump's program presses twice
 #
@@ -169,7 +171,7 @@ print(text[text.index("        SEARCH  .07\nL1:") : text.index("        SAVE    
 
 # %% [markdown]
 # Is the step of this program fine enough? The screw holes of the base are narrow: they have .05 mm of clearance for
-# a pin and a chamfer of 1 mm, and the pin has its bevel of .35 mm. By the rule:
+# a pin and a chamfer of 1 mm, and the pin has its bevel of .35 mm. The rule gives:
 
 # %%
 catches = (0.05 + 1.0 + 0.35) / 25.4

@@ -106,14 +106,14 @@ session.type("RUN\n* CLEAR\nRUN -1000")
 # %% [markdown]
 # The hand closed where it had released the block, and its fingers met nothing. The arm stops there, with the cursor
 # at the step that could not be undone, and waits for the user. The gap between the fingers is one of four guards of
-# an undo. The others are the force, the following error, and the support under a block
+# an undo. The others watch the force, the lag of each axis behind its goal, and the support under a block
 # ([TRIG](../docs/trig.md#forwards-and-backwards)).
 #
 # ## Loops, too
 #
-# The paper's second example moves a stack of blocks onto a pallet. A guarded move feels for the top of the stack, a
-# position advances with each block, and two loops count rows and columns. This arm is simulated without physics, so
-# twenty blocks take no time.
+# The second example in the paper on TRIG moves a stack of blocks onto a pallet. A guarded move feels for the top of
+# the stack, a position advances with each block, and two loops count rows and columns. This arm is simulated without
+# physics, so twenty blocks take no time.
 
 # %%
 palletiser = handeye.TrigSession()

@@ -16,8 +16,8 @@
 #
 # SUPERSIGMA, built in Milan, has two arms over one board. A central computer runs your program in
 # [MAL](../docs/mal.md). Each motor has a microcomputer of its own, and a bus carries commands to these microcomputers.
-# A wire leads from the force sensor in each wrist directly to the microcomputers of the arm. With this wire, a motor
-# stops by itself when the hand meets something: a reflex.
+# A wire leads from the force sensor in each wrist directly to the microcomputers of the same arm. With this wire, a
+# motor stops by itself when the hand meets something: a reflex.
 #
 # You can read this notebook without running it. Running it takes a few seconds.
 
@@ -96,9 +96,9 @@ fast.status("X2"), fast.doubtful, fast.believed["X2"], round(float(fast.history[
 
 # %% [markdown]
 # `ORIGIN` ends the doubt: it moves an axis to the switch at the end of its rail, and counts from there. `ORIGIN`
-# also finds lost steps whose cause no wrist has felt. In the next program, the hand of arm 1 is lower, so the
-# column of arm 1 hits the hand of arm 2. The column has no force sensor. No reflex acts, and the program does not
-# notice the collision until `ORIGIN` checks the counts.
+# also finds lost steps that nothing else reveals. In the next program, the hand of arm 1 is lower, so the column of
+# arm 1 hits the hand of arm 2. The column has no force sensor, so no reflex stops arm 1. The program does not notice
+# the collision until `ORIGIN` checks the counts.
 
 # %%
 column = handeye.Mal(

@@ -75,8 +75,8 @@ shared.run(until=130)
 shared.tasks
 
 # %% [markdown]
-# Does the flag keep the arms apart at any speed of the motors? A run shows only one order of events. The search
-# tries all orders:
+# Does the flag keep the arms apart at any speed of the motors? A run shows only one order of events.
+# `interleavings` searches through all orders:
 
 # %%
 shared.interleavings()

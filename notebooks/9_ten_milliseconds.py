@@ -12,7 +12,7 @@
 # # 9. Ten milliseconds
 #
 # At the end you will know why a robot that stops at every touch may still press nine times as hard as its limit says,
-# and what its clock, its servo and its speed have to do with it.
+# and how this force depends on its clock, its servo and its speed.
 #
 # IBM's assembly system of 1975 runs programs in [ML](../docs/ml.md). Every ten milliseconds its real-time level reads
 # all sensors. When a reading is outside its limits, this level freezes all motors.
@@ -40,7 +40,7 @@ ml.position(3)
 # %% [markdown]
 # The arm has stopped .006 inches too far. The error can be larger: at 20 cm/s the arm moves .079 inches (2 mm) in a
 # cycle, and the sensor is read only at the end of the cycle. A program can make the motor move more slowly. Word 8 of
-# the motor's line in the table MT is its speed, in thousandths of an inch a cycle:
+# the motor's line in the table MT limits its speed, in thousandths of an inch a cycle:
 
 # %%
 slow = handeye.Ml(senses=["5=500@3:2750"])
@@ -91,9 +91,10 @@ force.set(xlabel="time after the contact, ms", ylabel="force of both fingers, N"
 # %% [markdown]
 # ## A law
 #
-# The slide goes on for three reasons: the fingers are pressed until the gauge feels the limit; a period passes; and
-# the servo lags behind. `bound` is the sum of these three distances. For each touch, the list has the speed in mm/s,
-# the distance by which the slide went on and its bound in mm, and the force in newtons.
+# The slide goes on for three reasons: the fingers must be pressed until the gauge feels the limit; up to one period
+# passes until the next reading; and the servo lags behind. `bound` is the sum of the three distances. For each touch,
+# the list has the speed in mm/s, the distance by which the slide went on and its bound in mm, and the force in
+# newtons.
 
 # %%
 tried = [handeye.Ml.touch(period=10, bandwidth=50, speed=speed) for speed in (10, 25, 50, 100, 200)]
@@ -112,6 +113,6 @@ starts = [handeye.Ml.touch(period=10, bandwidth=bandwidth, speed=200) for bandwi
 [(each.bandwidth, each.jolt, each.trips, each.way) for each in starts]
 
 # %% [markdown]
-# Which speed would you choose for a touch of at most 20 N? [What ten milliseconds are](../docs/ten_milliseconds.md) has
-# the answer for five periods, and `handeye ml touch --page touch.html` writes a page on which you can move the period,
-# the bandwidth and the speed yourself.
+# Which speed would you choose for a touch of at most 20 N? [What ten milliseconds are](../docs/ten_milliseconds.md)
+# has the answer for five periods, and `handeye ml touch --page touch.html` writes a page on which you can move the
+# period, the bandwidth and the speed yourself.

@@ -1,4 +1,4 @@
-// A client of the language server protocol, for as much of it as the arm language's server speaks. It needs no package.
+// A client for the part of the Language Server Protocol that the server of the arm language uses. It needs no package.
 const { spawn } = require("child_process");
 const vscode = require("vscode");
 
@@ -12,7 +12,7 @@ class Connection {
     this.number = 0;
     this.received = Buffer.alloc(0);
     this.process = spawn(command, args, { stdio: ["pipe", "pipe", "ignore"] });
-    this.process.stdin.on("error", () => {}); // told by its end
+    this.process.stdin.on("error", () => {}); // `ended` reports the reason
     this.process.stdout.on("data", (data) => this.read(data));
     this.ended = new Promise((resolve) => {
       this.process.on("error", (error) => resolve(error));
@@ -61,19 +61,19 @@ class Connection {
     } else if (message.id === undefined) {
       this.notices.get(message.method)?.(message.params);
     } else {
-      this.send({ id: message.id, result: null }); // a question of the server's that we have no answer to
+      this.send({ id: message.id, result: null }); // a request of the server that this client cannot answer
     }
   }
 }
 
-// -- between the protocol's values and the editor's -------------------------------------------------------------------
+// -- conversions between values of the protocol and of VS Code -------------------------------------------------------
 
 const position = ({ line, character }) => new vscode.Position(line, character);
 const range = ({ start, end }) => new vscode.Range(position(start), position(end));
 const sent = ({ start, end }) => ({
   start: { line: start.line, character: start.character },
   end: { line: end.line, character: end.character },
-}); // a Range of the editor's turns into an array in JSON
+}); // the Range of VS Code would become an array in JSON
 const location = (found) => new vscode.Location(vscode.Uri.parse(found.uri), range(found.range));
 const edits = (found) => (found ?? []).map((each) => new vscode.TextEdit(range(each.range), each.newText));
 const words = (contents) =>

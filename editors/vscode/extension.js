@@ -1,4 +1,4 @@
-// Connects the editor to `handeye lsp`, and runs `handeye run` in a terminal for the words above a stage.
+// Connects the editor to `handeye lsp`, and runs `handeye run` in a terminal when a command above a stage is clicked.
 const path = require("path");
 const vscode = require("vscode");
 const { start } = require("./client");
@@ -11,7 +11,8 @@ function program() {
   return vscode.workspace.getConfiguration("handeye").get("command", "handeye");
 }
 
-// Saves the script, and carries out `handeye` with these words where it lies; the editor quotes them for its shell.
+// Saves the script, and runs `handeye` with these arguments in the folder of the script. VS Code quotes the arguments
+// for the shell.
 async function carryOut(file, words) {
   const script = vscode.workspace.textDocuments.find((text) => text.uri.fsPath === file);
   if (script?.isDirty && !(await script.save())) return;

@@ -70,14 +70,14 @@ CONTENT = "http://schemas.openxmlformats.org/package/2006/content-types"
 
 
 def _entry(name: str) -> ZipInfo:
-    entry = ZipInfo(name)  # of 1980, so that equal folders give equal packages
+    entry = ZipInfo(name)  # dated 1980, so that equal folders give equal packages
     entry.compress_type = ZIP_DEFLATED
     entry.external_attr = 0o644 << 16
     return entry
 
 
 def main(words: list[str]) -> int:
-    """Write the package to the file that is named, by default into the current folder."""
+    """Write the package to the given file, by default in the current folder."""
     about = json.loads((FOLDER / "package.json").read_text(encoding="utf-8"))
     path = Path(words[0]) if words else Path(f"{about['name']}-{about['version']}.vsix")
     packed(path)

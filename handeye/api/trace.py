@@ -62,8 +62,8 @@ class Trace(recorded.Trace):
 
         Args:
             camera: `orbit`, which moves around the cell; `follow`, which moves close to the hand; or the name of a
-            camera of the scene. seconds: length of the video, s, 14 by default; short stages are played more
-            slowly, so that each can be
+                camera of the scene.
+            seconds: length of the video, s, 14 by default. Short stages are played more slowly, so that each can be
                 seen.
             speed: instead of `seconds`: factor by which the video is faster than the run.
             first: the first stage: its number, its name, or part of its name.

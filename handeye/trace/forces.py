@@ -28,8 +28,8 @@ class Forces(Brief):
     """
 
     times: Array  # ends of the servo periods, shape (n,), s
-    force: Array  # force of the hand on the world, shape (n, 3), N
-    moment: Array  # moment of the hand on the world about its tool centre point, shape (n, 3), N m
+    force: Array  # force that the hand exerts on the world, shape (n, 3), N
+    moment: Array  # moment that the hand exerts on the world, about its tool centre point, shape (n, 3), N m
     estimated: NDArray[np.bool_]  # True where force was estimated, shape (n,)
     guard: NDArray[np.str_]
     """Kind of the active guard (the first, if there are several), shape (n,): `force`, `against`, `moment`,

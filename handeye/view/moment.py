@@ -97,7 +97,7 @@ class Moment:
 
     time: float  # s since the run began
     gap: float  # between the fingers, m
-    force: Array | None  # force of the hand on the world, shape (3,), N; None: it is not estimated
+    force: Array | None  # force that the hand exerts on the world, shape (3,), N; None: it is not estimated
     joints: Array  # shape (n,), rad and m
     channels: Array  # components of the system's channels, shape (k,), SI; NaN: nothing was sensed yet
     poses: Poses  # poses of all bodies, shape (m, 7): place (m), quaternion w, x, y, z; NaN: not there

@@ -88,7 +88,7 @@ class Ml:
         two statements of the program. If the line starts the program, `do` returns only when the program has ended.
 
         Returns:
-            The lines that were printed.
+            the lines that were printed.
 
         Raises:
             MlError: the line cannot be executed.
@@ -151,7 +151,7 @@ class Ml:
             phase: when in the period the contact occurs: 0 is just after a reading, nearly 1 is just before the next.
 
         Returns:
-            When the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the
+            when the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the
             greatest force of both fingers (`force`, N), the force on a finger at the start of the motion (`jolt`, N),
             and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
 

@@ -77,7 +77,7 @@ class Mal:
         be executed.
 
         Returns:
-            The lines that were printed.
+            the lines that were printed.
 
         Raises:
             NoSuchName: the program has no line of that number.

@@ -70,7 +70,7 @@ class TrigSession:
         width, 3).
 
         Raises:
-            InvalidInput: the arm is imaginary, OpenGL is missing, or the size is impossible.
+            InvalidInput: the arm is `none`, which has no physics, OpenGL is missing, or the size is impossible.
         """
         table = self._session.table
         if not isinstance(table, SeenTable):
