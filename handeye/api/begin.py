@@ -77,9 +77,9 @@ def begin(
             resume a run in the same folder, give the folder here as well as in `script`.
         overwrite: replace a run that is already in the folder `out`.
 
-    Limits are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved; checkpoints, trace
-    and result hold only the name of the function or class. `handeye resume` and `handeye trace verify` refuse such
-    a run; `handeye.begin` resumes it if you give it code with the same name.
+    Limits given as `referee` are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved;
+    checkpoints, trace and result hold only the name of the function or class. `handeye resume` and `handeye trace
+    verify` refuse such a run; `handeye.begin` resumes it if you give it code with the same name.
 
     Raises:
         ScriptError: the script has errors.

@@ -39,8 +39,8 @@ class SystemEvent(Event, frozen=True, kw_only=True):
 
 
 class RunStarted(Event, frozen=True, kw_only=True):
-    """The working phase begins, at time 0. The event contains everything that determines the later events, except
-    the actions of the operator.
+    """The working phase, in which the plan is executed, begins at time 0. The event contains everything that
+    determines the later events, except the actions of the operator.
     """
 
     system: str = "program"  # name of the system that executes the run
@@ -132,7 +132,7 @@ class JointFriction(Record, frozen=True, kw_only=True):
 
 
 class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm measured the friction of its joints and weighed its links before the working phase. `seconds` is
+    """The arm measured the friction of its joints and weighed its links, before the program began. `seconds` is
     simulated time.
     """
 
@@ -221,7 +221,7 @@ class PictureTaken(Event, frozen=True, kw_only=True):
 
 
 class PartSeen(Event, frozen=True, kw_only=True):
-    """Vision measured the place of a part: x, y (m) and yaw (rad). General location gives no yaw."""
+    """Vision measured the place of a part: x, y (m) and yaw (rad). The instruction GENERAL gives no yaw."""
 
     part: str
     x: float

@@ -29,7 +29,7 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Simulated and computing times of a run. No field mixes the two.
+    """Simulated and computing times of a run. No field mixes the two. The working phase is the execution of the plan.
 
     Equal runs have equal simulated times. Fields that end in `_cpu_s` (CPU seconds) or `_wall_s` (wall-clock
     seconds) are computing times, which differ each time that a run is executed. For a resumed run, computing
