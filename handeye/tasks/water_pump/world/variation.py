@@ -97,7 +97,8 @@ def _camera() -> Iterator[Quantity]:
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
             "Shape of the raster. `pincushion`: inward shift of a corner, as a fraction of its distance from the "
             "centre. `lines`: shift of the middle of each line along the line, as a fraction of half its length. "
-            "`field`: the same, but down the picture. Honesty study, finding 10: 1 % at the corners."),
+            "`field`: the same, but down the picture. An early study of ours, which `docs/studies.md` does not "
+            "include, found 1 % at the corners."),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
             "Shift of each picture from the previous one, as a fraction of half the picture's width and height: half "
             "a pixel. The paper mentions a slight shift between two pictures; vision study, section 4: up to a pixel."),
@@ -148,8 +149,8 @@ def _holes() -> Iterator[Quantity]:
 
 def _parts() -> Iterator[Quantity]:
     stood = (
-        "Position in which a person has put the part on its stand, relative to the drawing. Honesty study, "
-        "finding 9."
+        "Position in which a person has put the part on its stand, relative to the drawing. The size is "
+        "from an early study of ours, which `docs/studies.md` does not include."
     )
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
