@@ -83,9 +83,10 @@ def arm() -> Iterator[Quantity]:
             "correction is valid.",
             unsourced="no data sheet of 1974 gives this amplitude. Today's data sheets give the greatest deviation "
                       "from a line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for conductive "
-                      "plastic: Bourns 3400 to 3590, 6537 to 6639), but not whether it is periodic. Bound: .18, .16, "
-                      ".59 and .57 deg of joints 1, 2, 4 and 5 and .10 in of joint 3, each of which would by itself "
-                      "explain the error of .1 in of the whole arm (layout study, section 4)."),
+                      "plastic: Bourns 3400 to 3590, 6537 to 6639), but not whether it is periodic. Bound: .18 deg "
+                      "for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg for joint 4, .57 deg for joint 5; "
+                      "each of these alone would explain the error of .1 in of the whole arm (layout study, section "
+                      "4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",
@@ -130,7 +131,7 @@ def arm() -> Iterator[Quantity]:
         group("arm", {"hand_length": Uniform(0.02)}, "in",
             "True length of the hand minus the controller's value.",
             unsourced="no drawing gives the tolerance. A length like this is measured with a steel rule, which "
-                "has divisions of 1/64 in (.016 in). Bound: 1/32 in, a misreading by one whole division."),
+                "has divisions of 1/64 in (.016 in). Bound: 1/32 in, a misreading by two divisions."),
     )  # fmt: skip
 
 

@@ -127,9 +127,9 @@ def _fixtures() -> Iterator[Quantity]:
              "roll": Normal(0.1)},
             ("in", "in", "in", "deg", "deg", "deg"),
             "Position, height and tilt of the fixture relative to its drawing, as set up with a rule, a square and a "
-            "spirit level. Sigma is the tolerance of ISO 2768-1, class m, so a third of the fixtures exceed this "
-            "tolerance: .5 mm for lengths of 120 to 400 mm, .3 mm for heights of 30 to 120 mm, and 20 minutes of arc "
-            "for angles over 50 to 120 mm. A rule has divisions of 1/64 in; a spirit level is accurate to .5 to "
+            "spirit level. Sigma is the tolerance of ISO 2768-1, class m: .5 mm for lengths of 120 to 400 mm, .3 mm "
+            "for heights of 30 to 120 mm, and 20 minutes of arc for angles over 50 to 120 mm. So a third of the "
+            "fixtures exceed this tolerance. A rule has divisions of 1/64 in; a spirit level is accurate to .5 to "
             "1 mm/m, .03 to .06 deg.",
         )  # fmt: skip
 
@@ -142,8 +142,8 @@ def _holes() -> Iterator[Quantity]:
                 f"Position of a screw hole of the {part}, relative to its drawing. The holes of the base are "
                 f"tapped; those of gasket and top are drilled separately.",
                 unsourced="no drawing of the pump is known; two sigma are +-.003 in, the accuracy of a drilling jig. "
-                          "Bound: +-.004 in "
-                "over 6 to 30 mm and +-.006 in over 30 to 120 mm, class f of ISO 2768-1.",
+                          "Bound: +-.004 in for lengths of 6 to 30 mm and +-.006 in for lengths of 30 to 120 mm, "
+                          "class f of ISO 2768-1.",
             ))  # fmt: skip
 
 
@@ -154,7 +154,7 @@ def _parts() -> Iterator[Quantity]:
     )
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Position within the play that guides or hole allow, uniformly distributed. The position stays within the "
+        "Position within the play that the guides or the hole allow, uniformly distributed. The position stays within the "
         "play at the level `high`, too. A pin has no play, because the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
