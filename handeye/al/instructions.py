@@ -114,8 +114,8 @@ _MEANINGS: Final = {
     "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
     "TRAVEL": "check how far the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance (inches) is "
     "outside the range",
-    "HEIGHT": "check how much higher the last motion ended than the motion before the SAVE of this name; error 9 if "
-    "this difference (inches) is outside the range",
+    "HEIGHT": "check how much higher the hand is after the last motion than it was at the SAVE of this name; error 9 "
+    "if this difference (inches) is outside the range",
     "TOOL": "run the screwdriver at this speed (rpm): a positive speed drives a screw in, and 0 stops the screwdriver",
     "LOAD": "declare the weight in the hand (oz), so that the arm supports it",
     "LENS": "turn the lens turret to the 25 mm or the 50 mm lens",

@@ -284,7 +284,7 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
 
 
 def height(run: ExecutionContext, operation: Height) -> Fault | None:
-    """Check how much higher the last motion ended than the motion before the SAVE of this name."""
+    """Check how much higher the hand is after the last motion than it was at the SAVE of this name."""
     saved = run.state.heights.get(operation.name)
     if saved is None:
         return Fault(number=errors.WRONG_HEIGHT, cause=HeightUnknown(name=operation.name))

@@ -74,7 +74,8 @@ def arm() -> Iterator[Quantity]:
     phases: dict[str, Distribution] = {str(n): Phase() for n in range(1, 7)}
     size = [UNITS[unit].size for unit in JOINT_UNITS]
     return chain(
-        group("arm.offset", numbered(Normal, 0.060, 0.055, 0.027, 0.13, 0.13, 0.27), JOINT_UNITS, _READING),
+        group("arm.offset", numbered(Normal, 0.060, 0.055, 0.027, 0.13, 0.13, 0.27), JOINT_UNITS,
+            f"Offset of the position reading. {_READING}"),
         group("arm.scale", numbered(Normal, 0.11, 0.22, 0.11, 0.11, 0.22, 0.22), "%",
             "Scale error of the position reading. The error is zero at a posture in the middle of the work area. "
             f"{_READING}"),
