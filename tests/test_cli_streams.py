@@ -135,6 +135,8 @@ def started(place: Path, monkeypatch: pytest.MonkeyPatch) -> Start:
             with pytest.raises(SystemExit) as end:
                 cli.main()
             monkeypatch.undo()
+        for console in (screen, notes):
+            console._buffer.clear()  # what a full disk refused, and the next command would write
         assert isinstance(end.value.code, int)
         return end.value.code
 

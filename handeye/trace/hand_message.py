@@ -43,7 +43,9 @@ class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     estimated: bool  # True if force and moment are estimated; otherwise both are missing
     force: Axes | UnsetType = UNSET  # force that the hand exerts on the world, N
-    moment: Axes | UnsetType = UNSET  # moment that the hand exerts on the world, about its tool centre point, N m
+    moment: Axes | UnsetType = (
+        UNSET  # moment that the hand exerts on the world, about its tool centre point, N m
+    )
     gap: float  # opening of the fingers, m
     finger_1: bool  # the switch in the finger on the +y side of the hand frame
     finger_2: bool  # the switch in the other finger

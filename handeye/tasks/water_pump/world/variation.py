@@ -97,8 +97,8 @@ def _camera() -> Iterator[Quantity]:
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
             "Shape of the raster. `pincushion`: inward shift of a corner, as a fraction of its distance from the "
             "centre. `lines`: shift of the middle of each line along the line, as a fraction of half its length. "
-            "`field`: the same, but down the picture. An early study of ours, which `docs/studies.md` does not "
-            "include, found 1 % at the corners."),
+            "`field`: the same, but down the picture.",
+            unsourced=f"the papers do not mention the shape of the raster, and the camera is lost. {DOUBLED}"),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
             "Shift of each picture from the previous one, as a fraction of half the picture's width and height: half "
             "a pixel. The paper mentions a slight shift between two pictures; vision study, section 4: up to a pixel."),
@@ -148,10 +148,8 @@ def _holes() -> Iterator[Quantity]:
 
 
 def _parts() -> Iterator[Quantity]:
-    stood = (
-        "Position in which a person has put the part on its stand, relative to the drawing. The size is "
-        "from an early study of ours, which `docs/studies.md` does not include."
-    )
+    stood = "Position in which a person has put the part on its stand, relative to the drawing."
+    by_hand = f"the papers do not say how accurately the parts stood on their stands. {DOUBLED}"
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
         "Position within the play that the guides or the hole allow, uniformly distributed. The position stays within "
@@ -166,7 +164,7 @@ def _parts() -> Iterator[Quantity]:
     )
     starts = "Start angle of the thread of a screw hole."
     return chain(
-        *(group(f"parts.{part}", off, ("in", "in", "deg"), stood) for part in STOOD),
+        *(group(f"parts.{part}", off, ("in", "in", "deg"), stood, unsourced=by_hand) for part in STOOD),
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
