@@ -17,8 +17,8 @@ TITLES: Final = {
 HEAD: Final = """# The words of MAL
 
 A line consists of a number from 1 to 99999 and a statement. In the forms below, you may leave out what is in `[ ]`
-and repeat what is in `{ }`; `(A|B)` means one of the two. A name begins with a letter; letters, digits and `_`
-follow, and all characters of a name are significant. MAL does not distinguish capitals from small letters. A variable
+and repeat what is in `{ }`; `(A|B)` means one of the two. A name consists of letters, digits and `_`, and begins with
+a letter. All characters of a name are significant, but capitals and small letters are the same in MAL. A variable
 holds a number, which is 0 until you set it. There are no arrays. [MAL](mal.md) is the tutorial;
 `handeye sigma words MOVE` explains a word in a terminal.
 

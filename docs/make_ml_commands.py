@@ -15,15 +15,16 @@ TITLES: Final = {
 }  # fmt: skip
 HEAD: Final = """# The commands of ML
 
-A line consists of a sequence number from 1 to 5000, a command, and 0 to 15 parameters. A line with a sequence number
-is stored; a line without a number is executed immediately. A parameter is a number from -32768 to 32767, or a
-reference: `&17` is the value of variable 17, `-&17` is the negative of this value, and `&&17` is the value of the
-variable whose number is in variable 17. There are 256 variables, and up to six `&` are allowed. A line that begins
-with `*` is a remark.
+A line consists of an optional sequence number from 1 to 5000, a command, and 0 to 15 parameters. A line with a
+sequence number is stored; a line without one is executed immediately. A parameter is a number from -32768 to 32767, or
+a reference to a variable: `&17` is the value of variable 17, `-&17` is the negative of this value, and `&&17` is the
+value of the variable whose number is in variable 17. There are 256 variables. A reference can have up to six `&`. A
+line that begins with `*` is a remark.
 
-In the forms below, you may leave out what is in `[ ]`, and `...` repeats the parameter before it. `n` is the number
-of a statement, `v` and `w` are numbers of variables, `m` is a motor, `s` a sensor, `t` a table; `x` and `y` are
-values. Positions of motors 2, 3, 4 and 11 are in .001 inch, those of motors 1, 8, 9, 10 and 12 in .01 degree.
+In the forms below, you may leave out what is in `[ ]`, and `...` repeats the parameter before it. `n` is the number of
+a statement, `v` and `w` are numbers of variables, `m` is the number of a motor, and `s` is the number of a sensor. `t`
+is the name of a table, and `f` is the name of a file. `x` and `y` are values. Positions of motors 2, 3, 4 and 11 are in
+.001 inch; positions of motors 1, 8, 9, 10 and 12 are in .01 degree.
 
 [ML](ml.md) is the tutorial; `handeye ml words MOVE` explains a command in a terminal. `docs/make_ml_commands.py`
 writes this page from the tables that the parser and the interpreter use.
@@ -40,9 +41,11 @@ def page() -> str:
         out.append("")
     out += [
         "## Tables\n",
-        "The name of a table is a command that shows it: `MT` shows every line that has a word other than 0, `MT 3` "
-        "one line with the names of its words, and `MT 3 1` one word. GET and QUERY read a word, PUT and FILE write "
-        "one. The real-time level uses internal tables; external tables are on the disk, and are paged into frames.\n",
+        "The name of a table is also a command, which shows the table. `MT` shows every line that has a word other "
+        "than 0, `MT 3` shows line 3 with the names of its words, and `MT 3 1` shows word 1 of this line. GET and "
+        "QUERY read words; PUT and FILE write words. Internal tables are in main memory, where the real-time level "
+        "uses them. External tables are on the disk; a page of such a table is brought into main memory when it is "
+        "needed.\n",
         "| table | contents | lines | words | |",
         "|---|---|---|---|---|",
     ]

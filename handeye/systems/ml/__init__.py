@@ -1,12 +1,13 @@
-"""MOS and ML (IBM, 1975): guarded motions in a language of numbered statements, above a real-time level that watches
-all sensors every ten milliseconds."""
+"""MOS and ML (IBM, 1975): a language of numbered statements, whose motions can be stopped by sensors, and an operating
+system that reads all sensors every ten milliseconds.
+"""
 
 from handeye.core.entries import Entry
 
 ENTRY = Entry(
     name="ml",
     title="ML",
-    help="Run programs of guarded motions in ML, above a real-time level that watches every 10 ms (IBM, 1975).",
+    help="Run programs in ML (IBM, 1975), whose motions stop when a sensor, read every 10 ms, passes a limit.",
     system="handeye.systems.ml.run.system:ML",
     can=("faults", "levels", "console", "video"),
     reasons={
@@ -14,7 +15,7 @@ ENTRY = Entry(
         "undo": "its motions are not recorded; `back` in the stepper returns to an earlier state of the run",
     },
     commands="""
-ml = handeye.systems.ml.cli.commands:ml: MOS and ML (IBM, 1975): guarded motions, and a real-time level that watches all sensors every 10 ms.
+ml = handeye.systems.ml.cli.commands:ml: ML (IBM, 1975): motions that stop when a sensor, read every 10 ms, passes a limit.
 trials follow = handeye.systems.ml.cli.follow:follow_trials: Follow an outline by touch in many worlds: success rate, errors of the touches.
 trials blocks = handeye.systems.ml.cli.toys:blocks_trials: Stack three blocks by touch in many worlds: success rate, position errors.
 trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by touch in many worlds: success rate, position errors.

@@ -83,7 +83,7 @@ def test_an_empty_cradle_and_a_missing_stop_are_reported() -> None:
     assert (result.exit_code, result.message) == (1, f"{sentence} (done before: 0)")
     elsewhere = job_plan("orient").text.replace("86 MOVE 0 9000 -4500 -4000", "86 MOVE 0 9000 -4500 -2500")
     result = done(begun("orient", text=elsewhere))
-    sentence = "the bar does not meet the stop, or the gauges do not feel it"
+    sentence = "the bar does not meet the stop, or the gauges do not feel the contact"
     assert (result.exit_code, result.message) == (1, f"{sentence} (done before: 0)")
 
 

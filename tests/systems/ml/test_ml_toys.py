@@ -98,7 +98,7 @@ def test_a_hand_that_holds_nothing_and_a_hand_that_meets_something_are_reported(
     result = done(runner)
     assert (result.exit_code, result.message) == (
         1,
-        "the hand holds no block, or one of a wrong size, or the fingers are weak (done before: 0)",
+        "the hand holds no block or a block of the wrong size, or the fingers are weak (done before: 0)",
     )
     runner = begun("blocks")
     put(runner, "block_1", -4000 * LINEAR + 0.03, 2000 * LINEAR, SIDE / 2)

@@ -1,4 +1,4 @@
-"""The behaviour of every command, by its code."""
+"""The functions that execute the commands of ML, by the code of the command."""
 
 from collections.abc import Callable
 from typing import Final

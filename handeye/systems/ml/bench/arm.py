@@ -1,7 +1,7 @@
-"""The rectilinear arm on a bench: potentiometers that err, a wand, strain gauges, a range finder, and switches.
+"""The rectilinear arm on a bench, with a wand, strain gauges, a range finder, switches, and inaccurate potentiometers.
 
-The repeatability of a slide is an error of its potentiometer. It is drawn again for each motion: the reading agrees
-with the goal, but the slide stops elsewhere.
+A slide does not stop at exactly the same place each time. This is simulated as an error of its potentiometer, which is
+drawn again for each motion: the reading agrees with the goal, but the slide stops elsewhere.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -47,13 +47,13 @@ _PRESSED: Final = 0.2  # N that close a switch inside a finger
 _SLIDES: Final = slice(1, 4)
 _SLIDE_NAMES: Final = tuple(spec.name for spec in AXES[_SLIDES])
 _WAVE: Final = np.array([0.1 if spec.kind == "prismatic" else 1.0 for spec in AXES])
-"""Period of a potentiometer's error, m or rad."""
+"""The travel over which a potentiometer's error repeats: m for a slide, rad for a rotation."""
 _NOISES: Final = 4093  # cycles after which the noise repeats
 _STRAIN_PARTS: Final = tuple(part for channel in STRAINS for part in channel.parts)
 
 
 class ArmState(Record, frozen=True, kw_only=True):
-    """The state of the arm, without that of its servos."""
+    """The state of the arm, without the state of its servos."""
 
     goal: tuple[float, ...]  # last goals of the three slides, m
     ways: tuple[int, ...]  # directions in which these goals have moved: -1, 0 or 1
@@ -92,8 +92,8 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._range, self._signalled = RANGED, tuple[str, ...]()
         self._last: AxesReading | None = None
         self.torque: Callable[[int], float] = lambda _: 0.0
-        """Function that takes the number of a cycle and returns the torque of the power tool, as its current shows
-        it (N m).
+        """Function that takes the number of a cycle and returns the torque of the power tool (N m), as indicated by its
+        motor current.
         """
         self._servos = BenchAxes(bench, self.specs, period=CYCLE, name="servos", bent=self._bent)
         self._servos.power(on=False)
@@ -104,7 +104,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
 
     @scene_for("a rectilinear arm")
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Find the parts of the arm in a scene, which may lack the wand."""
+        """Find the parts of the arm in a scene. A scene without a wand is allowed."""
         at = [int(model.sensor(part).adr[0]) for part in _sensor_names()]
         self._gauges, self._switches = at[:-2], at[-2:]
         wand = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in ("wand_x", "wand_y")]
@@ -143,7 +143,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._signalled = tuple(sorted({*self._signalled} - {interlock} | ({interlock} if on else set())))
 
     def _felt(self, time: float) -> dict[str, float]:
-        """Return the value of each part of each channel."""
+        """Return what each sensor and interlock reads, by the parts of its channel."""
         data = self._bench.data
         cycle = round(time / CYCLE)
         noise = self._noise[cycle % _NOISES]
@@ -173,7 +173,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     # -- potentiometers --------------------------------------------------------------------------------
 
     def _bent(self, q: Array) -> Array:
-        """Return by how much the true positions differ from those that the potentiometers show."""
+        """Return the differences between the true positions and the positions that the potentiometers show."""
         return np.asarray(self._bends * np.sin(2 * np.pi * q / _WAVE + self._phases) + self._offsets)
 
     def _offset(self, slide: int) -> None:

@@ -25,7 +25,7 @@ _FIXED: Final[dict[str, dict[str, float]]] = {
     "range.silent": {"range": RANGED},
     "current.dead": {"torque": 0.0},
 }
-"""What channels read, whatever there is to be sensed."""
+"""For each fault of a sensor: the channels that it affects, and the constant value that they read."""
 _MEANINGS: Final = {
     "wand.open": "The switch of the wand is stuck open: the wand never signals a touch.",
     "wand.closed": "The switch of the wand is stuck closed: the wand always signals a touch.",
@@ -42,8 +42,8 @@ def arm_fault(name: str, *calls: str, harmless: str = "") -> FaultKind:
     """Declare a fault of the arm.
 
     Args:
-        calls: the messages that name it, besides that of a motor that does not reach its goal.
-        harmless: why the work may come out right; empty if the program must notice the fault.
+        calls: the messages that name the fault, besides the one that a motor does not reach its goal.
+        harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
     """
     kind, axis, what = [*name.split("."), "", ""][:3]
     if kind in ("motor", "potentiometer"):
@@ -63,8 +63,8 @@ def planted(name: str, meaning: str, *calls: str, harmless: str = "", size: Size
     """Declare a fault that is present from the start.
 
     Args:
-        calls: the messages that name it.
-        harmless: why the work may come out right; empty if the program must notice the fault.
+        calls: the messages that name the fault.
+        harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
     """
     expected = ExpectedDetection(calls=calls, harmless=harmless)
     return FaultKind(name=name, meaning=meaning, size=size, when="before", expected=expected)

@@ -1,4 +1,5 @@
-"""Programs that print a number and a count at their end: 0 if all went well, or the number of a trouble."""
+"""Programs that end by printing two numbers: first 0 if all went well, or else the number of a trouble; then a count.
+"""
 
 from __future__ import annotations
 
@@ -31,14 +32,15 @@ class Printed(Record, frozen=True, kw_only=True):
 
 
 def counted(heard: object) -> int:
-    """Return the number that the program printed after its final 0; 0 if it printed no number there."""
+    """Return the count in the last printed line, which is `0 COUNT` if all went well; 0 if the line has another form.
+    """
     assert isinstance(heard, Printed)
     words = heard.lines[-1].split() if heard.lines else []
     return int(words[1]) if len(words) == 2 and words[0] == "0" else 0
 
 
 def calls_of(troubles: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the messages with which a program reports its troubles, as faults are expected to be named."""
+    """Return a program's message for each trouble, in the form in which a fault declares the messages that name it."""
     return tuple(f"{sentence} ({{count}})" for sentence in troubles.values())
 
 
@@ -94,7 +96,7 @@ class ReportingHardware(StationHardware):
         return Ending(done=False, text=f"{self._troubles[trouble]} ({self.counted(count.strip() or '0')})")
 
     def counted(self, count: str) -> str:
-        """Put into words the numbers that the program prints after the number of a trouble."""
+        """Describe in words the numbers that the program prints after the number of a trouble."""
         return f"done before: {count}"
 
 

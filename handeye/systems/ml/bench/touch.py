@@ -61,15 +61,16 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def bound(self) -> float:
-        """How far the slide can go on after the contact (mm), to within a few per cent: until the force on the fingers
-        reaches the limit, then for one period, and then for as long as the servo lags behind its set-point.
+        """How far (mm) the slide can move on after the contact, to within a few per cent. It moves on until the force
+        on the fingers reaches the limit, then for one period, and then for the time by which the servo lags behind its
+        set-point.
         """
         lag = 2 * _DAMPING / (2 * pi * self.bandwidth)
         return self.limit * GRAM_FORCE / STIFFNESS / MILLIMETRE + self.speed * (self.period * _MS + lag)
 
     @property
     def trips(self) -> bool:
-        """True if the start of the motion alone, in the air, trips the guard."""
+        """True if the start of the motion, in the air, would trip a guard that was set before it."""
         return self.jolt > self.limit * GRAM_FORCE
 
 

@@ -37,8 +37,8 @@ ARM: Final = (
         "mm",
         Fixed(0.38),
         4.0,
-        "Full width of the range in which a slide stops; the place in it is drawn evenly for each motion. "
-        "The paper: about .38 mm.",
+        "Full width of the range in which a slide stops. For each motion, the place in this range is drawn with a "
+        "uniform distribution. The paper says about .38 mm.",
     ),
     quantity(
         SLIDES,
@@ -88,7 +88,7 @@ ARM: Final = (
         "N",
         Noise(0.05),
         2.0,
-        "Standard deviation of the drift of a strain gauge's zero in a minute. No source: our choice, 5 g.",
+        "Standard deviation of the drift of a strain gauge's zero per minute. No source: our choice, 5 g.",
     ),
     quantity(
         NOISE,
@@ -103,27 +103,29 @@ ARM: Final = (
         "mm",
         Noise(1.0),
         50.0,
-        "Standard deviation of a measured range. The paper: accurate to about 2 mm.",
+        "Standard deviation of the error of a measured range. The paper says that ranges are accurate to about 2 mm.",
     ),
     quantity(
         CONE,
         "deg",
         Fixed(8.0),
         20.0,
-        "Half the angle of the cone in which the range finder measures the nearest object. No source: our choice.",
+        "Half the angle of the range finder's cone: it measures the distance of the nearest object in this cone. No "
+        "source: our choice.",
         8.0,
     ),
 )
 
 
 ALONE: Final = Variation(*ARM)
-"""The quantities of the arm without a job."""
+"""The quantities of a world that has only the arm, without a job."""
 
 
 @dataclass(frozen=True, slots=True)
 class ArmWorld:
-    """A world of the arm and of a job. Without a specification, it has no errors. Each number is drawn from a stream of
-    its own, which is selected by the number's name."""
+    """A world of the arm and of a job. A world without a specification has no errors. Each number is drawn from a
+    random stream of its own, which is selected by the number's name.
+    """
 
     spec: WorldSpec | None = None
     variation: Variation = ALONE

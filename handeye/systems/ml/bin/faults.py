@@ -7,9 +7,9 @@ from handeye.systems.ml.bench.faults import arm_fault, planted
 from handeye.systems.ml.bench.reporting import calls_of
 
 TROUBLES: Final = {
-    "1": "parts that the hand cannot get out are left in the bin",
+    "1": "the bin still has parts that the hand cannot take out",
     "2": "the hand has lost a part on the way",
-    "3": "the range finder does not see that the hand comes down",
+    "3": "the range finder does not show that the hand has come down",
     "4": "a finger's gauge does not feel the table",
     "5": "the fingers do not open",
 }  # by the number that the program prints
@@ -27,6 +27,6 @@ FAULTS: Final = Catalogue(
     arm_fault("motor.separation.weak", _LEFT, _LOST),
     arm_fault("potentiometer.x.stuck"),
     planted(EMPTY, "No parts were poured into the bin.", harmless="An empty bin is reported as empty."),
-    planted(WIDE, "The first part is 3 mm too wide, as a part of another kind.", _LEFT),
-    planted(HEAVY, "The first part is of steel, as a part of another kind.", _LEFT),
+    planted(WIDE, "The first part is 3 mm too wide, as if it were a part of another kind.", _LEFT),
+    planted(HEAVY, "The first part is made of steel, as if it were a part of another kind.", _LEFT),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""A smooth hopper with a flat middle, and two boxes beside it, for bars."""
+"""A smooth hopper with a flat middle, from which bars are taken, and two boxes beside it."""
 
 from math import cos, radians, sin, tan
 from typing import Final
@@ -21,8 +21,8 @@ _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
 def add_hopper(spec: mujoco.MjSpec, friction: float) -> None:
-    """Add the hopper where the arm's x and y axes are at 0. A part slides on it with the friction of the hopper, not
-    its own.
+    """Add the hopper at the place that the hand has when the x and y slides are at 0. For a part that slides in the
+    hopper, the friction of the hopper counts, not the part's own.
     """
     hopper = spec.worldbody.add_body(name="hopper")
 

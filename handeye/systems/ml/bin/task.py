@@ -63,8 +63,8 @@ VARIATION: Final = Variation(
         "",
         Range(0.10, 0.18),
         2.0,
-        "Friction between parts and hopper. No source: our choice, "
-        "for a polished lining; from .22 on, parts would stay on the slopes.",
+        "Friction between parts and hopper. No source: our choice, for a polished lining; with .22 or more, parts "
+        "would stay on the slopes.",
         0.14,
     ),
 )
@@ -77,7 +77,7 @@ class Poured(Record, frozen=True, kw_only=True):
 
 
 class Pile(Mechanism[Poured]):
-    """The true qualities of the parts that were poured into the bin, kept for the referee only."""
+    """Remembers the true qualities of the parts that were poured into the bin. Only the referee sees them."""
 
     name, kind = POURED, Poured
 
@@ -168,17 +168,17 @@ class Bin(ArmTask):
         return {
             "passed": at_most(int((boxed["good"] & ~good).sum()), 0, "parts", "bad parts in the box for good ones"),
             "rejected": at_most(int((boxed["bad"] & good).sum()), 0, "parts", "good parts in the box for bad ones"),
-            "left": at_most(int(left.sum()), 0, "parts", "parts that are left in the bin"),
+            "left": at_most(int(left.sum()), 0, "parts", "parts left in the bin"),
             "lost": at_most(int(out.sum()), 0, "parts", "parts that lie elsewhere"),
             "told": at_most(
                 max(abs(one - other) for one, other in zip(counted, here, strict=True)), 0, "parts",
-                "greatest difference between a number that the program has printed and the parts in that box",
+                "for either box, greatest difference between the printed number of parts and the true number",
             ),
         }  # fmt: skip
 
 
 def told(count: str) -> tuple[int, int]:
-    """Return the numbers of good and of bad parts that a program has printed; a number that is missing is 0."""
+    """Return the numbers of good and of bad parts that a program has printed. A missing number counts as 0."""
     good, bad, *_ = *map(int, count.split()), 0, 0
     return good, bad
 
@@ -198,7 +198,7 @@ def _quality(world: ArmWorld, number: int) -> Quality:
 
 
 def _inside(places: Array, x: float, half: float) -> NDArray[np.bool_]:
-    """Return for each place whether it is inside a square with its middle at x."""
+    """Return, for each place, whether it is inside the square whose middle is at (x, 0)."""
     off = np.abs(places[:, :2] - [x, 0.0]).max(axis=1)
     return np.asarray(off < half, dtype=np.bool_)
 

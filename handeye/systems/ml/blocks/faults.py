@@ -8,9 +8,9 @@ from handeye.systems.ml.bench.reporting import calls_of
 
 TROUBLES: Final = {
     "1": "the hand has met something on its way down",
-    "2": "the hand holds no block, or one of a wrong size, or the fingers are weak",
-    "3": "the block meets nothing on its way down, or the gauges do not feel it",
-    "4": "the block stops at a wrong height: something else stands on the stack, or it is a wrong block",
+    "2": "the hand holds no block or a block of the wrong size, or the fingers are weak",
+    "3": "the block meets nothing on its way down, or the gauges do not feel the contact",
+    "4": "the block stops at a wrong height: something else stands on the stack, or the block has the wrong size",
     "5": "the fingers do not open",
 }  # by the number that the program prints
 _MET, _NONE, _UNFELT, _HIGH, _SHUT = calls_of(TROUBLES)
@@ -30,7 +30,7 @@ FAULTS: Final = Catalogue(
     arm_fault("motor.roll.dead"),
     arm_fault("motor.separation.dead", _SHUT),
     arm_fault("motor.separation.weak", harmless="A block weighs only 16 g."),
-    arm_fault("motor.z.slow", harmless="A slow slide still goes to its goals."),
+    arm_fault("motor.z.slow", harmless="A slow slide still reaches its goals."),
     arm_fault("potentiometer.z.stuck"),
     planted(MISSING, "There is no first block.", _NONE),
     planted(

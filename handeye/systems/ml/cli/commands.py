@@ -29,7 +29,7 @@ MlFile = Annotated[Path, Parameter(help="A program in ML, `.ml`.")]
 
 ml = App(
     name="ml",
-    help="MOS and ML (IBM, 1975): guarded motions, and a real-time level that watches all sensors every 10 ms.",
+    help="ML (IBM, 1975): motions that stop when a sensor, read every 10 ms, passes a limit.",
 )
 
 
@@ -62,8 +62,9 @@ def run(
     sense: Annotated[
         list[str] | None,
         Parameter(
-            help="What a sensor (`8=1200`) or an interlock (`panic=1`) reads. `5=500@3:2750` holds only while motor 3 "
-            "is at 2750 or farther from 0, and `door=1@.5s` only from .5 s on. Give --sense once for each reading."
+            help="What a sensor or an interlock reads. `8=1200`: sensor 8 reads 1200. `panic=1`: the panic button is "
+            "pressed. `5=500@3:2750`: sensor 5 reads 500 while motor 3 is at 2750 or farther from 0. `door=1@.5s`: the "
+            "door is open from .5 s on. Give --sense once for each reading."
         ),
     ] = None,
     options: RunOptions = USUAL_RUN,
@@ -153,7 +154,7 @@ def assemble(
 
 
 def words(word: str | None = None, /) -> int:
-    """Explain a command of ML; without a command, list all.
+    """Explain a command of ML. Without a command, list all commands.
 
     Parameters
     ----------

@@ -23,7 +23,8 @@ from handeye.systems.ml.realtime.happenings import EmergencyStopped, GoalRounded
 ENDING: Final = ".ml"
 _KEYS: Final = "N executes the statement, R runs on without asking, A abandons the program"
 _JOYSTICK: Final = (
-    "MOTOR DISTANCE moves a motor; RECORD stores the positions; CANCEL leaves the point as it is"
+    "type the number of a motor and a distance to move the motor; RECORD stores the positions; CANCEL leaves the point "
+    "as it is"
 )
 
 
@@ -60,9 +61,9 @@ class Console:
         *,
         left: bool = False,
     ) -> None:
-        """Begin a session with a right arm and, if `left`, also a left one. The pump is off. `ask` shows a prompt and
-        returns what the user types, or None at the end of the input. `halted` returns True when the panic button has
-        been pressed.
+        """Begin a session with a right arm and, if `left` is true, also a left arm. The pump is off. `ask` shows a
+        prompt and returns what the user types, or None at the end of the input. `halted` returns True when the panic
+        button has been pressed.
         """
         self._say, self._ask, self._halted = say, ask, halted
         self._machine, self._arms = perfect_machine(
@@ -90,7 +91,9 @@ class Console:
         self._say(counted(len(self._program.numbers), "statement"))
 
     def hear(self, line: str) -> None:
-        """Execute a line, and a program that it starts, to the end. Raises InvalidInput if that is impossible."""
+        """Execute a line to its end. If the line starts a program, execute this program to its end, too. Raises
+        InvalidInput if that is impossible.
+        """
         if line.strip().upper() == "HELP":
             self._help()
             return
@@ -165,7 +168,7 @@ class Console:
                 self._say(f"motor {motor} is at {level.position(motor)}")
             else:
                 self._say(
-                    f"the flag of sensor {min(level.flags)} is on: CANCEL first, then clear it with SENSOR"
+                    f"the flag of sensor {min(level.flags)} is on: type CANCEL, then clear the flag with SENSOR"
                 )
         except InvalidInput as error:
             self._say(str(error))

@@ -25,11 +25,13 @@ def follow(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Follow the outline of a plate by touch with the program of the paper. A wand signals when it touches the plate.
+    """Follow the outline of a plate by touch. The program is that of the paper. A wand signals when it touches the
+    plate.
 
     `plans/curve_follower.ml` is figure 5 of the paper as printed, and never ends by itself. The run ends when the wand
-    has gone around the plate once, or when the follower is lost. A referee then compares the touches with the true
-    outline, and checks whether the plate has moved.
+    has gone around the plate once (the circuit is closed), or when the follower is lost, for example because the wand
+    no longer touches anything. A referee then compares the touches with the true outline, and checks whether the plate
+    has moved.
 
     Exit code 0: right; 1: the follower is lost, or the program was stopped; 3: the circuit is closed, but the referee
     disagrees; 2: bad input; 130: interrupted.
@@ -49,8 +51,8 @@ def follow_trials(
 ) -> int:
     """Follow an outline in many worlds. Shows how often it is followed correctly, and the errors of the touches.
 
-    Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints the trials that have finished; with
+    --out, the same command continues the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the circuit is closed but
     the referee disagrees.

@@ -22,12 +22,12 @@ Parts = Annotated[WholeNumber, Parameter(help="Number of parts in the bin, from 
 def orient(
     *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: FaultyJobOptions = ANY_FAULTY_RUN
 ) -> int:
-    """Take a bar in an unknown attitude, and turn it into a known one by touch.
+    """Take a bar whose attitude is unknown, and turn it by touch into a known attitude.
 
     `plans/orient.ml` takes the bar out of a cradle, in which it is pitched by up to 50 degrees and turned by up to 25.
     It puts the bar down with a guarded move, lets it fall flat and grasps it again. It then moves the end of the bar
-    against a stop to learn where the bar is, and grasps it in the middle. A referee checks that the bar is in the
-    fingers, within 3 degrees of the attitude and 1 mm of the place that were asked for.
+    against a stop to learn where the bar is, and grasps it in the middle. A referee checks that the fingers hold the
+    bar, within 3 degrees of the required attitude and within 1 mm of the required place.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
@@ -44,10 +44,10 @@ def orient_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Orient a bar in many worlds. Shows how often the bar is in the right attitude and place, and its errors.
+    """Orient a bar in many worlds. Shows how often the bar has the right attitude and place, and the errors of both.
 
-    Each trial does what `handeye ml orient` does. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye ml orient` does. Ctrl-C ends the batch and prints the trials that have finished; with
+    --out, the same command continues the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.
@@ -94,8 +94,8 @@ def bin_trials(
 ) -> int:
     """Take parts out of a bin in many worlds. Shows how often all are taken out and judged correctly, and if not, why.
 
-    Each trial does what `handeye ml bin` does. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye ml bin` does. Ctrl-C ends the batch and prints the trials that have finished; with
+    --out, the same command continues the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.

@@ -1,4 +1,4 @@
-"""Reads from the command line what the sensors and interlocks of perfect motors sense."""
+"""Reads from the command line which values the sensors and interlocks have in a run with perfect motors."""
 
 import re
 from typing import Final
@@ -15,8 +15,8 @@ FORM: Final = "SENSOR=READING, SENSOR=READING@MOTOR:POSITION or SENSOR=READING@S
 
 
 def sensed(text: str) -> Stimulus:
-    """Parse what a sensor or interlock reads: always, only while a motor is at a position or farther from 0, or only
-    from a time on. Raises BadArgument.
+    """Parse what a sensor or an interlock reads. The value holds either always, or only while a motor is at a position
+    or farther from 0, or only from a given time on. Raises BadArgument.
     """
     match = _FORM.fullmatch(text)
     if match is None or not all(fits(int(each or 0)) for each in (match[2], match[4])):

@@ -33,8 +33,8 @@ def support_trials(
 ) -> int:
     """Assemble the rail support in many worlds. Shows how often all 22 parts are right, and their errors.
 
-    Each trial does what `handeye ml support` does. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye ml support` does. Ctrl-C ends the batch and prints the trials that have finished; with
+    --out, the same command continues the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.

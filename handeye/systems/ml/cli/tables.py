@@ -122,7 +122,8 @@ def _recorded(run: Path) -> "History":
     done = kept_history(run)
     if done is None:
         raise BadFile(
-            f"the run in {run} has no tables: it is not a run of ML, or an older handeye wrote it without tables"
+            f"the run in {run} has no tables: it is not a run of ML, or an older version of handeye wrote it without "
+            "tables"
         )
     return done
 

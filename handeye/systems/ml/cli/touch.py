@@ -14,11 +14,11 @@ def touch(
     period: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Time from one reading of the sensors to the next, 1 to 100 ms. Default: 10, the paper's."
+            help="Time from one reading of the sensors to the next, 1 to 100 ms. Default: 10, as in the paper."
         ),
     ] = None,
     bandwidth: Annotated[
-        float | None, Parameter(help="Bandwidth of the servo, 5 to 120 Hz. Default: 50, the paper's.")
+        float | None, Parameter(help="Bandwidth of the servo, 5 to 120 Hz. Default: 50, as in the paper.")
     ] = None,
     speed: Annotated[float | None, Parameter(help="Speed of the slide, 1 to 200 mm/s. Default: 25.")] = None,
     limit: Annotated[
@@ -41,11 +41,11 @@ def touch(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Simulate a guarded touch on a block, and show how far the hand goes on and with what force.
+    """Simulate a guarded touch on a block. Show how far the hand goes on after the contact, and with what force.
 
-    The hand descends until the reading of a strain gauge is beyond its limit. What the ten milliseconds of MOS mean is
-    then seen: the slide goes on until the sensors are read again, and then for as long as its servo lags behind.
-    `docs/ten_milliseconds.md` has the figures.
+    The hand descends until the reading of a strain gauge is beyond its limit. The simulation shows what the ten
+    milliseconds of MOS mean: after the contact, the slide goes on until the sensors are read again, and then for as
+    long as its servo lags behind. `docs/ten_milliseconds.md` has the figures.
 
     Exit code 0: simulated; 2: bad input.
     """
@@ -55,7 +55,8 @@ def touch(
     if page is not None:
         if json or any(each is not None for each in (period, bandwidth, speed)):
             raise BadArgument(
-                "--page shows all periods, bandwidths and speeds; it takes only --limit and --overwrite"
+                "--page shows all periods, bandwidths and speeds; the only options that you can give with it are "
+                "--limit and --overwrite"
             )
         return _page(page, limit, overwrite=overwrite)
     found = touched(

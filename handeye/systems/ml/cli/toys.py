@@ -54,8 +54,8 @@ def blocks_trials(
 ) -> int:
     """Stack three blocks in many worlds. Shows how often the stack is right, and its errors.
 
-    Each trial does what `handeye ml blocks` does. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye ml blocks` does. Ctrl-C ends the batch and prints the trials that have finished; with
+    --out, the same command continues the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.
@@ -75,8 +75,8 @@ def train_trials(
 ) -> int:
     """Couple a train in many worlds. Shows how often both wagons follow the engine, and the errors of the train.
 
-    Each trial does what `handeye ml train` does. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye ml train` does. Ctrl-C ends the batch and prints the trials that have finished; with
+    --out, the same command continues the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.

@@ -29,12 +29,12 @@ def view(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Step a run in the browser, and see all tables of its machine while it goes on.
+    """Step a run in the browser, and see all tables of its machine while the run goes on.
 
-    Words of the tables that changed in the cycle are lit. You can look back at any earlier cycle. A value that you
-    write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor 3,
-    `MT 2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. The written words are events of the run, so
-    repeating a recorded run writes them again.
+    Words of the tables that changed in the cycle are highlighted. You can look back at any earlier cycle. A value that
+    you write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor 3, `MT
+    2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. Each written word is an event of the run, so a
+    repetition of a recorded run writes it again.
 
     Prints the address to open, which contains a secret and works only on this computer.
 

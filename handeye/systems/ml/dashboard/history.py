@@ -31,7 +31,7 @@ class Head(Record, frozen=True, kw_only=True):
 
 @dataclass
 class Course:
-    """The values of one word. From each cycle in `cycles` on, it has the value at the same place in `values`."""
+    """The values of one word. From cycle `cycles[n]` on, the word has the value `values[n]`."""
 
     cycles: list[int] = field(default_factory=list)
     values: list[int] = field(default_factory=list)
@@ -42,7 +42,7 @@ class Course:
         return self.values[found - 1] if found else 0
 
     def changed(self, cycle: int) -> bool:
-        """Return True if the word was changed in a cycle. Its first value, in cycle 0, does not count."""
+        """Return True if the word was changed in a cycle. Its first value, in cycle 0, does not count as a change."""
         found = bisect_right(self.cycles, cycle)
         return found > 0 < cycle == self.cycles[found - 1]
 
@@ -61,7 +61,9 @@ class History:
 
     @property
     def last(self) -> int:
-        """The number of the next cycle, which has not passed. What statements have changed for it is known."""
+        """The number of the cycle that comes next. The changes that statements have made since the previous cycle count
+        for it.
+        """
         return self.head.cycles
 
     def find(self, table: str, side: str = "") -> Segment:

@@ -33,8 +33,8 @@ class LiveTables(LiveNews):
             "tables",
             "The tables",
             note(
-                "Words that changed in the cycle are lit. Click a word to see its course. A value that you write takes "
-                "effect in the next cycle, even while the arm moves."
+                "Words that changed in the cycle are highlighted. Click a word to plot its values over time. A value "
+                "that you write takes effect in the next cycle, even while the arm moves."
             ),
             dashboard(form),
             facts(head, picked=motors.number(_Y, 1)),

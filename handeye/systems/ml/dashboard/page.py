@@ -27,8 +27,9 @@ def tables_part(done: History) -> PagePart:
         "tables",
         "The tables, cycle by cycle",
         note(
-            "Everything that MOS knew is in these tables. Words that changed in the cycle are lit, and a sensor whose "
-            "flag is on is red. Click a word to see its course; click the time line to go to a cycle."
+            "Everything that MOS knew is in these tables. Words that changed in the cycle are highlighted, and a "
+            "sensor whose flag is on is red. Click a word to plot its values over time; click the time line to go to a "
+            "cycle."
         ),
         dashboard(),
         plain,
@@ -76,7 +77,7 @@ def dashboard(*more: Markup) -> Markup:
             **drawing,
         ),
         word,
-        element("svg", id="tables-plot", aria_label="the course of a word", **drawing),
+        element("svg", id="tables-plot", aria_label="the values of a word over time", **drawing),
         element("div", id="tables-names", role="group", aria_label="tables", class_="names"),
         element("div", id="tables-panels", class_="panels"),
         id="tables-live",
@@ -90,8 +91,8 @@ def _button(name: str, shown: str, label: str) -> Markup:
 
 
 def facts(head: Head, *, picked: int | None) -> Markup:
-    """Return what the script needs to know about the machine and its program. `picked` is the word whose course is
-    shown at first.
+    """Return what the script needs to know about the machine and its program. `picked` is the word whose values are
+    plotted at first.
     """
     tables = segments(head.sides)
     data: dict[str, Any] = {

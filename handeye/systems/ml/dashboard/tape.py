@@ -39,8 +39,8 @@ _SHARED: Final = ("TM",)
 _EVENTS: Final = ("FE", "GO", "EM", "SF")  # tables that change in some cycles
 
 Changes = NDArray[np.int32]
-"""Changed words, shape (n, 3), each with the cycle, the number of the word and its value. Changes of the same word are
-in the order in which they happened. Cycles count from 0. What a statement changes belongs to the cycle that follows
+"""Changed words, shape (n, 3): each row has the cycle, the number of the word and its value. Changes of the same word
+are in the order in which they happened. Cycles count from 0. What a statement changes belongs to the cycle that follows
 the statement.
 """
 

@@ -1,5 +1,5 @@
-"""Detects from touches and turns that a follower has closed its circuit, or that it is lost. The program of the paper
-detects neither, and runs on for ever.
+"""Detects from touches and turns that a follower, a program that follows an outline, has closed its circuit or is lost.
+The program of the paper detects neither, and runs on for ever.
 
 When a circuit is closed, left turns outnumber right turns by four. A follower that misses its wall turns left four
 times without a touch, and so goes around a square of one step back to where it was. The turns of such a square are not
@@ -24,7 +24,7 @@ ALONE: Final = 19  # statements without any touch, eight steps: a plate is at mo
 NOTHING: Final = (
     "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"
 )
-EVERYWHERE: Final = "the wand signals wherever it goes, so it is stuck, or walls are all around it"
+EVERYWHERE: Final = "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
 LONGEST: Final = 3000  # statements in which it closes a circuit, or is lost
 
 Point = tuple[float, float]
@@ -73,7 +73,7 @@ class Felt(Record, frozen=True, kw_only=True):
         if self.missed >= ROUND * IDLE:
             return f"the wand has touched nothing in {counted(self.missed // ROUND, 'square')}"
         if self.statements >= LONGEST:
-            return f"the circuit is open after {counted(self.statements, 'statement')}"
+            return f"the circuit is still open after {counted(self.statements, 'statement')}"
         return ""
 
     @property

@@ -14,17 +14,17 @@ FAULTS: Final = Catalogue(
     arm_fault("wand.closed", _EVERYWHERE),
     arm_fault("motor.x.dead"),
     arm_fault("motor.y.dead"),
-    arm_fault("motor.x.slow", harmless="A slow slide still goes to its goals."),
+    arm_fault("motor.x.slow", harmless="A slow slide still reaches its goals."),
     arm_fault("potentiometer.y.stuck"),
     planted(MISSING, "No plate lies on the table.", _NOTHING),
     planted(
         MOVED, "The plate lies this far from its place, along x.", _NOTHING,
-        harmless="The follower finds the plate if it lies ahead.",
+        harmless="The follower finds the plate if the plate lies ahead of it.",
         size=Size(unit="mm", usual=30.0, limits=(-60.0, 60.0)),
     ),
     planted(
         SLIPPERY, "The table is oiled; the value is the friction coefficient of the plate.",
-        harmless="The wand presses with less force than moves the plate.",
+        harmless="The force of the wand is too small to move the plate.",
         size=Size(unit="", usual=0.1, limits=(0.01, 0.25)),
     ),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""The names of the outlines. They are apart from the shapes, which need a simulator."""
+"""The names of the outlines. They are not in the module of the shapes, because that module needs a simulator."""
 
 from typing import Literal
 

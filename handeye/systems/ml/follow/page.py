@@ -86,8 +86,8 @@ def _sections(done: FollowReport) -> Iterator[Markup]:
 def _outline(done: FollowReport) -> Iterator[Markup]:
     yield note(
         "Left: the plate as it truly lies, seen from above, and the places at which the wand touched, numbered in "
-        "order. The base of the arm is at the top. Right: the distance of the wand's surface from the true outline "
-        "at each touch. Where a bar points down, the place is inside the plate, because the wand has bent."
+        "order. The base of the arm is at the top. Right: the distance of the wand's surface from the true outline at "
+        "each touch. Where a bar points down, the computed place is inside the plate, because the wand has bent."
     )
     yield element("figure", _drawn(done), class_="chart")
 
@@ -139,7 +139,7 @@ def _depths(true: Array, touches: Array) -> Iterator[Markup]:
         yield bar(_BARS[0] + number * width + 1, top, width - 2, high, class_="block")
     if off:
         worst = max(off, key=abs)
-        yield words(_BARS[0], 20, f"{counted(len(off), 'touch')}; the worst is {abs(worst):.2f} mm off")
+        yield words(_BARS[0], 20, f"{counted(len(off), 'touch')}; the largest distance is {abs(worst):.2f} mm")
 
 
 def _points(xs: Scale, ys: Scale, points: Array) -> str:

@@ -11,9 +11,10 @@ from handeye.systems.ml.machine.spec import LINEAR
 
 RADIUS: Final = 0.8  # mm, of the wand
 FELT: Final = 3.3
-"""Greatest distance (mm) of the wand from the outline when a touch is noticed. It has four terms: a slide goes up to
-2.1 mm in a cycle; the wand signals when it is bent by .1 mm; a position is wrong by up to .3 mm; and at a sudden start
-a finger lags behind its slide by up to v sqrt(m / k), which is .8 mm."""
+"""Greatest distance (mm) of the wand from the outline when a touch is noticed. It has four terms: a slide moves by up
+to 2.1 mm in a cycle; the wand signals when it is bent by .1 mm; a position is wrong by up to .3 mm; and at a sudden
+start a finger lags behind its slide by up to v sqrt(m / k), which is .8 mm.
+"""
 FOUND: Final = 38.1  # mm from a place of the outline to the nearest touch, one step and a half
 UNMOVED: Final = 0.1  # mm
 _DEEP: Final = 500.0  # units, deeper than touches

@@ -80,7 +80,7 @@ class Laid(Record, frozen=True, kw_only=True):
 
 
 class Plate(Mechanism[Laid]):
-    """The witness of the plate, for the referee only."""
+    """Remembers where the plate lay before the program began. Only the referee sees this."""
 
     name, kind = LAID, Laid
 

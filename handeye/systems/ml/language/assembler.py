@@ -1,4 +1,5 @@
-"""The symbolic assembler, which runs off line: it turns names into the numbers of statements, variables and sensors.
+"""The symbolic assembler, which is used before a run: it replaces names by the numbers of statements, variables and
+sensors.
 
     WAND EQU 1              a constant, such as the number of a sensor
     COUNT VAR               a variable, whose number the assembler chooses: `ADD COUNT 1`, `PRINT &COUNT`
@@ -154,6 +155,6 @@ class _Assembler:
 
 
 def _span(row: _Row, start: int, end: int) -> Span:
-    """The place of a part of a row, without blanks before it."""
+    """Return the place of a part of a row, without the blanks before it."""
     begin = end - len(row.text[start:end].lstrip())
     return Span(start=row.start + begin, end=row.start + end)

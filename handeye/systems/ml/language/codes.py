@@ -51,21 +51,24 @@ CODES: Final[dict[str, Mistake]] = {
         cure="`QUERY` shows a table; `handeye ml words` lists all tables",
     ),
     "M13": Mistake(
-        meaning="a loop ends that has not begun, or a RETURN has no GOSUB before it", example="10 NEXTI",
-        cure="write LOOPI before NEXTI, and LOOPJ before NEXTJ; call a subroutine that ends with RETURN by GOSUB",
+        meaning="the program has NEXTI, NEXTJ or RETURN, but not the LOOPI, LOOPJ or GOSUB that belongs to it",
+        example="10 NEXTI",
+        cure="write LOOPI before NEXTI, and LOOPJ before NEXTJ; use GOSUB to call a subroutine that ends with RETURN",
     ),
     "bad-parameter": Mistake(
         meaning="a parameter has a form that its command does not accept", example="10 LOAD 1 ABC",
         cure="write a number such as `-100`, or a reference such as `&17` or `-&17`",
     ),
     "flag-left-on": Mistake(
-        meaning="a motion follows a branch on a flag that no SENSOR has cleared, so the motion moves nothing",
+        meaning="a BRANCH has found a flag on, and no SENSOR clears the flag before the next motion, which therefore "
+        "moves nothing",
         example="10 SENSOR 5 -178 450\n20 DMOTOR 2 100\n30 BRANCH 40 50 5\n40 DMOTOR 2 -100\n50 STOP",
         cure="clear the flag with SENSOR before the motion", severity="warning",
     ),
     "limits-empty": Mistake(
-        meaning="no reading is strictly between two limits, so the flag comes on at once",
-        example="10 SENSOR 1 0 1\n20 STOP", cure="readings equal to a limit are outside; `SENSOR 1 -1 1` accepts 0",
+        meaning="no reading can be strictly between the two limits of a SENSOR, so the flag comes on at once",
+        example="10 SENSOR 1 0 1\n20 STOP",
+        cure="a reading that is equal to a limit counts as outside; to accept 0, write `SENSOR 1 -1 1`",
         severity="warning",
     ),
     "line-replaced": Mistake(
@@ -80,7 +83,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="write NEXTI or NEXTJ after the statements to repeat",
     ),
     "not-stored": Mistake(
-        meaning="a line of a file has no sequence number", example="MOTOR 3 2000",
+        meaning="a line of a program file has no sequence number", example="MOTOR 3 2000",
         cure="number the line; `handeye ml` executes lines without a number immediately",
     ),
     "point-not-filled": Mistake(
@@ -88,9 +91,9 @@ CODES: Final[dict[str, Mistake]] = {
         cure="fill the point with DEFPOINT or JOY, or give its positions: `5 POINT * 0 0 2000 ...`", severity="warning",
     ),
     "too-fast": Mistake(
-        meaning="a motion is so fast that its own start trips the limit of a finger's strain",
+        meaning="a motion starts so fast that the jolt trips the limit of a finger's strain gauge",
         example="10 SENSOR 7 -60 60\n20 DMOTOR 2 500\n30 SENSOR\n40 STOP",
-        cure="lower the speed before the motion with PUT MT m 8, or widen the limits", severity="warning",
+        cure="before the motion, lower the speed with `PUT MT m 8 x`, or widen the limits", severity="warning",
     ),
     "unguarded-motion": Mistake(
         meaning="no sensor is guarded during a motion", example="10 DMOTOR 2 -100\n20 STOP",
@@ -104,7 +107,7 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
         cure="write `NAME EQU number`, or `NAME VAR`",
     ),
     "bad-name": Mistake(
-        meaning="a name is that of a command or a table, or contains characters other than letters, digits and `_`",
+        meaning="a name is the name of a command or a table, or contains characters other than letters, digits and `_`",
         example="STOP EQU 5", cure="choose another name, which begins with a letter",
     ),
     "name-twice": Mistake(
@@ -112,7 +115,7 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
     ),
     "too-many-statements": Mistake(
         meaning="a symbolic program has more than 1000 statements", example="STOP\n" * 1001,
-        cure="write repeated statements once, as a subroutine",
+        cure="write repeated statements only once, as a subroutine, and call it with GOSUB",
     ),
     "unknown-name": Mistake(
         meaning="a name of a symbolic program is not defined", example="BRANCH AGAIN",

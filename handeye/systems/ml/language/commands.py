@@ -69,8 +69,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("ENABLE", "", "Switch the pump on. No motor moves; each motor holds its present position.", "ENABLE"),
         ("DISABLE", "", "Freeze all motors, then switch the pump off.", "DISABLE"),
         ("EXIT", "", "Switch the pump off and leave MOS.", "EXIT"),
-        ("LEFT", "", "The commands that follow are for the left arm.", "LEFT"),
-        ("RIGHT", "", "The commands that follow are for the right arm, as at the start.", "RIGHT"),
+        ("LEFT", "", "All commands that follow are for the left arm.", "LEFT"),
+        ("RIGHT", "", "All commands that follow are for the right arm, as they are at the start.", "RIGHT"),
         ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
         ("RUN", "[n]", "Run the stored program from statement n, or from its first statement.", "RUN 100"),
         ("TRY", "[n]", "Run the stored program one statement at a time: each statement waits for a key.", "TRY"),
@@ -79,20 +79,23 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "flow": (
         ("BAL", "v n", "Put the number of the next statement into variable v and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
-        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. With n2, go to n1 if the flag of any listed sensor is on, otherwise "
-                                      "to n2. -s asks whether the flag is off. Without a list, all sensors are asked.",
+        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. If n2 is given, go to n1 only if the flag of any listed sensor is on "
+                                      "(for -s: off), otherwise to n2. Without a list, the flags of all sensors "
+                                      "count.",
          "400 BRANCH 500 410 5 14"),
-        ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or to the next statement.",
+        ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or, without n2, to the "
+                              "next statement.",
          "40 BRCOMP 100"),
-        ("BROVFL", "n1 [n2]", "Go to n1 if the overflow indicator is on, otherwise to n2 or to the next statement. "
-                              "The indicator stays on.", "40 BROVFL 100 200"),
+        ("BROVFL", "n1 [n2]", "Go to n1 if the overflow indicator is on, otherwise to n2 or, without n2, to the next "
+                              "statement. The indicator stays on.", "40 BROVFL 100 200"),
         ("DELAY", "x", "Wait x hundredths of a second. The sensors stay guarded.", "50 DELAY 100"),
         ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another subroutine with GOSUB.", "60 GOSUB 900"),
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
          "70 IF &1 100 200 300"),
-        ("LOOPI", "x [v]", "Run the statements up to NEXTI x times; variable v counts from 1.", "10 LOOPI 3 20"),
-        ("LOOPJ", "x [v]", "Run the statements up to NEXTJ x times; LOOPJ may be inside LOOPI, and LOOPI inside "
-        "LOOPJ.",
+        ("LOOPI", "x [v]", "Repeat the statements up to NEXTI, so that they run x times. Variable v counts the times, "
+                           "from 1.", "10 LOOPI 3 20"),
+        ("LOOPJ", "x [v]", "Repeat the statements up to NEXTJ, so that they run x times. LOOPJ may be inside LOOPI, "
+                           "and LOOPI inside LOOPJ.",
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),
         ("NEXTJ", "", "The end of the statements that LOOPJ repeats.", "70 NEXTJ"),
@@ -101,13 +104,16 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "motion": (
         ("DEFPOINT", "n", "Store the positions of all motors in the POINT with this number.", "10 DEFPOINT 5"),
-        ("DMOTOR", "m x", "Move one motor by a distance from its goal.", "295 DMOTOR 2 -100"),
-        ("DMOVE", "x1 ... x12", "Move each motor by a distance from its goal. Motors that are left out do not move.",
+        ("DMOTOR", "m x", "Move one motor by the distance x from its present goal.", "295 DMOTOR 2 -100"),
+        ("DMOVE", "x1 ... x12", "Move each motor by a distance from its present goal. Motors that are left out do not "
+                                "move.",
          "4 DMOVE 0 0 &1 &2"),
         ("GOPOINT", "n [x]", "Go to the positions of a POINT. With x = 1, do not wait for the end of the motion.",
          "280 GOPOINT 5"),
-        ("HAND", "x11 [x12]", "Move the fingers only: their separation and the angle between them.", "30 HAND 650 900"),
-        ("JOY", "n", "Guide the arm with the joystick; the record key stores its positions in a POINT.", "JOY 5"),
+        ("HAND", "x11 [x12]", "Move only the fingers: x11 is their separation, and x12 is the angle between them.",
+         "30 HAND 650 900"),
+        ("JOY", "n", "Guide the arm with the joystick; the record key stores the positions of the motors in a POINT.",
+         "JOY 5"),
         ("MOTOR", "m x", "Move one motor to a position.", "288 MOTOR 3 4000"),
         ("MOVE", "x1 ... x12", "Move each motor to a position. Motors that are left out keep their goals.",
          "285 MOVE 0 0 2000 0 0 0 0 0 4000 -9000 650 1900"),
@@ -170,8 +176,10 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "host": (
         ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),
         ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored program.", "CMSLOAD FOLLOW"),
-        ("DHAND", "x11 [x12]", "Move the fingers by distances from their goals.", "30 DHAND -50"),
-        ("GOLINE", "n1 n2", "Go to the nearest position on the line through two POINTs.", "40 GOLINE 5 10"),
+        ("DHAND", "x11 [x12]", "Change the separation of the fingers by x11, and the angle between them by x12.",
+         "30 DHAND -50"),
+        ("GOLINE", "n1 n2", "Go to a position on the line through two POINTs: the one nearest to the present goals.",
+         "40 GOLINE 5 10"),
         ("GOMEAN", "n1 n2", "Go to the position halfway between two POINTs.", "40 GOMEAN 5 10"),
         ("GROT", "x [y [z]]", "Rotate the gripper about its own axes by yaw x, pitch y and roll z, in .01 degree.",
          "40 GROT 500"),
@@ -190,7 +198,7 @@ COMMANDS: Final[dict[str, Command]] = {
 } | {
     name: Command(
         code=name, category="control", usage="[line [word]]", example=name,
-        help=f"Show the table of {shape.title}, a line of it, or a word.",
+        help=f"Show the table {name} ({shape.title}), a line of it, or a word.",
     )
     for name, shape in SHAPES.items()
 }  # fmt: skip
@@ -210,7 +218,7 @@ MOTIONS: Final = frozenset(
         "DHAND",
     )
 )
-"""Commands that move the arm, and that do nothing while the flag of a sensor is on."""
+"""Commands that move the arm. They do nothing while the flag of a sensor is on."""
 
 
 TABLE_NAMES: Final = {word_of(name): name for name in SHAPES}

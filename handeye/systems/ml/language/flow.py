@@ -13,7 +13,7 @@ _LOOPS = {"LOOPI": "NEXTI", "LOOPJ": "NEXTJ"}
 
 
 class Flow:
-    """The ways through a program, which is given by its statements and their sequence numbers."""
+    """The paths through a program. The program is given by its statements and their sequence numbers."""
 
     def __init__(self, statements: Mapping[int, Statement]) -> None:
         self.statements = statements

@@ -1,8 +1,8 @@
 """Warnings on how a program uses its sensors: motions without guards, flags that stay on, and speeds that trip a
 limit by themselves.
 
-All paths through the program are followed, to find which sensors are guarded on every path to a statement, and which
-flags may be on.
+All paths through the program are followed. This shows, for each statement, which sensors are guarded on every path to
+it, and which flags may be on.
 """
 
 from collections.abc import Iterator, Mapping
@@ -31,7 +31,7 @@ _SPEED: Final = 8  # word of MT
 
 
 class Watch(NamedTuple):
-    """What is known before a statement."""
+    """What is known about the sensors before a statement is executed."""
 
     guarded: frozenset[int] = frozenset()  # sensors with limits, on every path
     on: frozenset[int] = frozenset()  # sensors whose flag a branch has found on, on some path
@@ -39,7 +39,7 @@ class Watch(NamedTuple):
     speeds: tuple[tuple[int, int], ...] = ()  # of slides, units a cycle, where the program has set them
 
     def joined(self, other: "Watch") -> "Watch":
-        """What is known where two paths meet."""
+        """Return what is known where two paths meet."""
         limits, speeds, others = dict(self.limits), dict(self.speeds), dict(other.speeds)
         both = {sensor: min(limit, limits[sensor]) for sensor, limit in other.limits if sensor in limits}
         faster = {
@@ -104,7 +104,7 @@ def watched(flow: Flow) -> dict[int, Watch]:
 
 
 def _passed(statement: Statement, watch: Watch) -> Watch:
-    """What is known after a statement."""
+    """Return what is known after a statement."""
     limits, speeds = dict(watch.limits), dict(watch.speeds)
     match statement.code, statement.parameters:
         case "SENSOR", ():
@@ -131,7 +131,7 @@ def _passed(statement: Statement, watch: Watch) -> Watch:
 
 
 def _branched(statement: Statement, watch: Watch, way: int) -> Watch:
-    """What is known where a BRANCH on flags has led."""
+    """Return what is known at the statement to which a BRANCH on flags has led."""
     if statement.code != "BRANCH" or len(statement.parameters) < 2:
         return watch
     yes, no, *sensors = statement.parameters
@@ -149,7 +149,7 @@ def _number(sensor: Parameter) -> int:
 
 
 def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
-    """Warn if the jolt at the start of a motion is beyond the limit of a finger's strain. A mass m on springs of
+    """Warn if the jolt at the start of a motion is beyond the limit of a finger's strain gauge. A mass m on springs of
     stiffness k that starts with speed v pulls with v sqrt(k m).
     """
     if not watch.limits:

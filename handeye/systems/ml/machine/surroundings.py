@@ -14,7 +14,9 @@ MOST_CORNERS: Final = 1000
 
 
 class Stimulus(Record, frozen=True, kw_only=True):
-    """A value that a channel has during some cycles and, if `motor` is given, only while it is beyond a position."""
+    """A value that a channel has during some cycles. If `motor` is given, the channel has the value only while this
+    motor is beyond a position.
+    """
 
     channel: str
     value: Annotated[float, msgspec.Meta(ge=-MOST, le=MOST)]  # SI

@@ -9,9 +9,9 @@ from handeye.systems.ml.bench.reporting import calls_of
 TROUBLES: Final = {
     "1": "the hand has met something on its way down",
     "2": "the hand does not hold one bar of the right width by its sides, or the fingers are weak",
-    "3": "the bar meets nothing where the table should be, or the gauges do not feel it",
+    "3": "the bar meets nothing where the table should be, or the gauges do not feel the contact",
     "4": "the bar does not lie flat on the table",
-    "5": "the bar does not meet the stop, or the gauges do not feel it",
+    "5": "the bar does not meet the stop, or the gauges do not feel the contact",
     "6": "the fingers do not open",
 }  # by the number that the program prints
 _MET, _NONE, _NO_TABLE, _TILTED, _NO_STOP, _SHUT = calls_of(TROUBLES)

@@ -20,7 +20,7 @@ _LONGEST: Final = 3600.0  # s of simulated time after which a program counts as 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MlFaultWork:
-    """Runs a job once for each fault. The condition of a case is the fault."""
+    """Runs a job once for each fault. Each case is a run with one fault, which is named in the case's `condition`."""
 
     plan: MlPlan
     world: WorldSpec
@@ -42,7 +42,9 @@ class MlFaultWork:
 
 
 def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[FaultRow], MlFaultWork]:
-    """Return the sweep that tries faults in a job, and its work. Raises Refused if no referee judges the task."""
+    """Return the trials of a job with each of its faults, and the function that makes one trial. Raises Refused if no
+    referee judges the task.
+    """
     if task not in PROGRAMS:
         raise Refused(f"the task {quoted(task)} has no referee, so no outcome is right or wrong")
     if not any_task(task).faults(world).kinds:

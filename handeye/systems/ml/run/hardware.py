@@ -24,7 +24,7 @@ Tell = Callable[[SystemEvent], None]
 
 
 class Ending(NamedTuple):
-    """The end of a run, as its job sees it."""
+    """How a run has ended, in the view of its job."""
 
     done: bool  # False: the operator is called
     text: str
@@ -63,15 +63,15 @@ class Hardware(ABC):
         """Switch the signal of an interlock, as a person or a device of the room does. Raises NoSuchName."""
 
     def hear(self, text: str) -> None:  # noqa: B027 - few jobs listen
-        """Take notice of a printed line."""
+        """Called with each line that the program prints."""
 
     def ending(self, statement: int) -> Ending | None:
-        """Return how the job has ended with a statement; None if it goes on."""
+        """Return how the job has ended, if a statement has ended it; None if the job continues."""
         return None
 
     @property
     def figures(self) -> Mapping[str, float]:
-        """Further figures of the job."""
+        """Numbers that the job adds to the result of the run."""
         return {}
 
     def files(self, world: WorldSpec, result: Result, parts: Sequence[PagePart]) -> Mapping[str, bytes]:

@@ -95,7 +95,7 @@ def sound(plan: MlPlan) -> None:
         if number is not None and number not in lines:
             raise BadFile(f"{plan.name} has no statement {number}")
     if plan.arm != "none" and (plan.stimuli or plan.outline):
-        raise BadFile(f"{plan.name} has stimuli or an outline, which only perfect motors sense")
+        raise BadFile(f"{plan.name} has stimuli or an outline, which apply only to perfect motors")
     if plan.arm != "none" and plan.left is not None:
         raise BadFile(
             f"{plan.name} has a program for the left arm, but the rectilinear arm has no left arm beside it"

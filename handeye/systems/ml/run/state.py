@@ -30,7 +30,7 @@ class MlState(SystemState, kw_only=True):
     statements: int = 0  # executed
     tape: Tape = field(default_factory=Tape)  # the tables by cycle
     standing: list[TaskPlace] = field(default_factory=list)
-    """The place of each arm's program that has not ended; the one whose turn it is comes first."""
+    """For each arm whose program has not ended, the place in this program. The program whose turn it is comes first."""
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:

@@ -118,7 +118,8 @@ VARIATION: Final = Variation(
         "N m",
         Noise(0.004),
         0.1,
-        "Standard deviation of the noise in the screwdriver's torque, as its current shows it. No source: our choice.",
+        "Standard deviation of the noise in the torque that the screwdriver's current indicates. No source: our "
+        "choice.",
     ),
 )
 

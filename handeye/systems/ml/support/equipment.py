@@ -39,7 +39,9 @@ class PowerScrewdriver:
 
 
 class ScrewdriverCurrent:
-    """The torque of the screwdriver (N m), as its current shows it. It is positive while a screw is driven in."""
+    """The torque of the screwdriver (N m), as indicated by its motor current. It is positive while a screw is driven
+    in.
+    """
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, noise: np.random.Generator, sigma: float
@@ -53,7 +55,7 @@ class ScrewdriverCurrent:
 
 
 class FingerForces(Record, frozen=True, kw_only=True):
-    """The greatest forces until now on both fingers together (N)."""
+    """The greatest forces so far on both fingers together (N)."""
 
     driving: float = 0.0  # along the fingers, while the screwdriver turns
     along: float = 0.0  # along the fingers, at any time

@@ -19,7 +19,7 @@ FOUND: Final[dict[int, Found]] = {
 """What the program found, by the number that it prints before the number of the screw."""
 _ENDS: Final[dict[Found, str]] = {
     "seated": "is seated",
-    "crossed": "is crossed or jammed, because it stopped the screwdriver too early, and is turned out",
+    "crossed": "is crossed or jammed: it stopped the screwdriver too early, so the program turns it out",
     "lost": "is no longer on the bit",
     "not taken": "turns, but no thread takes it",
     "loose": "is deep, but not tight yet",

@@ -74,7 +74,9 @@ SHAPES: Final[Mapping[str, Shape]] = {
     "CA": _words("calibration", SENSORS, RECENT, internal=False),
     "US": _words("user data", 256, 16, internal=False),
 }
-"""All tables by name. Internal tables are in main memory; external ones are on the disk, and are paged into frames."""
+"""All tables by name. Internal tables are in main memory. External tables are on the disk; a page of such a table is
+brought into a frame in main memory when it is needed.
+"""
 
 SHARED: Final = ("TM", "JY", "FK", "VR", "PF", "HL", "MX", "US")
 """Tables that both arms have in common, besides those that the background level keeps."""

@@ -96,7 +96,7 @@ class ArmMemory(MutableRecord, kw_only=True):
     CA: list[Word] = _zeros(SENSORS * RECENT)
     fine: list[Fine] = _zeros(MOTORS)  # set-points
     pace: list[Fine] = _zeros(MOTORS)
-    """Greatest advance of each set-point in a cycle of the present motion; 0: that of the motor."""
+    """Greatest advance of each set-point per cycle in the present motion; 0 stands for the motor's own limit."""
     tools: Word = 0  # the outputs of tools as they are
 
 

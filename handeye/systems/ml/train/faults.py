@@ -10,7 +10,7 @@ TROUBLES: Final = {
     "1": "the hand has met something on its way down",
     "2": "the hand holds no vehicle, or a wrong one",
     "3": "the peg does not go into its hole",
-    "4": "a wagon has not followed the engine, or the gauges do not feel it",
+    "4": "a wagon has not followed the engine, or the gauges do not feel the wagon",
     "5": "the fingers do not open",
 }  # by the number that the program prints
 _MET, _NONE, _NO_HOLE, _LEFT, _SHUT = calls_of(TROUBLES)

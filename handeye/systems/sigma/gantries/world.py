@@ -112,8 +112,9 @@ VARIATION: Final = Variation(
 
 @dataclass(frozen=True, slots=True)
 class GantryWorld:
-    """A world of the gantries. Without a specification, it has no errors. Each number is drawn from a stream of
-    its own, which is selected by the number's name."""
+    """A world of the gantries. A world without a specification has no errors. Each number is drawn from a random stream
+    of its own, which is selected by the number's name.
+    """
 
     spec: WorldSpec | None = None
 

@@ -82,7 +82,8 @@ CODES: Final[dict[str, Mistake]] = {
         cure="`handeye sigma words WORD` shows the form of a statement",
     ),
     "task-missing": Mistake(
-        meaning="START or KILL names no task of the program", example="10 START FEDER\n20 TASK FEEDER\n30 END",
+        meaning="START or KILL names a task that the program does not have",
+        example="10 START FEDER\n20 TASK FEEDER\n30 END",
         cure="give the name of a task that has a TASK line",
     ),
     "task-never-started": Mistake(
@@ -95,7 +96,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="give each task a different name; the lines before the first TASK line are the task MAIN",
     ),
     "text-unclosed": Mistake(
-        meaning="a text has no second quotation mark", example='10 PRINT "READY', cure='end it with `"`'
+        meaning="a text has no second quotation mark", example='10 PRINT "READY', cure='end the text with `"`'
     ),
     "too-deep": Mistake(
         meaning="an expression or a statement is nested more than 30 deep",
@@ -103,14 +104,15 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "too-many-lines": Mistake(
         meaning="a program has more than 5000 lines", example="\n".join(f"{n} END" for n in range(1, 5002)),
-        cure="write repeated lines once, as a subroutine, and call them with GOSUB",
+        cure="write repeated lines only once, as a subroutine, and call it with GOSUB",
     ),
     "unknown-statement": Mistake(
         meaning="a line does not begin with a statement of MAL", example="10 MOOVE X1 TO 5",
         cure="`handeye sigma words` lists the statements",
     ),
     "variable-never-set": Mistake(
-        meaning="a variable is read that no line sets, so its value is 0", example="10 HEIGHT = 5\n20 PRINT HIGHT",
+        meaning="the program reads a variable that no line sets, so the value is 0",
+        example="10 HEIGHT = 5\n20 PRINT HIGHT",
         cure="set the variable first, or correct its name", severity="warning",
     ),
     "wrong-value": Mistake(

@@ -33,13 +33,14 @@ WORDS: Final[dict[str, Word]] = {
     "RETURN": Word("statement", "RETURN", "Go back to the line after the last GOSUB.", "570 RETURN"),
     "FOR": Word(
         "statement", "FOR name = expression TO expression [STEP expression]",
-        "Repeat the lines up to NEXT for each value. The lines run at least once.", "10 FOR I = 1 TO 4",
+        "Repeat the lines up to NEXT, once for each value of the variable. The lines run at least once.",
+        "10 FOR I = 1 TO 4",
     ),
     "NEXT": Word("statement", "NEXT name", "The end of the lines that FOR repeats.", "90 NEXT I"),
     "PRINT": Word(
         "statement", "PRINT [item {(,|;) item}]",
-        "Print texts and numbers. `,` moves to the next zone of 14 columns, `;` does not. With either of them at the "
-        "end of the statement, the next PRINT continues the same line.",
+        "Print texts and numbers. `,` moves to the next zone of 14 columns, `;` does not. If the statement ends with "
+        "`,` or `;`, the next PRINT continues the same line.",
         '60 PRINT "PIECES", PIECES',
     ),
     "INPUT": Word("statement", "INPUT name", "Wait for a number from the console.", "10 INPUT HEIGHT"),
@@ -60,7 +61,8 @@ WORDS: Final[dict[str, Word]] = {
         "40 START FEEDER, SCREWER",
     ),
     "KILL": Word(
-        "statement", "KILL task {, task}", "End tasks. A motion that such a task has begun continues to its end.",
+        "statement", "KILL task {, task}",
+        "End tasks. A motion that one of these tasks has begun continues to its end.",
         "90 KILL FEEDER",
     ),
     "SET": Word("statement", "SET flag", "Set a flag. Setting it again has no effect.", "220 SET PARTREADY"),
@@ -78,7 +80,8 @@ WORDS: Final[dict[str, Word]] = {
     "MOVE": Word(
         "statement", "MOVE axis (TO|BY) expression {, axis (TO|BY) expression} [SLOW expression|LINE] [NOWAIT]",
         "Move axes to positions, or by distances (both in mm). Each axis gets one command, in the order of the text; "
-        "the axes move at the same time, each at its own speed. Then wait until all have stopped.",
+        "the axes move at the same time, each at its own speed. Without NOWAIT, the statement ends when all axes have "
+        "stopped.",
         "10 MOVE X1 TO 300, Y1 TO 150",
     ),
     "ORIGIN": Word(
@@ -115,15 +118,15 @@ WORDS: Final[dict[str, Word]] = {
     "ELSE": Word("part", "ELSE (line|statement)", "What to do if the condition of IF does not hold."),
     "TO": Word("part", "axis TO expression", "In MOVE: the position, in mm. In FOR: the last value."),
     "BY": Word("part", "axis BY expression", "The distance, in mm."),
-    "STEP": Word("part", "STEP expression", "In FOR: by how much the value grows; 1 if STEP is left out."),
+    "STEP": Word("part", "STEP expression", "In FOR: by how much the value grows each time; 1 if STEP is left out."),
     "SLOW": Word("part", "SLOW expression", "Move at this constant speed, 2 to 254 mm/s."),
     "LINE": Word(
         "part", "LINE",
         "Choose constant speeds with which all axes arrive together, so that the path is straight.",
     ),
     "NOWAIT": Word("part", "NOWAIT", "Continue as soon as the commands are sent; do not wait for the motion."),
-    "STANDARD": Word("part", "STANDARD", "In LIMIT: the force limit that the machine has before any LIMIT."),
-    "ABORT": Word("part", "ON ABORT", "A motor was stopped: at the end of its rail, or by a force."),
+    "STANDARD": Word("part", "STANDARD", "In LIMIT: the force limit that applies before the program sets any LIMIT."),
+    "ABORT": Word("part", "ON ABORT", "An abort means that a motor was stopped by a force or at the end of its rail."),
     "ABS": Word("function", "ABS(expression)", "The value without its sign."),
     "INT": Word("function", "INT(expression)", "The largest whole number that does not exceed the value."),
     "SGN": Word("function", "SGN(expression)", "1, 0 or -1, for a positive value, zero, or a negative value."),
@@ -141,8 +144,8 @@ WORDS: Final[dict[str, Word]] = {
         "function", "CRASHPOS(axis)",
         "The position (in mm) at which the last motion of the axis was aborted, as the motor reports it.",
     ),
-    "STATUS": Word("function", "STATUS(axis)", "0 free, 1 busy, 2 stopped at the end of its rail, 3 stopped by a "
-    "force."),
+    "STATUS": Word("function", "STATUS(axis)", "The state of the axis: 0 free, 1 busy, 2 stopped at the end "
+    "of its rail, 3 stopped by a force."),
     "BEAM": Word(
         "function", "BEAM(arm)",
         "The answer of the arm's hand: 1 if an object breaks the light beam of the hand, 0 if not.",

@@ -25,7 +25,7 @@ _LONGEST: Final = 600.0  # s of simulated time after which a program counts as e
 
 
 class MalFaultRow(TrialRow, frozen=True, kw_only=True):
-    """The trial of one fault. The row's condition is the fault."""
+    """The trial of one fault. The row's `condition` names the fault."""
 
     result: str = ""  # of the job: right, stopped, endless or silent
     message: str = ""  # why the program stopped, or what the referee found
@@ -46,7 +46,7 @@ class MalFaultRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MalFaultWork:
-    """Runs a job once for each fault. The condition of a case is the fault."""
+    """Runs a job once for each fault. Each case is a run with one fault, which is named in the case's `condition`."""
 
     plan: MalPlan
     world: WorldSpec
@@ -70,7 +70,9 @@ class MalFaultWork:
 
 
 def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[MalFaultRow], MalFaultWork]:
-    """Return the sweep that tries faults in a job, and its work. Raises Refused if no referee judges the task."""
+    """Return the trials of a job with each of its faults, and the function that makes one trial. Raises Refused if no
+    referee judges the task.
+    """
     plan = SIGMA.own_plan(task)
     if not plan.pieces:
         raise Refused(f"the task {quoted(task)} has no referee, so no outcome is right or wrong")
