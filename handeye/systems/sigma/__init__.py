@@ -14,9 +14,9 @@ ENTRY = Entry(
         "undo": "its motors cannot undo their motions; `back` in the stepper returns to an earlier state of the run",
     },
     commands="""
-sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.
+sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs in MAL, whose tasks run in parallel and are synchronised by flags.
 trials chess = handeye.systems.sigma.cli.jobs:chess_trials: Sort chess pieces in many worlds: success rate, height and position errors.
-trials prco = handeye.systems.sigma.cli.jobs:prco_trials: Assemble the plate of the pump in many worlds: success rate, and depth and clamp of its screws.
+trials prco = handeye.systems.sigma.cli.jobs:prco_trials: Assemble the plate of the pump in many worlds: success rate, depth and clamping force of the screws.
 trials handover = handeye.systems.sigma.cli.jobs:handover_trials: Hand pieces from arm to arm in many worlds: success rate, and position errors.
 trials insert = handeye.systems.sigma.cli.jobs:insert_trials: Find holes by force in many worlds: success rate, forces, and tries.
 trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line in many worlds: success rate, and position errors.

@@ -111,8 +111,8 @@ def test_the_straight_motions_add_up_to_where_the_perfect_motors_are() -> None:
         ("CURVE X1, 2", "the planner chooses how the arm accelerates"),
         ("MOVE X1 TO 20 + 5", "a value is calculated during the run"),
         ("MOVE X1 TO 700", "the rail of X goes from 0 to 600 mm, not to 700"),
-        ("MOVE X1 TO 20 NOWAIT", "NOWAIT goes on before the arm has arrived"),
-        ("MOVE X1 TO 20, Y1 TO 9 SLOW 5", "with SLOW, several axes leave a straight line"),
+        ("MOVE X1 TO 20 NOWAIT", "with NOWAIT, the program would go on before the arm has arrived"),
+        ("MOVE X1 TO 20, Y1 TO 9 SLOW 5", "with SLOW, the path of several axes is not straight"),
         ("MOVE X2 TO 20", "it uses arm 2, and line 10 uses arm 1"),
         ("ACTUATE BELL", "the arm has no BELL"),
         ("ORIGIN X1", "ORIGIN is a single motion of the arm: name all three axes"),
@@ -208,7 +208,7 @@ def test_what_the_stanford_arm_lacks_is_refused_by_line(
     file = tmp_path / "lacks.mal"
     file.write_text(f"10 ORIGIN X1\n20 {line}\n", encoding="utf-8")
     code, _, err = command("sigma", "borrow", str(file))
-    assert (code, f"line 20 {why}; the Stanford arm takes only the place of arm 1" in err) == (2, True)
+    assert (code, f"line 20 {why}; the Stanford arm replaces only arm 1" in err) == (2, True)
 
 
 @pytest.mark.parametrize("job", ["bridge", "borrow"])

@@ -1,1 +1,3 @@
-"""The bridge from MAL to the program of planned motions: single tasks of MOVE, LIMIT, FORCE tests and ACTUATE."""
+"""The bridge from MAL to plans for another arm. It translates programs that have a single task of motions, force limits
+and force tests.
+"""

@@ -50,8 +50,8 @@ _MM: Final = 0.001
 class BorrowedArm(PerfectMotors):
     """Moves the tool of an arm as the motors of arm 1 would move its hand.
 
-    There is no reflex at the standard limit, because this arm feels several newtons of its own in free motion. After
-    LIMIT with a force, a motion of this axis stops within a servo period after the force is exceeded, not within a
+    There is no reflex at the standard limit, because this arm feels several newtons even in free motion. After LIMIT
+    with a force, a motion of this axis stops within a servo period after the force is exceeded, not within a
     millisecond.
     """
 
@@ -140,7 +140,7 @@ class BorrowedArm(PerfectMotors):
         return (motor.place + motor.steps * self._share(number, motor)) * STEP_MM
 
     def _share(self, number: int, motor: MotorMemory) -> float:
-        """Return the share of its motion that a motor should have made now."""
+        """Return the share of its motion that a motor should have made by now."""
         if not motor.steps:
             return 0.0
         s = (self._memory.now - motor.begun) / max(1.0, motor.until - motor.begun - SETTLES * 1e6)

@@ -43,7 +43,7 @@ def check_program(lines: Sequence[Line]) -> None:
     for line in lines:
         why = next(_lacks(line), None)
         if why is not None:
-            raise BadFile(f"line {line.number} {why}; the Stanford arm takes only the place of arm 1")
+            raise BadFile(f"line {line.number} {why}; the Stanford arm replaces only arm 1")
 
 
 def _lacks(line: Line) -> Iterator[str]:

@@ -1,11 +1,11 @@
 """Translates a MAL program of a single task into the program that the planner plans. Every line that cannot become a
 motion is refused.
 
-The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A
-MOVE of one axis, or with LINE, is a straight motion, and a MOVE of several axes is a motion on any path. A LIMIT
-becomes a guard of the motions of its axis, and a test of FORCE right after a motion becomes a guard of this motion,
-so that the motion stops at this force; the program no longer tests the force afterwards. Without a LIMIT there is
-no guard, because an arm that is not balanced feels several newtons of its own in free motion.
+The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A MOVE
+of one axis, or with LINE, is a straight motion, and a MOVE of several axes is a motion on any path. A LIMIT becomes a
+guard of the motions of its axis, and a test of FORCE right after a motion becomes a guard of this motion, so that the
+motion stops at this force; the program no longer tests the force afterwards. Without a LIMIT there is no guard, because
+an arm that is not balanced feels several newtons even in free motion.
 """
 
 from collections.abc import Iterator, Sequence
@@ -68,7 +68,7 @@ _WHY: Final = {
 
 
 _CURE: Final = (
-    f"a plan can have only {', '.join(_TURNED[:5])} of one task, tests of FORCE right after a MOVE, and GOTO; "
+    f"a plan can have only one task, with {', '.join(_TURNED[:5])}, GOTO, and tests of FORCE right after a MOVE; "
     "`handeye sigma run` runs any program"
 )
 
@@ -117,7 +117,7 @@ def _refused(line: Line, why: str, *labels: Label) -> Diagnostic:
 
 
 def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Arrange refusals; only the last says what a plan can have, because this is the same for all of them."""
+    """Arrange refusals. Only the last one says what a plan can contain, because this text is the same for all."""
     *others, last = arranged(found)
     return [*others, replace(last, help=_CURE)]
 
@@ -135,10 +135,10 @@ def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
         if word != "IF" and any(constant(value) is None for value in values):
             yield _refused(line, "a value is calculated during the run")
         elif word == "MOVE" and not statement.waits:
-            yield _refused(line, "NOWAIT goes on before the arm has arrived")
+            yield _refused(line, "with NOWAIT, the program would go on before the arm has arrived")
         elif word == "MOVE" and statement.slow is not None and len(statement.goals) > 1:
             yield _refused(
-                line, "with SLOW, several axes leave a straight line; use LINE, or one MOVE for each axis"
+                line, "with SLOW, the path of several axes is not straight; use LINE, or one MOVE for each axis"
             )
         elif word == "ORIGIN" and len(statement.names) != len(COMPONENTS):
             yield _refused(line, "ORIGIN is a single motion of the arm: name all three axes")
@@ -273,7 +273,9 @@ class _Translation:
         way = ways.pop() if len(ways) == 1 else UNKNOWN
         if isinstance(way, Unknown):
             self._refuse(
-                line, "ON ABORT leads to different lines for its axes, or in different paths of the program"
+                line,
+                "ON ABORT leads to different lines for the axes of this motion, or on different paths through the "
+                "program",
             )
             return []
         tested = _Draft(
@@ -307,7 +309,9 @@ class _Translation:
             arm = statement.goals[0].axis.text[1]
             told = f"the place of {' and '.join(f'{name}{arm}' for name in lost)} is not known here"
             self._refuse(
-                line, f"{told}; begin with ORIGIN, and name all axes after a motion that a force may stop"
+                line,
+                f"{told}; begin the program with ORIGIN; after a motion that a force may stop, name all axes in the "
+                "next MOVE",
             )
             return None
         if statement.slow is not None or (statement.straight and len(ways) > 1):

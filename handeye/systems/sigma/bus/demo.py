@@ -35,7 +35,7 @@ _ENOUGH: Final = 60_000_000  # microseconds
 
 @dataclass(kw_only=True)
 class Demonstration:
-    """A demonstration: its log and its results."""
+    """The log and the results of a demonstration."""
 
     bus: WiredBus
     log: list[AnyBusEvent] = field(default_factory=list)

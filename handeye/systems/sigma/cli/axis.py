@@ -38,7 +38,8 @@ def axis(
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
 ) -> int:
-    """Make one move of one motor: its speed, the force that it requires, and whether the rotor follows or slips.
+    """Simulate one move of one motor. Show its speed, the force that it requires, and whether the rotor follows or
+    slips.
 
     Exit code 0: no step was lost; 1: steps were lost; 2: bad input.
     """

@@ -138,10 +138,10 @@ def run(
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
 ) -> int:
-    """Run a program in MAL over the wires, and say how busy the bus and the computer were.
+    """Run a program in MAL over the simulated wires of the bus, and say how busy the bus and the computer were.
 
-    With --out, the command draws a diagram of the whole run or of a part. `handeye sigma run --arm wired` keeps a
-    run.
+    With --out, the command draws a diagram of the whole run or of a part. This run is not kept in a folder; to keep
+    one, use `handeye sigma run --arm wired`.
 
     Exit code 0: all tasks have ended; 1: the program stopped before its end; 2: bad input; 130: interrupted.
     """
@@ -269,13 +269,13 @@ def self_test(
         bool,
         Parameter(
             negative=(),
-            help="Test the bus of an assembly line: two robots, a feeder and a remover on three segments.",
+            help="Test the bus of an assembly line, with two robots, a feeder and a remover on three segments.",
         ),
     ] = False,
     seed: Seed = 0,
     json: Json = False,
 ) -> int:
-    """Run the power-on self-tests: the computer, the segments, each microcomputer, the status lines.
+    """Run the power-on self-tests of the computer, the segments, each microcomputer, and the status lines.
 
     Exit code 0: all tests passed; 1: a test failed; 2: bad input.
     """

@@ -52,8 +52,8 @@ Arm = Annotated[
 
 sigma = App(
     name="sigma",
-    help="SUPERSIGMA (Milan, 1981): programs of parallel tasks and flags in MAL.\n\nWithout a command, `handeye sigma` "
-    "opens the console of 1981.",
+    help="SUPERSIGMA (Milan, 1981): programs in MAL, whose tasks run in parallel and are synchronised by flags.\n\n"
+    "Without a command, `handeye sigma` opens the console of 1981.",
 )
 
 
@@ -153,7 +153,7 @@ def check(
 
 
 def words(word: str | None = None, /) -> int:
-    """Explain a word of MAL; without a word, list all.
+    """Explain a word of MAL. Without a word, list all words.
 
     Parameters
     ----------

@@ -38,7 +38,8 @@ def diagnose(
     ] = None,
     json: Json = False,
 ) -> int:
-    """Find the part of SUPERSIGMA that fails: first the computer, then bus, microcomputers, transducers and drives.
+    """Find the faulty part of SUPERSIGMA. The tests begin with the computer, and go on with the bus, the
+    microcomputers, the transducers and the drives.
 
     Without options, the tests run on a sound machine.
 

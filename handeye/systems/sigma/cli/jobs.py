@@ -88,7 +88,7 @@ def insert(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Straighten pegs in a rack, and find the holes for them by force, with both arms.
+    """Straighten pegs in a rack with both arms, and find the holes for the pegs by force.
 
     `plans/insert.mal` runs on two simulated gantries in a world drawn from a seed. Each peg is rotated by up to 20
     degrees, and plates lie up to 3 mm beside their places. A referee then checks that each peg stands in its hole, no
@@ -237,7 +237,8 @@ def prco_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble the plate of the pump in many worlds. Shows how often all is right, screw depth and clamp, and bus load.
+    """Assemble the plate of the pump in many worlds. Shows how often all is right, depth and clamping force of the
+    screws, and the bus load.
 
     Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.

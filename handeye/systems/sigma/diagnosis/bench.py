@@ -258,5 +258,5 @@ class Bench:
         self.machine.light[NUMBERS[f"HAND{arm}"]] = passes
 
     def block(self, arm: int, *, there: bool) -> None:
-        """Fix a block between the fingers of a hand, but not midway, or take the block away."""
+        """Fix a block between the fingers of a hand, but not midway; or, with `there` false, take the block away."""
         (self.machine.blocks.add if there else self.machine.blocks.discard)(NUMBERS[f"HAND{arm}"])

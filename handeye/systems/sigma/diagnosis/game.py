@@ -44,7 +44,7 @@ MEANS: Final = {
     ),
     "force": Means("force ARM", "apply known forces to a wrist, along each of its axes X, Y and Z"),
     "beam": Means(
-        "beam ARM", "read the light beam of a hand: free, with a rod in it, and with a grey filter in it"
+        "beam ARM", "read the light beam of a hand with nothing in it, then with a rod, then with a grey filter"
     ),
     "grip": Means("grip ARM", "close a hand on a block that is not in the middle of its fingers"),
     "origin": Means("origin AXIS", "move to the low end of a rail with ORIGIN"),
@@ -222,7 +222,7 @@ class Game:
 
 
 def demonstrate(game: Game, tell: Callable[[str], None]) -> Verdict:
-    """Play a game in the order of tests in the paper, as a player would type it."""
+    """Play a game with the tests in the order of the paper. The lines are those that a player would type."""
 
     def show(typed: str, _: Sequence[str]) -> None:
         tell(f"> {typed}")

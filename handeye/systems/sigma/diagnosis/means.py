@@ -70,8 +70,9 @@ def self_tests(at: Technician) -> SelfTests:
 
 @dataclass(frozen=True, slots=True)
 class Clocks:
-    """How much slower the clock of each microcomputer is than usual (percent), measured by its answers. None
-    for a microcomputer that does not answer."""
+    """By how many percent the clock of each microcomputer is slower than usual, measured by the times of its answers.
+    None for a microcomputer that does not answer.
+    """
 
     slow: dict[int, float | None]
 
@@ -83,7 +84,7 @@ class Clocks:
     @property
     def lines(self) -> Sequence[str]:
         each = [f"{name_of(n)} {'-' if off is None else f'{off:+.1f}'}" for n, off in self.slow.items()]
-        return [f"clocks, by how many percent each is slow: {', '.join(each)}"]
+        return [f"how slow each clock is, in percent: {', '.join(each)}"]
 
 
 def clocks(at: Technician) -> Clocks:
@@ -214,8 +215,9 @@ def _motion(bus: MicrobusPort, axis: str, command: Command, steps: int) -> Motio
 
 @dataclass(frozen=True, slots=True)
 class Lost:
-    """Steps that motors have lost, computed from the count at which the low switch acts, and the axes that a
-    force has stopped."""
+    """The steps that motors have lost (computed from the count at which the low switch acts), and the axes that a force
+    has stopped.
+    """
 
     what: str
     steps: dict[str, int | None]  # None: the switch was not found
@@ -305,8 +307,9 @@ def forces(at: Technician, arm: int) -> Forces:
 
 @dataclass(frozen=True, slots=True)
 class Beam:
-    """Whether a light beam reads as interrupted: when free, with a rod, and with a grey filter. None if there
-    was no answer."""
+    """Whether a light beam reads as interrupted: with nothing in it, with a rod in it, and with a grey filter in it.
+    None if there was no answer.
+    """
 
     arm: int
     free: bool | None
@@ -315,9 +318,10 @@ class Beam:
 
     @property
     def lines(self) -> Sequence[str]:
-        words = {True: "cut", False: "free", None: "no answer"}
+        words = {True: "broken", False: "free", None: "no answer"}
         return [
-            f"beam {self.arm}: nothing {words[self.free]}, a rod {words[self.rod]}, grey filter {words[self.glass]}"
+            f"beam {self.arm} with nothing in it: {words[self.free]}; with a rod: {words[self.rod]}; with a grey "
+            f"filter: {words[self.glass]}"
         ]
 
 

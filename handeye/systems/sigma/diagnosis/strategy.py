@@ -1,8 +1,8 @@
 """Runs the tests in the order of the paper: first the computer, the bus, interfaces and microcomputers, then
 transducers and drives.
 
-The strategy uses only the results of tests, not the planted fault. Its verdict names a part, or says that no
-test can decide.
+The strategy uses only the results of tests, not the planted fault. Its verdict names a part, or says that no test can
+decide which part is faulty.
 """
 
 from collections.abc import Callable, Iterator, Sequence

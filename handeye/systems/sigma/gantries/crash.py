@@ -75,8 +75,8 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
         speed: speed of arm 1 (mm/s), or None for the greatest speed that a motor reaches over the distance.
         reflex: True if the wires from the wrists to the motors are connected.
         endless_loop: True if the central computer hangs after it has sent the move, and reads no status.
-        lower: the arm whose hand is lower, so that the other arm is hit above its wrist, or hits with its column
-            above the wrist; 0: the hands meet.
+        lower: the arm whose hand is lower, so that its column, above the wrist, and the hand of the other arm meet;
+            0: the hands meet.
     """
     if speed is not None and not SLOWEST <= speed <= FASTEST:
         raise BadArgument(f"a constant speed must be between {SLOWEST:g} and {FASTEST:g} mm/s, not {speed:g}")
@@ -187,7 +187,7 @@ def lines(found: Crash) -> list[str]:
 
 _MEETS: Final = (
     "into the stationary hand of arm 2",
-    "with its column, above its wrist, into the stationary hand of arm 2",
+    "with its column, above the wrist, into the stationary hand of arm 2",
     "into the stationary column of arm 2, above the wrist",
 )
 _HITS: Final = {1: "the hand of arm 2, with the column of arm 1", 2: "the column of arm 2"}

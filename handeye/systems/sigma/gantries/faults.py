@@ -43,7 +43,7 @@ def _possible(planted: Planted) -> bool:
 
 @cache
 def catalogue() -> Catalogue:
-    """Return the faults that a job can have. The matrix of faults has one fault of each kind."""
+    """Return the faults that a job can have. Trials of faults use one fault of each kind."""
     kinds = [
         FaultKind(name=name, meaning=f"{planted.told[0].upper()}{planted.told[1:]}.", when="before")
         for name, planted in every_fault().items()

@@ -66,7 +66,7 @@ class Handover(JobTask):
             "placed": at_most(max(places), PLACED, "mm", "greatest distance of a piece from its last place"),
             "pressed": at_most(max(proud), PRESSED, "mm", "greatest height by which a pin still protrudes"),
             "counted": at_most(
-                wrong, 0, "pieces", "difference between the program's count and the finished pieces"
+                wrong, 0, "pieces", "difference between the program's count and the number of finished pieces"
             ),
             "apart": at_most(watched.touched_ms, 0, "ms", "time for which the arms touched each other"),
         }

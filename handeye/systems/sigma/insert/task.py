@@ -67,7 +67,7 @@ class Insertion(JobTask):
                 abs(counted - inserted),
                 0,
                 "pegs",
-                "difference between the program's count and the inserted pegs",
+                "difference between the program's count and the number of inserted pegs",
             ),
             "apart": at_most(watched.touched_ms, 0, "ms", "time for which the arms touched each other"),
         }

@@ -100,8 +100,9 @@ class BusOperations:
         task.pc += 1
 
     def _do_found(self, name: str, task: TaskMemory, instruction: Instruction) -> None:
-        """Compare the counts that axes had at the ends of their rails with 0. Any other count shows that steps
-        were lost since the last ORIGIN."""
+        """Compare with 0 the counts that axes had at the ends of their rails. A count other than 0 shows that steps
+        were lost since the last ORIGIN.
+        """
         lost = []
         for axis in names_of(instruction):
             if axis in self.memory.certain:

@@ -50,8 +50,9 @@ class Loop(Record, frozen=True, kw_only=True):
 
 
 class Outgoing(Record, frozen=True, kw_only=True):
-    """A command that waits to be sent. A command to a motor is given by its goal position, any other by its
-    five bytes."""
+    """A command that waits to be sent. A command to a motor is given by its goal position, any other command by its
+    five bytes.
+    """
 
     to: str  # the axis or device that has to be free
     target: int | None = None  # steps

@@ -69,7 +69,7 @@ class Plate(JobTask):
         wrong = abs(counted[0] - pins.right) + abs(counted[1] - screws.right)
         return {
             "plate": at_most(max(gaps), SEATED, "mm", "greatest gap between plate and base at a corner"),
-            "pins": at_least(pins.right, PINS, "pins", "pins at the bottom of their holes, upright"),
+            "pins": at_least(pins.right, PINS, "pins", "pins that stand upright at the bottom of their holes"),
             "screws": at_least(
                 screws.taken, pump.screws, "screws", "threads with a screw that is not crossed"
             ),
@@ -80,7 +80,7 @@ class Plate(JobTask):
                 wrong,
                 0,
                 "parts",
-                "difference between the program's counts and the pins and screws in place",
+                "difference between the program's counts and the numbers of pins and screws in place",
             ),
             "apart": at_most(watched.touched_ms, 0, "ms", "time for which the arms touched each other"),
         }

@@ -117,7 +117,7 @@ MAL_FAULTS: Final = Sweep(
         "right": "right", "named": "right", "stopped": "wrong", "misnamed": "wrong", "endless": "wrong",
         "silent": "silent",
     },
-    success="work right, or stopped and the fault named by DIAGNOSE",
+    success="right, or stopped with the fault named by DIAGNOSE",
     noun="fault",
     sentence=_sentence,
     summary=_summary,
