@@ -17,7 +17,7 @@ def wrap(value: int) -> int:
 
 
 def double(high: int, low: int) -> int:
-    """Return the value of a pair of words, which has 32 bits."""
+    """Return the 32-bit value of a pair of words."""
     return (high << 16) | (low & 0xFFFF)
 
 

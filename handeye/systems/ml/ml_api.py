@@ -144,10 +144,10 @@ class Ml:
         (10.0, 0.692, 13.71)
 
         Args:
-            period: time from one reading of the sensors to the next, ms.
-            bandwidth: bandwidth of the slide's servo, Hz.
-            speed: speed of the slide, mm/s.
-            limit: limit of the strain gauge, grams.
+            period: time from one reading of the sensors to the next (ms).
+            bandwidth: bandwidth of the slide's servo (Hz).
+            speed: speed of the slide (mm/s).
+            limit: limit of the strain gauge (grams).
             phase: when in the period the contact occurs: 0 is just after a reading, nearly 1 is just before the next.
 
         Returns:

@@ -134,7 +134,7 @@ class Mal:
 
     @property
     def believed(self) -> dict[str, float]:
-        """Position of each axis (mm) in the belief of the program."""
+        """The position (mm) that each axis has according to the program, which can be wrong."""
         return {axis: round(count * STEP_MM, 4) for axis, count in self._vm.memory.counts.items()}
 
     @property

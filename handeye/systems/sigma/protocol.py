@@ -206,7 +206,7 @@ def signed(answer: Sequence[int]) -> int:
 
 
 def within(value: int, least: int, most: int, what: str) -> int:
-    """Return the number if it fits its field. Raises BadArgument if it does not."""
+    """Return `value` if it is from `least` to `most`. Raises BadArgument if it is not."""
     if not least <= value <= most:
         raise BadArgument(f"{what} must be between {least} and {most}, not {value}")
     return value

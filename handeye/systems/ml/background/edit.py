@@ -19,7 +19,7 @@ def erase(mos: "Interpreter", first: int, last: int | None = None) -> None:
 
 
 def listing(mos: "Interpreter", first: int | None = None, last: int | None = None) -> None:
-    """List the whole program, one statement, or a range."""
+    """List the whole program, one statement, or a range of statements."""
     low = 1 if first is None else first
     high = last if last is not None else LAST if first is None else first
     lines = mos.program.listing(low, high)

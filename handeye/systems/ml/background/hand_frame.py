@@ -50,8 +50,8 @@ def _rotation(angles: Mapping[int, int]) -> Array:
 
 
 def _angles(frame: Array, near: Mapping[int, int]) -> dict[int, int]:
-    """Return the angles of the motors (.01 deg) at which the gripper has a frame. There are two solutions: the one
-    nearer to the angles `near` is returned.
+    """Return the angles of the motors (.01 deg) that give the gripper the orientation `frame`. Of the two solutions,
+    the one nearer to the angles `near` is returned.
     """
     yaw = asin(min(max(float(frame[2, 1]), -1.0), 1.0))
     if hypot(frame[2, 0], frame[2, 2]) < 1e-9:  # roll and pitch turn about one axis: keep the pitch

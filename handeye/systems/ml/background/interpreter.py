@@ -107,8 +107,8 @@ class Interpreter:
         return bool(self.memory.stopped)
 
     def ready(self) -> bool:
-        """End the wait of a statement if it is over. Returns True if no statement waits any longer. In an emergency,
-        stops the program.
+        """End the wait of a statement if its condition is met. Returns True if no statement waits any longer. In an
+        emergency, stops the program.
         """
         memory, level = self.memory, self.level
         if self.running and self.check():
@@ -172,8 +172,8 @@ class Interpreter:
         self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
 
     def again(self, *, onward: bool) -> None:
-        """After a stop, enable the arm and continue: with the next statement, or with the one that was stopped.
-        Raises MlError (M14) while the cause of an emergency persists.
+        """After a stop, enable the arm. Then continue with the next statement if `onward` is true, or else with the
+        statement that was stopped. Raises MlError (M14) while the cause of an emergency persists.
         """
         memory = self.memory
         for level in (self._own, self.level):

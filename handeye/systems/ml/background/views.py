@@ -1,4 +1,4 @@
-"""The tables that the background level keeps, in which GET, QUERY and the dashboard see the program, its points, the
+"""The tables that the background level keeps. In them, GET, QUERY and the dashboard see the program, its points, the
 trace and the host.
 """
 
@@ -124,15 +124,15 @@ class CommandCodes(_ReadOnly):
 
 
 class ErrorTexts(_ReadOnly):
-    """The table ER: the meanings of the errors M01 to M16, two characters a word."""
+    """The table ER: the meanings of the errors M01 to M16, with two characters in each word."""
 
     def read(self, line: int, word: int) -> int:
         return packed([*MEANINGS.values()][line - 1], word)
 
 
 class TraceBuffer(_ReadOnly):
-    """The table TR: the statements that were executed while TRACE was on, the latest in line 1, each with its number,
-    the number of its command and its values.
+    """The table TR: the statements that were executed while TRACE was on. Each line has the number of a statement, the
+    number of its command, and its values; the latest statement is in line 1.
     """
 
     def __init__(self, mos: "Interpreter") -> None:
@@ -145,7 +145,7 @@ class TraceBuffer(_ReadOnly):
 
 
 class SessionLog(_ReadOnly):
-    """The table LG: the lines that were typed, the latest in line 1, two characters a word."""
+    """The table LG: the lines that were typed, with the latest in line 1 and two characters in each word."""
 
     def __init__(self, mos: "Interpreter") -> None:
         self._mos = mos

@@ -60,7 +60,7 @@ class ArmTask(StationTask):
         return ALONE
 
     def world(self, spec: WorldSpec) -> ArmWorld:
-        """Return the world of a specification."""
+        """Return the world that a specification describes."""
         return ArmWorld(spec, self.variation())
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:

@@ -162,7 +162,7 @@ def worst(period: int, bandwidth: float, speed: float, limit: int = LIMIT) -> To
 
 
 def lines(found: Touch) -> list[str]:
-    """Describe a touch in lines."""
+    """Describe a touch in lines of text."""
     grams = found.jolt / GRAM_FORCE
     air = "so the guard would trip in the air" if found.trips else "less than the limit"
     when = "never" if found.noticed is None else f"{found.noticed:.1f} ms after the contact"

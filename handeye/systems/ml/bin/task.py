@@ -122,7 +122,7 @@ class Bin(ArmTask):
         return FAULTS
 
     def station(self, parts: int, world: ArmWorld) -> Station:
-        """Return the station with two boxes and a hopper, into which the parts fall when time begins."""
+        """Return the station with two boxes and a hopper, into which the parts fall when the simulation begins."""
         spec = scene(world, wand=False)
         add_hopper(spec, world.value(_SMOOTH))
         add_boxes(spec)

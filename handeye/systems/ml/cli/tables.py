@@ -87,7 +87,7 @@ def tables(
 
 
 def _known(table: str) -> str:
-    """Return the name of a table. Raises NoSuchName."""
+    """Return the name of a table in capitals. Raises NoSuchName if there is no such table."""
     from handeye.systems.ml.tables.layout import SHAPES
 
     if table.upper() not in SHAPES:

@@ -25,7 +25,7 @@ class Segment(NamedTuple):
 
     @property
     def size(self) -> int:
-        """Number of its words."""
+        """Number of words of the table."""
         return self.shape.lines * self.shape.words
 
     def number(self, line: int, word: int) -> int:

@@ -75,8 +75,8 @@ def lay(
     """Lay a plate on the table.
 
     Args:
-        off: how far the plate lies from its place along x and y of the slides, m.
-        turned: rotation of the plate about z of the slides, rad.
+        off: how far the plate lies from its place, along x and y of the slides (m).
+        turned: rotation of the plate about z of the slides (rad).
         friction: coefficient of friction between plate and table.
     """
     at = [CENTRE + off[0], -off[1], HIGH / 2]

@@ -66,7 +66,7 @@ class Flow:
 
     @cached_property
     def _loaded(self) -> dict[int, list[int]]:
-        """Statements whose numbers BAL and LOAD put into each variable."""
+        """For each variable, the numbers of statements that BAL and LOAD put into it."""
         found: dict[int, list[int]] = {}
         for number, statement in self.statements.items():
             match statement.code, statement.parameters:

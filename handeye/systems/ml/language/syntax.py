@@ -16,7 +16,9 @@ Point = tuple[int, ...]  # positions of the 12 motors
 
 
 class Reference(Record, frozen=True):
-    """A reference to a variable: `&17` is its value, `&&17` the value of the variable whose number it holds."""
+    """A reference to a variable: `&17` is the value of variable 17, and `&&17` is the value of the variable whose
+    number is in variable 17.
+    """
 
     index: int
     depth: int = 1

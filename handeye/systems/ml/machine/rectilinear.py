@@ -36,7 +36,8 @@ _MOTORS: Final = (
     MotorSpec(number=11, axis="separation", lower=0, upper=4000, peak=7874, output=7),
     MotorSpec(number=12, axis="angle", lower=-2500, upper=2500, unit=ROTARY, peak=_TURNING, output=8),
 )
-"""All motors but the base have one of the eight analog outputs of the System/7; a digital word sets the base's detent.
+"""Each motor except that of the base is driven by one of the eight analog outputs of the System/7. A digital word sets
+the detent of the base.
 """
 
 STRAINS: Final = tuple(f"{finger}_strain_{part}" for finger in ("left", "right") for part in "xyz")
@@ -72,7 +73,9 @@ _HOLDING: Final = ("yaw", "pitch", "separation", "angle")  # electric motors; th
 
 
 def axes_of(arm: ArmSpec, holding: tuple[str, ...] = _HOLDING) -> tuple[AxisSpec, ...]:
-    """Return the axes of an arm, as the manual of its machine describes them."""
+    """Return the axes of an arm, with the travels and speeds of its motors. The axes in `holding` stay where they are
+    when the pump is off.
+    """
     return tuple(
         AxisSpec(
             name=motor.axis,

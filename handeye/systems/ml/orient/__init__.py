@@ -1,1 +1,1 @@
-"""The job `orient`: a bar that the hand takes in an unknown attitude is turned into a known one."""
+"""The job `orient`: the hand takes a bar whose attitude is unknown, and turns it into a known attitude."""

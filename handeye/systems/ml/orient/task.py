@@ -48,14 +48,14 @@ VARIATION: Final = Variation(
         "deg",
         Range(0.0, 50.0),
         50.0,
-        "Pitch of the bar in its cradle; the seed determines which end is higher. Row 48 of the specification.",
+        "Pitch of the bar in its cradle; the seed determines which end is higher. From row 48 of docs/ml_checks.md.",
     ),
     quantity(
         _YAW,
         "deg",
         Range(0.0, 25.0),
         25.0,
-        "Yaw of the bar in its cradle; the seed determines the direction. Row 48 of the specification.",
+        "Yaw of the bar in its cradle; the seed determines the direction. From row 48 of docs/ml_checks.md.",
     ),
     quantity(
         _PLACE,
@@ -83,7 +83,7 @@ class Orient(ReportingTask):
     """Turn a bar into a known attitude."""
 
     name = "orient"
-    words = Words(product="the bar", done="The bar is in the attitude and at the place that were asked for.")
+    words = Words(product="the bar", done="The bar has the required attitude and is at the required place.")
     quantities = VARIATION
     troubles = TROUBLES
     planted = FAULTS
@@ -119,10 +119,10 @@ class Orient(ReportingTask):
         touching = sum(_touch(truth, "bar", pad) for pad in ("left_pad", "right_pad"))
         return {
             "attitude": at_most(
-                turn, ATTITUDE, "deg", "angle of the bar from the attitude that was asked for"
+                turn, ATTITUDE, "deg", "angle between the bar and the required attitude"
             ),
             "place": at_most(
-                float(off) / MILLIMETRE, PLACED, "mm", "distance of the bar from the place that was asked for"
+                float(off) / MILLIMETRE, PLACED, "mm", "distance of the bar from the required place"
             ),
             "held": at_least(touching, 2, "", "fingers that touch the bar"),
         }

@@ -116,7 +116,7 @@ class Cycles:
         cycles.cycle, cycles.epoch = wrap(self.now), wrap(self.now >> 16)
 
     def sample(self) -> None:
-        """Read all inputs; enter positions into MT and readings into ST."""
+        """Read all inputs. Write the positions into the table MT, and the readings into the table ST."""
         memory, reading = self._memory, self._axes.read()
         if not memory.AR[0].posted:
             memory.AR[0].waited = wrap(memory.AR[0].waited + 1)
@@ -167,7 +167,7 @@ class Cycles:
             self._stop(found, self._statement)
 
     def check_interlocks(self) -> None:
-        """Enter the state of the interlocks into SF."""
+        """Write the state of the interlocks into the table SF."""
         memory = self._memory
         for n, lock in enumerate(memory.SF):
             now = int(memory.PI[lock.word - 1] & lock.mask != 0)
@@ -175,7 +175,9 @@ class Cycles:
                 memory.SF[n] = replace(lock, now=now, tripped=lock.tripped | now)
 
     def check_goals(self) -> None:
-        """Compare the positions with the strategic goals, and post the background level when all are reached."""
+        """Compare the positions with the strategic goals. When all goals are reached, notify (post) the background
+        level.
+        """
         memory, arm = self._memory, self._memory.AR[0]
         there = True
         for _, motor, line in self._motors:

@@ -1,5 +1,5 @@
-"""The rules of safety: it is always safe for an arm to stand still, and every emergency freezes it and switches the
-pump off.
+"""The rules of safety: it is always safe for an arm to stand still, and every emergency freezes the arm and switches
+the pump off.
 """
 
 from collections.abc import Mapping
@@ -11,8 +11,9 @@ from handeye.systems.ml.tables.records import BOTH_OPEN
 from handeye.systems.ml.tables.store import ArmMemory
 
 CAUSES: Final = ("", "PROGRAM", "SENSOR", "PANIC", "INTERLOCK", "CLASS", "STUCK")
-"""Causes of emergencies, by their number in EM: an error of the program, a reading outside its emergency limits, the
-panic button, an interlock of the room or a table, a class interrupt of the System/7, and a motion that does not end.
+"""Causes of emergencies, by their numbers in the table EM: an error of the program, a reading outside its emergency
+limits, the panic button, an interlock of the room or a table, a class interrupt of the System/7, and a motion that does
+not end.
 """
 _INTERLOCKS: Final[Mapping[str, tuple[str, str]]] = {
     "panic": ("PANIC", "the panic button is pressed"),

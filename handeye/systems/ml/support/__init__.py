@@ -1,1 +1,1 @@
-"""The job `support`: the rail support of a typewriter, of 22 parts, is assembled by touch."""
+"""The job `support`: the rail support of a typewriter is assembled by touch, from 22 parts."""

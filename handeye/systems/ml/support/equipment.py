@@ -15,8 +15,8 @@ _CYCLES: Final = 4093  # after which the noise of the current repeats
 
 
 class PowerScrewdriver:
-    """A screwdriver that turns while the output `screwdriver` is on, backwards while `reverse` is on too. Its bit is a
-    permanent magnet.
+    """A screwdriver that turns while the output `screwdriver` is on. It turns backwards if `reverse` is on, too. Its
+    bit is a permanent magnet.
     """
 
     magnet = True
@@ -26,7 +26,7 @@ class PowerScrewdriver:
 
     @property
     def speed(self) -> float:
-        """Speed of the spindle, rad/s; positive drives a screw in."""
+        """Speed of the spindle (rad/s). A positive speed drives a screw in."""
         return 0.0 if not self._on else -SPEED if self._back else SPEED
 
     def turn(self, value: float) -> None:

@@ -99,7 +99,7 @@ def add_support(spec: mujoco.MjSpec, drawing: Drawing) -> None:
 def _part(
     shaper: Shaper, name: str, lie: Lie, z: float, mass: float, size: tuple[float, ...]
 ) -> mujoco.MjsBody:
-    """Add a free body. Its origin is the middle of its underside, which is at a height (mm)."""
+    """Add a free body. Its origin is the middle of its underside, which is at the height `z` (mm)."""
     body = add_loose(shaper, name, lie.at, z)
     body.quat[:] = [cos(lie.turned / 2), 0, 0, sin(lie.turned / 2)]
     body_inertia(body, mass, (0, 0, size[2] / 2 * MM), box_moments(mass, [each * MM for each in size]))
@@ -147,7 +147,7 @@ def _add_frame(shaper: Shaper, drawing: Drawing) -> None:
 
 
 def _screw_place(number: int) -> Place:
-    """Return the place of a screw in the frame. Each saddle has two."""
+    """Return the place of a screw in the frame. Each saddle has two screws."""
     return mm((-1, 1)[number % 2] * HOLES, ROWS[number // 2])
 
 
@@ -222,7 +222,7 @@ def _add_screws(shaper: Shaper, drawing: Drawing) -> None:
 
 
 def _add_rack(shaper: Shaper, drawing: Drawing) -> None:
-    """Add the screwdriver and its rack, which has a square guide, and posts under the corners of the screwdriver's
+    """Add the screwdriver and its rack. The rack has a square guide, and posts under the corners of the screwdriver's
     block.
     """
     at, (wide, high), rack = (

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
 
 EXPECTED: Final = {"engine": (0, -3500), "wagon_1": (-5000, 2500), "wagon_2": (5000, 2500)}
-"""Places at which the program expects the vehicles, x and y of the slides."""
+"""Places at which the program expects the vehicles (x and y of the slides)."""
 PULLED: Final = 0.050  # m by which the engine is pulled
 COUPLED: Final = 0.5  # mm between the axes of a peg and its hole
 SEATED: Final = 0.5  # mm of a wagon over the table: its peg is in to the shoulder

@@ -31,8 +31,8 @@ def add_vehicle(
     """Put the engine, or a wagon with its peg, on the table, at x and y of the slides (m).
 
     Args:
-        peg: diameter of its peg, m; 0 if it has lost its peg.
-        blocked: whether its hole is blocked.
+        peg: diameter of the vehicle's peg (m); 0 if the vehicle has lost its peg.
+        blocked: whether the vehicle's hole is blocked.
     """
     wagon = name != "engine"
     turn = [np.cos(turned / 2), 0, 0, -np.sin(turned / 2)]

@@ -51,12 +51,12 @@ class BorrowedArm(PerfectMotors):
     """Moves the tool of an arm as the motors of arm 1 would move its hand.
 
     There is no reflex at the standard limit, because this arm feels several newtons even in free motion. After LIMIT
-    with a force, a motion of this axis stops within a servo period after the force is exceeded, not within a
-    millisecond.
+    has set a force for an axis, a motion of this axis stops within a servo period after the force is exceeded, not
+    within a millisecond.
     """
 
     def __init__(self, drive: ArmDrive, at: tuple[float, float] = AT) -> None:
-        """Take an arm that is held in place, and bring its tool to where the axes are at power-on."""
+        """Take an arm that is held in place, and bring its tool to the place that the axes have at power-on."""
         super().__init__()
         self._drive, self._axes, self._at = drive, ToolAxes(drive), at
         self._limits: dict[int, float | None] = dict.fromkeys(_AXES)  # N
@@ -81,7 +81,7 @@ class BorrowedArm(PerfectMotors):
         return self._memory.now
 
     def _next_period(self) -> int:
-        """Return when the next servo period ends, microseconds."""
+        """Return the time at which the next servo period ends (microseconds)."""
         passed = self._drive.cell.clock.now - self._zero
         return math.ceil((passed + self._axes.period) * 1e6 - 1e-3)
 
@@ -148,7 +148,7 @@ class BorrowedArm(PerfectMotors):
         return s if number in self._slow else s**3 * (10 - 15 * s + 6 * s * s)
 
     def _approach(self) -> None:
-        """Move the tool straight to where the axes are at power-on."""
+        """Move the tool straight to the place that the axes have at power-on."""
         here, goal = self._axes.read().q, self._goal()
         steps = math.ceil(float(np.abs(goal - here)[:3].max()) / _START_SPEED / self._axes.period)
         for share in [*np.linspace(0, 1, steps + 1)[1:], *np.ones(20)]:

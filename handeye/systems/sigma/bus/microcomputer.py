@@ -102,8 +102,8 @@ class Microcomputer:
     # -- receiving ---------------------------------------------------------------------------------------
 
     def listen(self, at: int, sent: Sequence[Sending], wires: Wires, *, quiet: bool) -> list["Taken"]:
-        """Look for a strobe if the microcomputer is free to take a command. Returns the commands to other
-        microcomputers that it takes and drops.
+        """Look for a strobe if the microcomputer is free to take a command. Returns the commands that the microcomputer
+        takes, and drops because they are for other microcomputers.
 
         These commands can be determined at once if no line is faulty and no answer is on the lines (`quiet`).
         """

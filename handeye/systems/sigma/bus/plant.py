@@ -28,8 +28,8 @@ class Plant(ABC, Generic[Kept]):
     """The machine as the microcomputers see it at their pins. Numbers identify microcomputers; times are in
     picoseconds.
 
-    A machine that can predict its levels returns them from `next_pin`, and its forces are constant. A machine
-    that is simulated step by step cannot; it returns changed levels from `advance`.
+    A machine that can predict its levels returns them from `next_pin`, and its forces are constant. A machine that is
+    simulated step by step cannot predict its levels; it returns changed levels from `advance`.
     """
 
     memory: Kept

@@ -1,4 +1,6 @@
-"""Draws chess pieces, in the shapes of pieces turned from boxwood, at random positions along three lines of a board."""
+"""Chooses chess pieces at random, and random positions for them along three lines of a board. Their shapes are those of
+pieces turned from boxwood.
+"""
 
 from typing import Final, NamedTuple
 
@@ -57,7 +59,7 @@ class Piece(Record, frozen=True, kw_only=True):
 
 
 def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
-    """Draw the pieces of a board. Raises BadArgument if there are too many."""
+    """Choose the pieces of a board at random. Raises BadArgument if there are too many."""
     if not 1 <= count <= MOST_PIECES:
         raise BadArgument(f"a board must have 1 to {MOST_PIECES} pieces, not {count}")
     numbers, pieces = world.numbers("pieces"), list[Piece]()

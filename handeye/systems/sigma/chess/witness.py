@@ -1,5 +1,6 @@
-"""The witness of a board. For the referee only, it records the initial pieces and what the program prints about
-them."""
+"""The witness of a board. It records the initial pieces and what the program prints about them. Only the referee sees
+these records.
+"""
 
 import re
 from math import isfinite

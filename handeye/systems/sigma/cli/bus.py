@@ -200,7 +200,8 @@ def errors(
     clock: Annotated[
         list[float] | None,
         Parameter(
-            help="Greatest error of the clocks, in percent; may be repeated. Default: 1 to 15.", negative=()
+            help="Greatest error of the clocks, in percent; may be repeated. Default: 1, 2, 4, 5, 6, 10 and 15.",
+            negative=(),
         ),
     ] = None,
     commands: Annotated[

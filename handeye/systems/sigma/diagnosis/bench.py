@@ -74,7 +74,7 @@ class Machine(IdealMachine):
         self.now = 0
 
     def fault(self, kind: MachineKind, number: int = 0) -> MachineFault | None:
-        """Return the fault of a kind at a microcomputer, or None."""
+        """Return the planted fault of a kind at a microcomputer, or None if there is none."""
         return self.faults.get((kind, number))
 
     # -- rotors --------------------------------------------------------------------------------------------

@@ -239,7 +239,7 @@ FAULTS: Final[dict[str, Fault]] = {
     "fingers": Fault("the fingers of a hand are slow", _fingers),
     "supply": Fault("the supply of the motors sags", _supply),
 }
-"""By name, as `--fault` takes them."""
+"""The kinds of faults by name, as `--fault` takes them."""
 
 
 def planted(name: str, seed: int | None = None) -> Planted:

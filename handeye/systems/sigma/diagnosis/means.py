@@ -185,12 +185,12 @@ class Motion:
 
 
 def origin(at: Technician, axis: str) -> Motion:
-    """Move an axis to the end of its rail."""
+    """Move an axis to the low end of its rail with ORIGIN."""
     return _motion(at.bus, axis, protocol.origin(axis), 0)
 
 
 def rail(at: Technician, axis: str) -> Motion:
-    """Move an axis to the far end of its rail, and beyond if nothing stops the motor."""
+    """Move an axis to the high end of its rail, and beyond it if nothing stops the motor."""
     steps = round(_TOO_FAR * TRAVEL[axis[0]])
     found = _motion(at.bus, axis, protocol.move(axis, steps), steps)
     if found.status is Status.RAIL and found.count:

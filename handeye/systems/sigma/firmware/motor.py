@@ -93,8 +93,9 @@ class Motor(Device):
         return memory.sense * memory.train.pulses.speed(self.crystal.ticks_in(at - memory.began))
 
     def when(self, pulse: int) -> int | None:
-        """Return the time of a pulse of the train, which is numbered from 1. Returns None if that pulse is
-        never sent."""
+        """Return the time of a pulse of the train. Pulses are numbered from 1. Returns None if that pulse is never
+        sent.
+        """
         memory = self.memory
         if memory.train is None or not 1 <= pulse <= len(memory.train.pulses):
             return None

@@ -125,7 +125,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
 
 
 def _arrived(vm: VirtualMachine) -> bool:
-    """Return True if only the last ORIGIN is left."""
+    """Return True if only the last ORIGIN remains to be executed."""
     return vm.program.line_of(vm.memory.tasks[vm.turn].pc).number == _LAST
 
 

@@ -323,7 +323,7 @@ class Gantries(Plant[GantryMemory]):
         return pull_out(speeds) * self._pull
 
     def _sense(self) -> Array:
-        """Return the values that are compared with the limits, in an array that is used again."""
+        """Return the values that are compared with the limits. The array is overwritten at the next call."""
         np.matmul(self._felt, self.bench.data.sensordata, out=self._sensed)
         self._sensed += self._still
         return self._sensed
@@ -387,8 +387,9 @@ class Gantries(Plant[GantryMemory]):
 
 
 def _hold(lags: Array, begins: Array, ends: Array) -> Array:
-    """Return the fraction of its pull-out force with which each pole holds its rotor, from the rotor's lag
-    (steps)."""
+    """Return, for each rotor, the fraction of the pull-out force with which its pole holds it, computed from the
+    rotor's lag (steps).
+    """
     return np.cos(np.clip((np.abs(lags) - begins) / (ends - begins), 0.0, 1.0) * math.pi / 2)
 
 

@@ -1,4 +1,6 @@
-"""The witness of a job: what the program prints, and what happens on the board, for the referee only."""
+"""The witness of a job. It records what the program prints and what happens on the board. Only the referee sees these
+records.
+"""
 
 from collections.abc import Callable
 from typing import ClassVar, Final, Generic, TypeVar

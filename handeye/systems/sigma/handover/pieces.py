@@ -24,7 +24,7 @@ _PIN_ARMATURE: Final = 0.2  # kg, so that friction holds a pin to less than .01 
 
 
 class Piece(Record, frozen=True, kw_only=True):
-    """A piece at its initial position, mm."""
+    """A piece at its initial position (mm)."""
 
     name: str  # of its body
     x: float

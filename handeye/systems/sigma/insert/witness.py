@@ -17,7 +17,9 @@ _TOLD: Final = re.compile(r"PEGS\s+(\d{1,9})\b")
 
 
 class WatchedInsertion(HeardTouches, frozen=True, kw_only=True):
-    """The pegs at the beginning, the lines that the program has printed, and what the wrists and motors had to bear."""
+    """The pegs at the beginning, the lines that the program has printed, the greatest force in a wrist, and the steps
+    that motors have lost.
+    """
 
     pegs: tuple[Peg, ...]
     most_n: float = 0.0  # N, the greatest force in a wrist along any axis

@@ -42,12 +42,12 @@ class LinePiece(Record, frozen=True, kw_only=True):
 
     @property
     def number(self) -> int:
-        """Its number, from 1."""
+        """The number of the piece, counted from 1."""
         return int(self.name.rsplit("_", 1)[1])
 
     @property
     def goal(self) -> tuple[float, float]:
-        """Place on the belt after its last advance (mm)."""
+        """Place of the piece on the belt (mm), after the last advance of the belt."""
         return BELT_X + PITCH * (_STOPS - _PUT - (self.number - 1)), BELT_Y
 
 

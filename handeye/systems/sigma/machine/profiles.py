@@ -7,8 +7,9 @@ from handeye.systems.sigma.motors.pulses import CURVES, SHORT
 
 
 def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
-    """Return the duration of a move by `steps` along a curve (microseconds). `limit` is a speed limit
-    (steps/s); 0 means none."""
+    """Return the duration (microseconds) of a move by `steps` with an acceleration curve. `limit` is a speed limit
+    (steps/s); 0 means none.
+    """
     form = CURVES[curve if curve < len(CURVES) else 0]
     start, top, acceleration = form.start, form.top, form.acceleration
     if limit:

@@ -129,7 +129,7 @@ class _Task:
     lines: list[Line] = field(default_factory=list)
 
     def nearest(self, number: int) -> int:
-        """Return the line number of the task that is nearest to `number`."""
+        """Return, of the line numbers of the task, the one nearest to `number`."""
         at = bisect_left(self.lines, number, key=lambda line: line.number)
         near = [line.number for line in self.lines[max(0, at - 1) : at + 1]]
         return min(near, key=lambda each: (abs(each - number), each))

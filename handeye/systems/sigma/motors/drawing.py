@@ -22,7 +22,7 @@ _STYLE: Final = (
 
 
 def as_text(found: AxisStudy, width: int = 100) -> list[str]:
-    """Return the speed over time as lines of text. One line is an eighth of the greatest speed."""
+    """Return the speed over time as lines of text. Each line stands for an eighth of the greatest speed."""
     times, speeds, _, _ = series(found)
     columns = max(20, width - _NAME - 1)
     edges = np.linspace(0, times[-1], columns + 1)

@@ -31,7 +31,7 @@ class HandDriver(Mechanism[DriverState]):
 
     @property
     def speed(self) -> float:
-        """Speed of the spindle, rad/s; positive drives a screw in."""
+        """Speed of the spindle (rad/s). A positive speed drives a screw in."""
         return _SPEEDS.get(self._state.value, 0.0)
 
     def actuated(self, number: int, devices: Sequence[int]) -> None:

@@ -122,7 +122,9 @@ def _add_pins(shaper: Shaper, pump: Pump) -> None:
 
 
 def _add_screws(shaper: Shaper, pump: Pump) -> None:
-    """Add the screws in their dispenser. Also add, out of sight, a tray for the loose bodies of screws in threads."""
+    """Add the screws in their dispenser. Also add, out of sight, a tray that holds the loose bodies of screws that are
+    in threads.
+    """
     (x, y), top = pump.dispenser, DISPENSER_HEIGHT
     dispenser = shaper.spec.worldbody.add_body(name="dispenser")
     add_box(shaper, shaper.spec.worldbody, "fixed", Place(300, 200), (400, 200, 20), -1020)

@@ -123,4 +123,4 @@ MAL_FAULTS: Final = Sweep(
     summary=_summary,
     more=_more,
 )  # fmt: skip
-"""Sweep of a job with one fault each."""
+"""The trials of a job, each with one fault."""

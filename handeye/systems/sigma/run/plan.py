@@ -28,8 +28,8 @@ class MalPlan(Record, frozen=True, kw_only=True):
     name: str
     text: Annotated[str, msgspec.Meta(max_length=LARGEST)]
     arm: ArmName = "none"
-    """The machine: perfect motors (`none`); the firmware of all microcomputers on the wires of the bus; or that
-    firmware with simulated gantries.
+    """The machine: perfect motors (`none`), the firmware of all microcomputers on the wires of the bus (`wired`), or
+    this firmware with simulated gantries (`gantries`).
     """
     statement_us: Annotated[int, msgspec.Meta(ge=0, le=LONGEST_STATEMENT_US)] = STATEMENT_US
 
