@@ -18,13 +18,13 @@ FORCE: Final = 20.0  # N that the fastest admissible touch may reach
 MARK: Final = "<!doctype html>\n<!-- handeye touches -->\n"
 PAGE: Final = Kind("page of touches", MARK.encode(), ending=".html")
 _CAPTIONS: Final = {
-    "place": "How far (in mm) the slide is below the place of contact; the thin line is its set-point. Red lines mark "
-    "the readings of the sensors; the long one is the first reading beyond the limit.",
-    "force": "The force (in N) of both fingers on the block.",
-    "ways": "How far (in mm) the slide goes on after the contact, against its speed (in mm/s), with a curve for each "
+    "place": "How far (in mm) the slide is below the place of contact, over time. The thin line is its set-point. Red "
+    "marks show when the sensors are read; the long red line is the first reading beyond the limit.",
+    "force": "The force (in N) of both fingers on the block, over time.",
+    "ways": "How far (in mm) the slide goes on after the contact, for each speed (in mm/s). There is a curve for each "
     "period.",
-    "forces": "The greatest force (in N) against the speed (in mm/s). At a hollow point, the start of the motion trips "
-    "the guard in the air.",
+    "forces": "The greatest force (in N), for each speed (in mm/s). There is a curve for each period. A hollow point "
+    "means that the start of the motion trips the guard in the air.",
 }
 _EXACT: Final = 0.5  # mm/s
 

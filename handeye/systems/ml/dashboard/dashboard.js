@@ -187,7 +187,7 @@ const tables = (() => {
     const when = cycle > last ? `after cycle ${last}` : `cycle ${cycle}, ${(cycle / 100).toFixed(2)} s`;
     byId("tables-cycle").value = cycle;
     byId("tables-now").textContent = last < 0 ? "before the first cycle" : when;
-    byId("tables-statement").textContent = statement ? `${statement} ${text ?? ""}` : "no stored statement";
+    byId("tables-statement").textContent = statement ? `${statement} ${text ?? ""}` : "no stored statement is executed";
   }
 
   // -- the time line, and the course of a word --------------------------------------------------------
@@ -280,7 +280,7 @@ const tables = (() => {
     const place = segment.words === 1 ? `${named(segment)} ${line}` : `${named(segment)} ${line} ${word}`;
     const label = [segment.labels[line], segment.names[word - 1]].filter(Boolean).join(", ");
     const beside = curves.filter(({ number }) => number !== picked).map(({ name, there }) => (there ? `${name} limit` : name));
-    byId("tables-picked").replaceChildren(make("b", { textContent: place }), ` ${label}`, ...(beside.length ? [make("span", { textContent: `; thin: ${beside.join(", ")}` })] : []));
+    byId("tables-picked").replaceChildren(make("b", { textContent: place }), ` ${label}`, ...(beside.length ? [make("span", { textContent: `; thin lines: ${beside.join(", ")}` })] : []));
   }
 
   const opened = (limit) => {

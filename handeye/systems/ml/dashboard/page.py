@@ -44,7 +44,7 @@ def dashboard(*more: Markup) -> Markup:
     steps = [
         ("first", "|◀", "first cycle"),
         ("back", "◀", "one cycle back"),
-        ("on", "▶", "one cycle on"),
+        ("on", "▶", "one cycle forward"),
         ("last", "▶|", "end"),
     ]
     cycle = element(
