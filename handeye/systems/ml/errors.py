@@ -8,7 +8,7 @@ MEANINGS: Final[dict[str, str]] = {
     "M01": "a command does not exist",
     "M02": "a sequence number is not between 1 and 5000",
     "M03": "a command has too few or too many parameters",
-    "M04": "a number does not fit into 16 bits, or limits are in the wrong order",
+    "M04": "a number does not fit into 16 bits, or the limits of a sensor are in the wrong order",
     "M05": "the number of a variable is not between 1 and 256",
     "M06": "a reference has more than six `&`",
     "M07": "a statement does not exist",

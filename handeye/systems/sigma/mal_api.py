@@ -192,7 +192,7 @@ class Mal:
 
     def _physics(self) -> "Gantries":
         if self._gantries is None:
-            raise Refused('perfect motors cannot be seen, and feel nothing; use arm="gantries"')
+            raise Refused('with perfect motors there are no pictures and no forces; use arm="gantries"')
         return self._gantries
 
     def __repr__(self) -> str:

@@ -154,7 +154,7 @@ def test_a_part_is_placed_without_search_and_an_empty_place_reported_before_the_
     result, _ = done(runner)
     assert (result.exit_code, result.message) == (
         1,
-        "the hand holds no part, or a wrong one (done before: 0)",
+        "the hand holds no part, or the wrong part (done before: 0)",
     )
     assert abs(runner.cell.truth.data.joint("x").qpos[0] + 0.1143) < 0.001  # it has not left the pallet
 

@@ -76,7 +76,7 @@ class Interpreter:
     def run(self, first: int | None = None) -> None:
         """Start the stored program at a statement, or at its first one. Raises MlError (M07, M14)."""
         if why := self._emergency:
-            raise MlError("M14", f"the arm was stopped by an emergency: {why}; ENABLE it first")
+            raise MlError("M14", f"an emergency has stopped the arm: {why}; ENABLE the arm first")
         if first is None and not self.program.numbers:
             raise MlError("M07", "no program is stored")
         first = self.program.numbers[0] if first is None else first
@@ -146,7 +146,7 @@ class Interpreter:
         """
         line = statement_of(text)
         if self.memory.waits and line is not None and line.number is None:
-            raise BadArgument("a statement is still being executed")
+            raise BadArgument("a statement is still being executed; wait for its end")
         self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
         if line is None:
             return
@@ -167,7 +167,7 @@ class Interpreter:
         """
         line = statement_of(text)
         if line is None or line.number is not None or line.statement.code != "FILE":
-            raise BadArgument("while a statement is being executed, only FILE is executed at once")
+            raise BadArgument("while a statement is being executed, FILE is the only command that you can type")
         BEHAVIOUR["FILE"](self, *map(self._value, line.statement.parameters))
         self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
 

@@ -83,7 +83,7 @@ def loop(name: str, mos: "Interpreter", passes: int, variable: int = 0) -> None:
 def next_pass(name: str, mos: "Interpreter") -> None:
     line = _LOOPS[name]
     if not mos.register(line, _ACTIVE):
-        raise MlError("M13", f"NEXT{name} has no LOOP{name} that has begun")
+        raise MlError("M13", f"NEXT{name} would end a loop, but no LOOP{name} has begun one")
     left = mos.register(line, _LEFT) - 1
     if left <= 0:
         mos.set_register(line, _ACTIVE, 0)

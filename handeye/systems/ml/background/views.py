@@ -42,7 +42,7 @@ class _ReadOnly:
     """A table that programs cannot write."""
 
     def write(self, line: int, word: int, value: int) -> None:
-        raise MlError("M11", "this table cannot be written")
+        raise MlError("M11", "programs cannot write this table")
 
 
 class TaskTable:

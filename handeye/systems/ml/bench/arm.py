@@ -215,15 +215,15 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     def check(self, state: ArmState) -> None:
         slides = (state.goal, state.ways, state.motions, state.offsets)
         if any(len(each) != len(_SLIDE_NAMES) for each in slides):
-            raise BadFile("its arm has different slides")
+            raise BadFile("the saved arm has different slides")
         if (
             not np.isfinite((*state.goal, *state.offsets, state.ranged)).all()
             or {*state.ways} - {-1, 0, 1}
             or min(state.motions) < 0
         ):
-            raise BadFile("its arm has an impossible motion")
+            raise BadFile("the saved arm has an impossible motion")
         if {*state.signalled} - {*INTERLOCKS}:
-            raise BadFile("its arm has different interlocks")
+            raise BadFile("the saved arm has different interlocks")
 
     def restore(self, state: ArmState) -> None:
         self._goal, self._ways = np.array(state.goal), np.array(state.ways, dtype=float)

@@ -88,15 +88,15 @@ ARM: Final = (
         "N",
         Noise(0.05),
         2.0,
-        "Standard deviation of the drift of a strain gauge's zero per minute. No source: our choice, 5 g.",
+        "Standard deviation of the drift of a strain gauge's zero per minute. No source: our choice, about 5 g.",
     ),
     quantity(
         NOISE,
         "N",
         Noise(0.02),
         1.0,
-        "Standard deviation of a strain gauge's noise. Chosen so that a reading is more accurate than the paper's "
-        "5 g.",
+        "Standard deviation of a strain gauge's noise. Chosen so that the error of a reading is less than the 5 g of "
+        "the paper.",
     ),
     quantity(
         RANGE,

@@ -89,7 +89,7 @@ class Pile(Mechanism[Poured]):
 
     def check(self, state: Poured) -> None:
         if state != self.poured:
-            raise BadFile("different parts lay in its bin")
+            raise BadFile("different parts lay in the bin of the saved run")
 
     def restore(self, state: Poured) -> None:
         self.poured = state

@@ -103,7 +103,7 @@ class Blocks(ReportingTask):
                 float(off.max()) / MILLIMETRE,
                 APART,
                 "mm",
-                "greatest distance of a block from the one below it",
+                "greatest horizontal distance between a block and the block below it",
             ),
             "heights": at_most(
                 float(high.max()) / MILLIMETRE,

@@ -21,7 +21,7 @@ from handeye.systems.ml.machine.perfect import perfect_machine
 from handeye.systems.ml.realtime.happenings import EmergencyStopped, GoalRounded
 
 ENDING: Final = ".ml"
-_KEYS: Final = "N executes the statement, R runs on without asking, A abandons the program"
+_KEYS: Final = "type N to execute the statement, R to run on without asking, or A to abandon the program"
 _JOYSTICK: Final = (
     "type the number of a motor and a distance to move the motor; RECORD stores the positions; CANCEL leaves the point "
     "as it is"

@@ -41,7 +41,7 @@ def _source(name: str) -> tuple[str, float]:
     if name not in known:
         choices = (*known, *INTERLOCKS)
         near = names_sentence(alternatives(name, choices)) or f"there are {', '.join(choices)}"
-        raise NoSuchName(f"there is no sensor or interlock {quoted(name)} that can be sensed; {near}")
+        raise NoSuchName(f"--sense has no sensor or interlock {quoted(name)}; {near}")
     line = known[name]
     if line.mask:
         return RIGHT.digital[line.input][line.mask.bit_length() - 1], 1.0

@@ -92,7 +92,7 @@ class Plate(Mechanism[Laid]):
 
     def check(self, state: Laid) -> None:
         if state != self.laid:
-            raise BadFile("a different plate lay on its table")
+            raise BadFile("a different plate lay on the table in the saved run")
 
     def restore(self, state: Laid) -> None:
         self.laid = state

@@ -135,11 +135,13 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("ADD", "v x", "Add x to variable v.", "50 ADD 1 -1"),
         ("COMPOFF", "", "Set the comparison indicator off.", "10 COMPOFF"),
         ("COMPON", "", "Set the comparison indicator on.", "10 COMPON"),
-        ("DADD", "v x [y]", "Add x, or the pair x y, to a pair of variables: v is the high word, v+1 the low word.",
+        ("DADD", "v x [y]", "Add x, or the pair x y, to a pair of variables: v has the high word, and v+1 "
+                              "has the low word.",
          "20 DADD 1 500"),
         ("DIVD", "v x [w]", "Divide variable v by x and round toward zero; variable w gets the remainder.",
          "30 DIVD 1 10 2"),
-        ("DLOAD", "v x [y]", "Set a pair of variables to x, or to the pair x y: v is the high word, v+1 the low word.",
+        ("DLOAD", "v x [y]", "Set a pair of variables to x, or to the pair x y: v gets the high word, and "
+                               "v+1 gets the low word.",
          "10 DLOAD 1 500"),
         ("EQ?", "x y", "Set the comparison indicator on if x equals y, or else off.", "30 EQ? &1 0"),
         ("GE?", "x y", "Set the comparison indicator on if x is at least y, or else off.", "30 GE? &1 0"),
@@ -170,8 +172,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "test": (
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
         ("TESTAO", "x y", "Set analog output x to y. No limit is checked, so the pump must be off.", "TESTAO 3 100"),
-        ("TESTDO", "x y [mask]", "Set digital output word x to y, or only those bits that a mask selects. The pump "
-                                 "must be off.", "TESTDO 1 1"),
+        ("TESTDO", "x y [mask]", "Set digital output word x to y, or only those of its bits that the mask "
+                                   "selects. The pump must be off.", "TESTDO 1 1"),
     ),
     "host": (
         ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),

@@ -87,7 +87,8 @@ class TableWritten(LevelEvent, frozen=True, kw_only=True):
     value: int
 
     def sentence(self, measures: Measures) -> str:
-        return f"word {self.word} of line {self.line} of {self.table} becomes {self.value}; it was {self.was}"
+        return f"in the table {self.table}, word {self.word} of line {self.line} changes from {self.was} to "
+        f"{self.value}"
 
 
 class GoalRounded(LevelEvent, frozen=True, kw_only=True):

@@ -8,7 +8,7 @@ from handeye.systems.ml.bench.reporting import calls_of
 
 TROUBLES: Final = {
     "1": "the hand has met something on its way down",
-    "2": "the hand holds no vehicle, or a wrong one",
+    "2": "the hand holds no vehicle, or the wrong vehicle",
     "3": "the peg does not go into its hole",
     "4": "a wagon has not followed the engine, or the gauges do not feel the wagon",
     "5": "the fingers do not open",
@@ -29,7 +29,7 @@ FAULTS: Final = Catalogue(
     arm_fault("motor.z.dead"),
     arm_fault("motor.y.dead"),
     arm_fault("motor.separation.dead", _SHUT),
-    arm_fault("motor.separation.weak", _NONE, harmless="The vehicles are light."),
+    arm_fault("motor.separation.weak", _NONE, harmless="The vehicles are so light that weak fingers can hold them."),
     arm_fault("potentiometer.z.stuck"),
     planted(NO_ENGINE, "There is no engine.", _NONE),
     planted(NO_WAGON, "There is no second wagon.", _NONE),

@@ -55,13 +55,13 @@ _MM: Final = 0.001
 DOWN: Final = (pi / 2, pi / 2, 0.0)  # O, A, T: straight down, with the fingers along Y
 _TURNED: Final = ("MOVE", "ORIGIN", "LIMIT", "SPEED", "ACTUATE", "ON", "IF", "GOTO", "END", "STOP", "REM")
 _WHY: Final = {
-    "TASK": "a plan has one task",
-    "START": "a plan has one task",
-    "KILL": "a plan has one task",
-    "SET": "a plan has one task, and no flags",
-    "RESET": "a plan has one task, and no flags",
-    "WAIT": "a plan has one task, and no flags",
-    "TAKE": "a plan has one task, and no flags",
+    "TASK": "a plan can have only one task",
+    "START": "a plan can have only one task",
+    "KILL": "a plan can have only one task",
+    "SET": "a plan can have only one task, and no flags",
+    "RESET": "a plan can have only one task, and no flags",
+    "WAIT": "a plan can have only one task, and no flags",
+    "TAKE": "a plan can have only one task, and no flags",
     "CURVE": "the planner chooses how the arm accelerates",
     "RESUME": "a plan cannot return to the motion that was stopped",
 }
@@ -133,7 +133,7 @@ def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
         values = [*statement.values, *(goal.distance for goal in statement.goals)]
         values += [] if statement.slow is None else [statement.slow]
         if word != "IF" and any(constant(value) is None for value in values):
-            yield _refused(line, "a value is calculated during the run")
+            yield _refused(line, "one of its values is calculated during the run")
         elif word == "MOVE" and not statement.waits:
             yield _refused(line, "with NOWAIT, the program would go on before the arm has arrived")
         elif word == "MOVE" and statement.slow is not None and len(statement.goals) > 1:
@@ -164,7 +164,7 @@ def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
             first = first or (arm, line)
             if arm != first[0]:
                 same = line is first[1]
-                other = "both arms" if same else f"arm {arm}, and line {first[1].number} uses arm {first[0]}"
+                other = "both arms" if same else f"arm {arm}, but line {first[1].number} uses arm {first[0]}"
                 labels = () if same else (Label(span=first[1].statement.span, text=f"arm {first[0]}"),)
                 yield _refused(line, f"it uses {other}", *labels)
                 return

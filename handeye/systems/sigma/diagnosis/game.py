@@ -86,7 +86,7 @@ class Game:
         """Explain the game to the player."""
         self._tell(
             f"One of {len(FAULTS)} faults is planted in SUPERSIGMA. Find the faulty part, in as few tests as you can. "
-            "`help` lists the tests, `parts` the parts that you can accuse."
+            "`help` lists the tests, and `parts` lists the parts that you can accuse."
         )
 
     def words(self) -> Sequence[str]:

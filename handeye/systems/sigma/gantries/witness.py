@@ -69,9 +69,9 @@ class Witness(Mechanism[H], Generic[H]):
 
     def check(self, state: H) -> None:
         if replace(state, **{name: getattr(self.heard, name) for name in self.growing}) != self.heard:
-            raise BadFile("its board held different pieces")
+            raise BadFile("the board of the saved run held different pieces")
         if len(state.lines) > _MOST or any(len(line) > _LONGEST for line in state.lines):
-            raise BadFile("the program cannot have printed so much")
+            raise BadFile("the program cannot have printed so many lines")
 
     def restore(self, state: H) -> None:
         self.heard = state

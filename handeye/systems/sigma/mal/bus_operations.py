@@ -261,7 +261,7 @@ _DEVICES: Final = {number: name for name, number in protocol.DEVICES.items()}
 def _meaning(command: Command) -> str:
     """Describe a command in words."""
     return {
-        Op.ORIGIN: "search the end of the rail",
+        Op.ORIGIN: "search for the end of the rail",
         Op.LIMIT_SPEED: f"limit the speed to {counted(command.value, 'step')}/s",
         Op.POSITION: "where are you?",
         Op.ABORT_POSITION: "where were you when you were aborted, or at the end of your rail?",
@@ -274,5 +274,5 @@ def _meaning(command: Command) -> str:
             else f"{command.value * protocol.FORCE_STEP_N:g} N"
         ),
         Op.ACTUATE: f"{_DEVICES.get(command.detail, command.detail)} to {command.value}",
-        Op.BEAM: "is the beam cut?",
+        Op.BEAM: "is the beam broken?",
     }[Op(command.op)]

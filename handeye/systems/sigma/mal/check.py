@@ -217,7 +217,7 @@ class _Check:
                 "line-missing", told, statement.target.span, help=f"the nearest line of {line.task} is {near}"
             )
         elif goal.task != line.task:
-            told = f"line {number} belongs to the task {goal.task}, but this line to {line.task}"
+            told = f"line {number} belongs to the task {goal.task}, but this line belongs to {line.task}"
             where = Label(span=goal.span, text=f"a line of {goal.task}")
             yield mistake("other-task", told, statement.target.span, where)
 
