@@ -137,7 +137,8 @@ class Ml:
     def touch(
         period: int = 10, bandwidth: float = 50.0, speed: float = 25.0, limit: int = 300, phase: float = 0.0
     ) -> "Touch":
-        """Let the hand of the rectilinear arm descend on a block in physics, guarded by a strain gauge in a finger.
+        """Simulate, with physics, how the hand of the rectilinear arm descends on a block, guarded by a strain gauge in
+        a finger.
 
         >>> touch = handeye.Ml.touch(speed=50)
         >>> touch.noticed, touch.way, touch.force
@@ -148,7 +149,8 @@ class Ml:
             bandwidth: bandwidth of the slide's servo (Hz).
             speed: speed of the slide (mm/s).
             limit: limit of the strain gauge (grams).
-            phase: when in the period the contact occurs: 0 is just after a reading, nearly 1 is just before the next.
+            phase: when in the period the contact occurs. 0 is just after a reading; a value near 1 is just before the
+            next.
 
         Returns:
             when the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the

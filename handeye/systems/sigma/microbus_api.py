@@ -52,7 +52,7 @@ class Microbus:
 
     @property
     def interrupt(self) -> bool:
-        """True if line A of a motor is high, which means that the motor's last command was aborted."""
+        """True if line A of any motor is high, which means that the last command of this motor was aborted."""
         return self._bus.interrupt
 
     def command(
@@ -112,7 +112,7 @@ class Microbus:
         return self._bus.wait_free(number_of(name), _microseconds(seconds)).name.lower()
 
     def pause(self, seconds: float) -> None:
-        """Let this time pass."""
+        """Let this many seconds pass."""
         end = self._bus.now + _microseconds(seconds)
         while self._bus.now < end:
             self._bus.wait(end)
