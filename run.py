@@ -35,12 +35,12 @@ TURNSTILE = VENV / "set-up.turnstile"
 BROWSER = "HANDEYE_CHROMIUM"
 """Environment variable that gives the browser for the checks of the pages."""
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-"""Browsers to look for if the variable is not set."""
+"""Browsers to look for if that variable is not set."""
 
 
 CALLED = "HANDEYE_CALLED"
-"""Environment variable that tells handeye the name of this file: its messages then show `python3 run.py report`
-instead of `handeye report`.
+"""Environment variable that tells handeye how it was called. The messages of handeye then show `python3 run.py
+report` instead of `handeye report`.
 """
 
 
@@ -114,7 +114,7 @@ def main(words: list[str]) -> int:
     os.chdir(ROOT)
     if words[1:2] == ["browser"]:
         return check_in_browser(words[2:])
-    # a process for each core; what the tests of a file share is made once
+    # one process per core; one process runs all tests of a file, so that what they share is made only once
     return run(["-m", "pytest", "-n", "auto", "--dist", "loadfile", *words[1:]])
 
 
@@ -145,7 +145,7 @@ def set_up(lock: Path) -> None:
         return
     VENV.mkdir(exist_ok=True)
     with TURNSTILE.open("a") as turnstile, alone(turnstile):
-        if is_set_up(lock):  # by the start that we waited for
+        if is_set_up(lock):  # by the process that we waited for
             return
         with ProgressLine(lock.read_text().count("==")) as line:
             if UNFINISHED.exists() or not PYTHON.exists():
@@ -161,8 +161,8 @@ def set_up(lock: Path) -> None:
 
 
 def is_set_up(lock: Path) -> bool:
-    """Return True if .venv was made from this lock file, or from the lock file of the tests, which lists all
-    packages of the other.
+    """Return True if .venv was made from this lock file, or from the lock file of the tests, which lists every
+    package that this one lists.
     """
     if UNFINISHED.exists() or not (PYTHON.exists() and STAMP.exists()):
         return False
@@ -253,8 +253,8 @@ def install_packages(lock: Path, line: ProgressLine) -> None:
 
 
 def install_handeye(line: ProgressLine) -> None:
-    """Install this folder as an editable package: its command, the lexer's entry point, and its version. This
-    needs no network.
+    """Install this folder as an editable package, with its command, its version and the entry point of its lexer.
+    This needs no network.
 
     Raises:
         SetUpFailed: pip could not install it.

@@ -22,7 +22,7 @@ def main() -> None:
     for number in ENDING:
         if _hear(number):
             atexit.register(signal.signal, number, signal.SIG_IGN)
-    # MuJoCo, as it is imported, would load the OpenGL named here, or try windows; `cell.opengl` looks for its own
+    # otherwise, importing MuJoCo would load an OpenGL library; `cell.opengl` chooses the library instead
     os.environ["MUJOCO_GL"] = "disable"
     gc.set_threshold(ALLOCATIONS)
     import handeye.core.host_time  # noqa: F401 - a command's time counts from here

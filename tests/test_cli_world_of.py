@@ -81,7 +81,7 @@ def test_a_world_of_another_version_is_refused(command: Command, recorded: str) 
     other = begins_otherwise(world=msgspec.structs.replace(head("run").world, drawing=DRAWING - 1))
     assert refused(command, recorded, "--world-of", other) == (
         "the world of other.jsonl comes from another version of handeye: seed 3 gives a different world here "
-        f"(drawing {DRAWING - 1} there, {DRAWING} here)"
+        f"(rules for drawing worlds: version {DRAWING - 1} there, version {DRAWING} here)"
     )
 
 
@@ -97,8 +97,8 @@ def test_a_fault_that_cannot_set_in_is_told(
 ) -> None:
     short = planned("OPEN 1\n")
     assert refused(command, short, "--world-of", "run") == (
-        "the fault lamp.dead from stage 2 on of run begins at a later stage than this plan has; the plan has "
-        "1 stage"
+        "the fault lamp.dead from stage 2 on of run begins at a stage that this plan does not have; the plan "
+        "has 1 stage"
     )
 
 

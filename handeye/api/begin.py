@@ -57,18 +57,18 @@ def begin(
         world: a world, instead of a seed.
         camera: renderer of the TV camera: `gl` (OpenGL), `ray` (ray casting, the same on every computer) or `auto`;
             or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
-            renderer's method `render(data, view)` computes the light on the camera's target, shape (256, 333); 1 is
-            a white surface in full light.
-        search: a search pattern that replaces the square spiral of `SEARCH`: a function that takes the number of a
-            place, from 0, and returns the x and y of that place in table coordinates, as multiples of the search
-            step. It is called once for each number. A resumed run calls the function again, and the function must
-            then return the same values. The search ends with error 6 when the function returns None or raises
-            StopIteration, or when it has tried the number of places that the `SEARCH` allows, 49 by default. A
-            search `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
+            renderer's method `render(data, view)` returns the light that falls on the camera's light-sensitive
+            plate: an array of shape (256, 333), in which 1 is a white surface in full light.
+        search: a function that gives the places of a search, in place of the square spiral of `SEARCH`. It takes
+            the number of a place, counted from 0, and returns the x and y of that place in table coordinates, as
+            multiples of the search step. The function is called once for each number. A resumed run calls it again,
+            and it must then return the same values. The search ends with error 6 when the function returns None or
+            raises StopIteration, or when it has tried the number of places that the `SEARCH` allows, 49 by default.
+            A search `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
             `run.state.memory.place` is the number of the current place.
-        referee: a function that takes the true state of the cell and returns findings by name; or limits for
-            findings of the task's referee, such as `{"screws_clamp": 60}`, each in the unit of the finding. To
-            judge a saved run again, use `handeye.begin(folder, referee=...).result`.
+        referee: what judges the finished work: a function that takes the true state of the cell and returns
+            findings by name; or limits for findings of the task's referee, such as `{"screws_clamp": 60}`, each in
+            the unit of the finding. To judge a saved run again, use `handeye.begin(folder, referee=...).result`.
         judge: whether the referee judges the run when it ends; by default True if a referee is given, or if the
             resumed run was started with one.
         taught: taught positions, as for `handeye.plan`.
@@ -134,8 +134,8 @@ def assemble(
 
     Args:
         on_stop: what to do when the program calls the operator: `abort` ends the run; `retry:N` repeats the stage,
-            at most N times; `unwind` has the arm undo its work in that stage and repeats the stage, once for each
-            stage.
+            at most N times; `unwind` has the arm undo its work in that stage, then repeats the stage, at most once
+            per stage.
 
     The other arguments are those of `handeye.begin`.
 
@@ -174,7 +174,7 @@ def _rule(on_stop: object) -> Operator:
     would have to ask a person.
     """
     operator = None
-    with suppress(InvalidInput):  # the sentence of that error speaks of the command line
+    with suppress(InvalidInput):  # the message of that error is about the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
         raise BadArgument(

@@ -75,7 +75,7 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
 
     name = name_of(search)
 
-    @cache  # AOJ, each MOVE and every display ask for a place
+    @cache  # because AOJ, each MOVE and every display ask for a place
     def place(number: int) -> tuple[float, float] | None:
         try:
             given = search(number)

@@ -29,8 +29,8 @@ from handeye.runs.scripts import plan_script, plan_text, program_named
 
 @dataclass(frozen=True, kw_only=True)
 class FlowDrawing:
-    """A drawing of a plan: its steps, and arrows to the next step, in sequence or after an error. Notebooks show
-    the drawing.
+    """A drawing of a plan: its steps, with arrows to the step that comes next in sequence or after an error.
+    Notebooks show the drawing.
     """
 
     svg: str  # the drawing, as `handeye inspect --graph svg` writes it
@@ -112,7 +112,9 @@ class Plan:
 
     @property
     def seconds(self) -> float:
-        """Duration of all planned motions, s. Each step counts once. Finger motions and pictures are not included."""
+        """Total duration of the planned motions, in seconds. Each step counts once. Finger motions and pictures are
+        not included.
+        """
         return self._laid_open.seconds
 
     @property
@@ -120,7 +122,7 @@ class Plan:
         """Sixteen hexadecimal digits that identify the plan in runs and traces. They are the same on every
         processor.
 
-        The digest depends on the script, taught positions, arm, task and planner, but not on the computed motions.
+        They depend on the script, taught positions, arm, task and planner, but not on the computed motions.
         """
         return plan_digest(self.record)
 
@@ -138,7 +140,8 @@ class Plan:
         return file
 
     def flow(self, stage: str | int | None = None) -> FlowDrawing:
-        """Draw the steps of the plan, and an arrow from each step to the next. Arrows after an error are red.
+        """Draw the steps of the plan, and an arrow from each step to the next. Red arrows show where the program
+        goes after an error.
 
         Args:
             stage: draw only this stage: its number from 1, its name, or a unique part of its name.
@@ -182,8 +185,8 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
         script: a file (`.al`) with its taught file (`.toml`) next to it; the name of an included program, if no
             file has that name; the text of a script, which is a `str` that contains a line end; or a saved plan
             (`.json`).
-        taught: taught positions of the script (in, deg): a TOML file, or the text of one. By default the text of a
-            script has none.
+        taught: taught positions of the script, in inches and degrees: a TOML file, or the text of one. By default,
+            a script given as text has none.
         task: name of the task, which determines the arm; by default the task of the plan or the included program,
             else the water pump.
 

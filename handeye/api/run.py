@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from handeye.results.export import Export
 
 Place = str | int
-"""A stage or a part of its name, a label, an instruction, `error:N`, or a line of the script."""
+"""A place in the script: a stage (its name or a part of it), a label, an instruction, `error:N`, or a line."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,7 +102,8 @@ class Run:
 
         Args:
             place: a stage, by its name or a unique part of it; a label; an instruction (`"AOJ"`: the next step that
-                begins with it); a line (58, `"pins.al:3"`); or `"error:23"`: after the step that raises it.
+                begins with `AOJ`); a line (58, or `"pins.al:3"` for line 3 of that file); or an error
+                (`"error:23"`: after the step that raises error 23).
 
         Raises:
             InvalidInput: the run cannot continue, there is no such place, or the run cannot reach it from here.
@@ -115,7 +116,7 @@ class Run:
         return self._go(stops)
 
     def back(self, steps: Place = 1) -> State:
-        """Restore the run to its state before the last steps: arm, parts, program and clock. The events of these
+        """Restore the run (arm, parts, program and clock) to its state before the last steps. The events of these
         steps are dropped.
 
         Args:
@@ -202,8 +203,8 @@ class Run:
         or `"retry"`.
 
         Returns:
-            the answer as a record; `print` shows it as the stepper does. A wrong command changes nothing; `error`
-            of the answer gives the reason.
+            the answer as a record; `print` shows it as the stepper does. A command that cannot be executed changes
+            nothing, and the answer's `error` gives the reason.
 
         Raises:
             InvalidInput: the line is not a string, or the run is closed.

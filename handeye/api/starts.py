@@ -38,7 +38,7 @@ class RunRequest:
     task: str | None
     judged: bool
     limits: dict[str, float] | None
-    replaced: dict[str, str]  # parts of the caller's own, with the names of their code
+    replaced: dict[str, str]  # the parts that the caller replaced, each with the name of the caller's code
 
     @property
     def of_task(self) -> str | None:

@@ -20,9 +20,9 @@ class Memory:
     """
 
     error: int | None  # number of the raised error, for which the next step may test
-    saved: Mapping[str, Array]  # differences that `SAVE` saved, shape (3,), m
+    saved: Mapping[str, Array]  # differences that `SAVE` saved, each of shape (3,), in m
     counters: Mapping[str, int]
-    parts: Mapping[str, Pose]  # measured poses X_WP of parts, shape (4, 4), m
+    parts: Mapping[str, Pose]  # measured poses X_WP of parts, each of shape (4, 4), in m
     place: int | None  # number of the search's present place, from 0; None without a search
 
     def __eq__(self, other: object) -> bool:
@@ -45,18 +45,18 @@ class State:
     time: float  # simulated time since the program began, s
     stage: str | None  # the present or next stage; None after the last stage
     step: int | None  # number of the next step; None if the run cannot continue by itself
-    file: str  # required file that contains the next step; empty: the script itself
+    file: str  # required file that contains the next step; empty if the script itself contains it
     line: int | None  # line of the next step
     text: str | None  # statement of the next step, without its modifiers, such as `STOP`
     why: str  # reason for the pause, in words
     joints: Array
     """Joint positions, shape (n,), in rad; in m for prismatic joints (joint 3 of the Stanford arm)."""
-    gap: float  # sensed opening of the fingers, m
+    gap: float  # sensed opening of the fingers, in m
     hand: Pose
-    """X_WT, the pose of the hand, shape (4, 4), m: origin midway between the finger tips, z along the approach, y
-    along the finger line.
+    """X_WT, the pose of the hand, shape (4, 4), in m: origin midway between the finger tips, z along the approach,
+    y along the finger line.
     """
-    force: Array  # last estimate of the hand's force on the world, in W, shape (3,), N
+    force: Array  # last estimate of the hand's force on the world, in the table frame W, shape (3,), in N
     memory: Memory
 
     def __eq__(self, other: object) -> bool:

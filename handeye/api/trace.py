@@ -1,8 +1,8 @@
 """Traces for Python programs: read from files, made into videos, and shown in notebooks.
 
 >>> trace = handeye.open("out")
->>> trace.joints[trace.times > 100.0]    # positions by the sensors, later than 100 s; shape (n, 6)
->>> trace.forces(line=91).force[:, 2]    # N, upwards, during line 91 of the script
+>>> trace.joints[trace.times > 100.0]    # sensed joint positions after 100 s; shape (n, 6)
+>>> trace.forces(line=91).force[:, 2]    # upward force, in N, during line 91 of the script
 >>> trace.at(137.0).step.text    # what the arm was doing at that time
 """
 

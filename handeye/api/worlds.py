@@ -55,10 +55,11 @@ class World:
             level: size of the errors: `low` is half of `nominal`, `high` is twice `nominal`.
             without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) to leave at their nominal values.
             set: values of quantities or of groups. A value is a number in the unit of the quantity, or a text with
-                a unit, such as `".3 in"`. For a group, every quantity gets the value, each in its own unit: a
-                number for `arm.friction` is in N m for revolute joints and in N for the prismatic joint.
-            scale: factors by which errors are multiplied, in addition to the level, by the names of quantities or
-                groups; `unsourced` stands for all quantities whose size has no source.
+                a unit, such as `".3 in"`. If the name is that of a group, every quantity in the group gets the
+                value, each in its own unit: a number for `arm.friction` is in N m for revolute joints and in N for
+                the prismatic joint.
+            scale: a factor for each name of a quantity or group. Its errors are multiplied by this factor, in
+                addition to the level. `unsourced` stands for all quantities whose size has no source.
             faults: faults to inject, from the list that `handeye faults --list` prints: `NAME` or `NAME=VALUE`.
                 With `@N` at the end, the fault begins at stage N of the program.
             task: name of the task.

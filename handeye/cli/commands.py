@@ -43,7 +43,7 @@ trace show = traces:show: Show what happened in a run, and why.
 trace stats = traces:stats: Count and time what happened in a run, stage by stage.
 trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
 trace verify = traces:verify: Repeat a recorded run and compare the two.
-trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing: it keeps the motion that is needed to show the run.
+trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the motion that is needed to show the run is kept.
 trace plot = exports:plot: Plot joints, hand force and events of a run against time; needs the extra `plot` (matplotlib).
 trace export: Write joints, forces and events of a run as tables.
 trace export csv = exports:csv: Write tables of a run as CSV, with a README that describes the columns.
@@ -54,11 +54,11 @@ faults = fault_matrix:faults: Assemble once with each fault of a standard set, a
 trials: Repeat a task in many worlds and count successes.
 trials assembly = batches:assembly_trials: Assemble in many worlds: success rate with its confidence interval, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, have the arm take each pump apart again, and count how often every part is back in place.
-trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before it does damage?
+trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the arm does damage?
 trials compare = batches:compare_trials: Compare batches of trials with a first batch, world by world: how much a sensor, or an error of the world, changes the success rate.
-trials base = trials:base_vision_trials: Find the base on the belt at many poses: how often it is found, how accurately, and how often in the wrong place.
+trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
-trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; a failure is minimised to one command.
+trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
 bench: Benchmarks: stage times, and inserting a pin into a hole.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.

@@ -39,8 +39,8 @@ TaskWords = Annotated[
     str | None,
     Parameter(
         name="--task",
-        help="The task: its name, or MODULE:NAME for a task of your own, in a module on the path or in this "
-        "folder. Default: the task of the plan, program or run, or else the water pump.",
+        help="The task: its name, or MODULE:NAME for a task of your own, in a module on Python's path or in the "
+        "current folder. Default: the task of the plan, program or run, or else the water pump.",
     ),
 ]
 CameraKind = Literal["auto", "gl", "ray"]
@@ -149,7 +149,7 @@ def say(text: str, to: Console = screen, *, style: str | None = None, whole: boo
     """Print plain text, which may come from an untrusted file.
 
     On a terminal, lines are wrapped between words. A `whole` text is meant to be copied, so its lines are not
-    wrapped here.
+    wrapped.
     """
     shown = visible(text)
     if to.is_terminal and not whole:

@@ -30,8 +30,8 @@ def demo(
     Writes the report of a run included with handeye, as `report --demo` does, and prints the path of the page. If
     standard output is a terminal, the page opens in a browser. Nothing is simulated, and the page needs no network.
 
-    `handeye demo chess` shows another recorded run: an arm of 1981 sorts chess pieces by one light beam. Its page
-    lists each statement of the program and each command on the bus.
+    `handeye demo chess` shows another recorded run: an arm of 1981 sorts chess pieces with a single light beam as
+    its sensor. Its page lists each statement of the program and each command on the bus.
 
     Exit code 0: the page is written; 2: bad input.
     """

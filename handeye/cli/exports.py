@@ -174,7 +174,7 @@ def thin(
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the thinned trace (.mcap).")],
     overwrite: Overwrite = False,
 ) -> int:
-    """Shrink a trace to about a tenth of its size, for sharing: it keeps the motion that is needed to show the run.
+    """Shrink a trace to about a tenth of its size, for sharing; the motion that is needed to show the run is kept.
 
     Every command can read the thinned trace except `trace verify`, which needs the whole trace.
     """

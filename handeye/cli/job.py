@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from handeye.view.moment import Newest
     from handeye.view.server import Server
 
-Then = Literal["dismantle", "assemble"]  # Undo all that was done, or do it again
+Then = Literal["dismantle", "assemble"]  # Undo all the work, or do it again
 
 PANIC: Final = Pause(kind="panic")
 NOT_KEPT: Final = "the run is not kept and cannot be resumed; --out FOLDER would keep it"
@@ -62,16 +62,16 @@ class Job:
     start: Checkpoint
     folder: RunFolder | None = None  # Folder of a run that is resumed
     out: Path | None = None
-    keep: bool = False  # In the folder of runs, where no other folder is named
+    keep: bool = False  # Keep the run in the folder of runs if no other folder is named
     overwrite: bool = False
     calibrate: bool = False
     checkpoints: Path | None = None  # Another folder for checkpoints at the beginning of stages
-    stops: Sequence[AnyStop] = ()  # Places where it pauses and the command ends
+    stops: Sequence[AnyStop] = ()  # Places where the run pauses and the command ends
     breaks: Sequence[str] = ()
-    halfway: bool = False  # Save a checkpoint where it pauses, if it has no folder
+    halfway: bool = False  # Save a checkpoint where the run pauses, if the run has no folder
     step: bool = False
     live: bool = False  # Show each line as it begins, and accept commands during the run
-    server: "Server | None" = None  # Serves the page in which it is stepped, instead of the terminal
+    server: "Server | None" = None  # Serves the page in which the run is stepped, instead of the terminal
     on_stop: str | None = None
     json: bool = False
     details: bool = False

@@ -50,7 +50,7 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan in a file, or the plan of a script, or of the program with that name.
+    """The plan in a file, the plan of a script, or the plan of the program with that name.
 
     Raises:
         InvalidInput: there is no such plan for the task.
@@ -89,7 +89,7 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
     found = program_named(given.name)
     if found is None and not given.exists():
         if (other := known_any(given.name)) is not None:
-            planned(other)  # raises an error that says why no plan does it
+            planned(other)  # raises an error that says why this task has no plan
         near = suggestion(given.name, program_names()) or "give a file"
         raise NoSuchName(f"{given}: there is no such file, and no program of that name; {near}")
     return found

@@ -58,7 +58,7 @@ def _check_drawing(path: Path, begun: RunStarted) -> None:
     if world.drawing != DRAWING:
         raise Refused(
             f"the world of {path} comes from another version of handeye: seed {world.seed} gives a different world "
-            f"here (drawing {world.drawing} there, {DRAWING} here)"
+            f"here (rules for drawing worlds: version {world.drawing} there, version {DRAWING} here)"
         )
 
 
@@ -68,6 +68,6 @@ def _check_faults(path: Path, begun: RunStarted, plan: Plan) -> None:
     for fault in begun.world.faults:
         if fault.stage is not None and fault.stage > stages:
             raise BadArgument(
-                f"the fault {fault} of {path} begins at a later stage than this plan has; the plan "
+                f"the fault {fault} of {path} begins at a stage that this plan does not have; the plan "
                 f"has {counted(stages, 'stage')}"
             )

@@ -43,7 +43,7 @@ def report(
             name=["--out", "-o"],
             help="File for the page (.html); by default report.html in the folder of the run, or next to the trace; "
             "with "
-            "`--demo`, demo.html in this folder.",
+            "`--demo`, demo.html in the current folder.",
         ),
     ] = None,
     overwrite: Overwrite = False,

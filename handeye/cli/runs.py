@@ -57,9 +57,10 @@ OnStop = Annotated[
     str | None,
     Parameter(
         help="How to answer when the program calls the operator. `abort` ends the run. `retry:N` repeats the "
-        "failed stage, each stage at most N times. `unwind:STAGE` has the arm undo its work back to the beginning "
-        "of STAGE and try again, once for each stage that fails; `unwind` alone goes back to the beginning of the "
-        "failed stage. `ask` asks you. Default: `ask` on a terminal, `abort` elsewhere."
+        "failed stage, each stage at most N times. `unwind:STAGE` has the arm undo its work back to the "
+        "beginning of STAGE and try again, at most once for each stage that fails; `unwind` alone goes back "
+        "to the beginning of the failed stage. `ask` asks you. Default: `ask` on a terminal, `abort` "
+        "elsewhere."
     ),
 ]
 
@@ -181,8 +182,8 @@ def run(
     the stages before it run first.
 
     Exit code 0: the program finished, or paused where asked; 1: it stopped and called the
-    operator; 3: the referee, if asked, disagrees; 2: bad input, or a piped --step command was refused; 130:
-    interrupted.
+    operator; 3: the program reported success, but the referee (if it judges the run) disagrees; 2: bad input, or a
+    piped --step command was refused; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.recorded_worlds import in_world_of

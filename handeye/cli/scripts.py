@@ -154,8 +154,8 @@ def plan(
     ----------
     output
         File for the plan. Default: next to the script, with the ending .plan.json; for a program given by name, in
-        this folder. An earlier plan at the default place is replaced; to replace another
-        file, give --overwrite.
+        the current folder. An earlier plan at the default place is replaced; to replace another file, give
+        --overwrite.
     """
     script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")

@@ -1,4 +1,6 @@
-"""Commands for programming by doing: instructions executed at once, and the two modes of the arm program."""
+"""Commands for programming by doing: `do` executes instructions at once, `repl` collects a program line by line,
+and `teach` moves the arm to positions and names them.
+"""
 
 import sys
 from dataclasses import dataclass
@@ -103,7 +105,8 @@ def do(
     Parameters
     ----------
     functions
-        Instructions of the arm language; a modifier goes before its motion, in one argument, separated by a newline.
+        Instructions of the arm language; a modifier and its motion are one argument, with the modifier first and a
+        newline between them.
     """
     from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
     from handeye.teaching.answers import converse
@@ -176,7 +179,7 @@ def teach(
     Parameters
     ----------
     file
-        The taught file (TOML), or the script next to it. It need not exist yet.
+        The taught file (TOML), or the script next to it. The taught file need not exist yet.
     """
     from handeye.teaching.answers import converse
     from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession

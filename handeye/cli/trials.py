@@ -95,7 +95,8 @@ def base_vision_trials(
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Find the base on the belt at many poses: how often it is found, how accurately, and how often in the wrong place.
+    """Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in
+    the wrong place.
 
     In every world the arm first moves its lamp through the camera's view, as in a run. This takes most of the time of
     a trial; with `--worlds`, several poses share a world and its calibration.
@@ -132,8 +133,8 @@ def disturbed_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before it does
-    damage?
+    """Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the
+    arm does damage?
 
     The stop is in time if, before the stop, no part outside the hand moved by more than 2 mm in a step and the hand
     felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
@@ -200,7 +201,8 @@ def chaos_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Chaos test: random faults, crashes, interruptions and operator answers; a failure is minimised to one command.
+    """Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one
+    command that repeats it.
 
     A schedule starts somewhere in a fault-free run and continues for a few steps, or to the end of the stage. It
     has up to two faults, and up to two interruptions: panic button, pause, going back, killed process. After each
@@ -210,8 +212,8 @@ def chaos_trials(
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
     and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). A
-    schedule that fails is reduced as long as it still fails, and printed as a command. First, one complete run is made
-    in each world, which takes one CPU minute; a schedule takes some seconds.
+    schedule that fails is shortened as long as it still fails, then printed as a command. First, one complete run
+    is made in each world, which takes one CPU minute; a schedule takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """
