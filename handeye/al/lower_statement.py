@@ -32,10 +32,10 @@ from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
 from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Match, Specific
 
-PLACE_DEPTH: Final = 3.0 * INCH  # m; the height of an approach
+PLACE_DEPTH: Final = 3.0 * INCH  # in m: the height of an approach
 PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
-"""The first stop force (N) of the pin insertion of 1973. It is more than three times the vertical force that the
-hand can sense because of joint friction.
+"""The first stop force (N) of the pin insertion of 1973. It is more than three times the vertical force that joint
+friction can hide from the hand.
 """
 SEARCH_STEPS: Final = 3  # to each side
 LINE_STEPS: Final = 4  # to each side, along a line

@@ -44,7 +44,7 @@ def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
 def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, list[Diagnostic]]:
     texts = {text.key: scan(text.text, source.begins[text.key]) for text in source.texts}
     defining = (text.key for text in source.texts if _DEFINE in text.text.upper())
-    # Macros are known before they are defined, so a call may come before the definition.
+    # The heads of all macros are read first, so a call may come before the definition.
     known: dict[str, Instruction | None] = {}
     for head in (head for key in defining for head in heads(texts[key])):
         known.setdefault(head.word, head.usage)

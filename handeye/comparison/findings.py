@@ -20,8 +20,8 @@ class Correction(Record, frozen=True, kw_only=True):
     place: Place
     kind: Literal["saved", "seen"]
     name: str
-    at: tuple[float, ...]  # x, y and z of a difference; x and y of a part, m
-    yaw: float | None = None  # Of a part, rad; None: a difference, or a general look
+    at: tuple[float, ...]  # x, y and z of a difference, or x and y of a part; in m
+    yaw: float | None = None  # Angle of a part, in rad; None for a difference, and for a general look
 
 
 class Corrections(Record, frozen=True, kw_only=True):
@@ -62,8 +62,8 @@ class Stop(Record, frozen=True, kw_only=True):
     """How a guarded motion ended: the guard that tripped, and the value that it sensed."""
 
     place: Place
-    guard: GuardKind | None  # The guard that ended the motion; None: no guard
-    value: float | None = None  # The value that this guard sensed: N, N m, or finger switches as a mask
+    guard: GuardKind | None  # The guard that ended the motion; None if no guard did
+    value: float | None = None  # The value that it sensed, in N or N m; or the finger switches, as a mask
 
 
 class Stops(Record, frozen=True, kw_only=True):

@@ -48,7 +48,7 @@ class StepMessage:
 class Stretch:
     """The messages recorded during one step, or before the first step."""
 
-    started: StepStarted | None  # None: before the first step
+    started: StepStarted | None  # None before the first step
     begin: int  # ns
     told: list[StepMessage] = field(default_factory=list)
 
@@ -90,7 +90,7 @@ def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[St
     yield stretch
 
 
-_CLOCKS: Final = 2000  # ns: rounding can cause this difference between times since a step began
+_CLOCKS: Final = 2000  # in ns: times since a step began may differ by this much through rounding
 EVENT: Final = ("event",)  # The quantity that differs if the next events differ in kind
 
 
@@ -145,7 +145,7 @@ class First:
 
     a: Place | None  # step of the first run; None before its first step, or after its end
     b: Place | None  # step of the second run, likewise
-    period: int | None = None  # servo period of the step, from 1; None: outside servo periods
+    period: int | None = None  # servo period of the step, from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """The next event of each run, if the events are what differs; None for a run in which the step continued or the

@@ -23,7 +23,7 @@ class Place(Record, frozen=True, kw_only=True):
 
     stage: str
     step: int
-    file: str = ""  # required file that contains the step; empty: the script itself
+    file: str = ""  # required file that contains the step; empty for the script itself
     line: int
     text: str
     time: float  # time at which the step began, s since the run began

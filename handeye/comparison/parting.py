@@ -23,7 +23,7 @@ class DecidingEvent:
 class Divergence:
     """The first event, in each run, at which the courses of the runs differ. None stands for a run that ended."""
 
-    a: DecidingEvent | None  # next event of the first run; None: the run has ended
+    a: DecidingEvent | None  # next event of the first run; None if the run has ended
     b: DecidingEvent | None  # next event of the second run, likewise
 
     @property

@@ -58,7 +58,7 @@ class Diagnostic:
     notes: tuple[str, ...] = ()
     help: str | None = None
     meant: Meant | None = None
-    own: Severity | None = None  # of a system's own code; None: one of `CODES`
+    own: Severity | None = None  # severity of a system's own code; None for one of `CODES`
 
     def __post_init__(self) -> None:
         assert self.own or self.code in CODES, self.code

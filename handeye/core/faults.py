@@ -22,8 +22,8 @@ class Fault(Record, frozen=True, kw_only=True):
     """
 
     name: str
-    value: float | None = None  # size, SI; None if the kind has none
-    stage: Annotated[int, msgspec.Meta(ge=1)] | None = None  # onset, stage from 1; None: from the start
+    value: float | None = None  # size, in SI units; None if the kind has none
+    stage: Annotated[int, msgspec.Meta(ge=1)] | None = None  # counted from 1
 
     def __str__(self) -> str:
         return self.name if self.stage is None else f"{self.name} from stage {self.stage} on"
@@ -48,8 +48,8 @@ class ExpectedDetection:
     part.
     """
     at_setup: bool = False  # measuring the arm or calibrating the camera fails
-    stages: tuple[str, ...] = ()  # stages in which these are right; empty: any
-    harmless: str = ""  # why the work may still come out right; empty: it must be noticed
+    stages: tuple[str, ...] = ()  # stages in which these errors and messages are right; empty if all are
+    harmless: str = ""  # why the work may come out right all the same; empty if the fault must be noticed
 
     def called(self, message: str) -> bool:
         """Return True if a message to the operator identifies the fault."""
@@ -74,16 +74,16 @@ class FaultKind:
 
     name: str
     meaning: str  # a sentence: what is broken, and what the program gets instead
-    size: Size | None = None  # None: no value
+    size: Size | None = None  # None if the fault has no size
     when: Literal["before", "during"] = "during"
     """`before` if the fault can only be present in the world from the start; `during` if it can also begin at a
     stage.
     """
-    usual_stage: int | None = None  # default onset, stage from 1; None: from the start
+    usual_stage: int | None = None  # stage at which the fault begins by default, from 1; None for the start
     expected: ExpectedDetection = UNKNOWN
 
     @property
-    def from_start(self) -> bool:  # cannot set in during work
+    def from_start(self) -> bool:  # the fault cannot begin during the work
         return self.when == "before"
 
     @property

@@ -7,19 +7,19 @@ import numpy as np
 from handeye.core.pose import Array, Pose
 
 Box = tuple[float, float, float, float, float, float]
-"""Two opposite corners of a box in the frame of the box, m: least x, y, z, then greatest x, y, z."""
+"""Two opposite corners of a box, in m, in the frame of the box: least x, y, z, then greatest x, y, z."""
 
 _PARALLEL = 1e-6  # sine below which two edges count as parallel and their cross product gives no axis
 
 
 def middles(boxes: Sequence[Box]) -> Array:
-    """Return the centres of boxes, shape (n, 3), m."""
+    """Return the centres of boxes, in m, shape (n, 3)."""
     corners = np.asarray(boxes, dtype=np.float64).reshape(-1, 2, 3)
     return np.asarray((corners[:, 0] + corners[:, 1]) / 2)
 
 
 def halves(boxes: Sequence[Box]) -> Array:
-    """Return the half lengths of boxes, shape (n, 3), m."""
+    """Return the half lengths of boxes, in m, shape (n, 3)."""
     corners = np.asarray(boxes, dtype=np.float64).reshape(-1, 2, 3)
     return np.asarray((corners[:, 1] - corners[:, 0]) / 2)
 
@@ -54,9 +54,9 @@ def _oblique(R: Array, gap: Array, a: Array, b: Array) -> Array:
     products of the edges.
 
     Args:
-        R: orientation of the first box in the frame of the second, (K, 3, 3).
-        gap: vector from the centre of the second box to that of the first, (K, 3), m; `a` and `b` are half lengths
-            of the two boxes, (K, 3), m.
+        R: orientation of the first box in the frame of the second, shape (K, 3, 3).
+        gap: vector from the centre of the second box to that of the first, in m, shape (K, 3). `a` and `b` are the
+            half lengths of the two boxes, likewise.
     """
     own = np.swapaxes(R, -1, -2)
     crossed = np.cross(np.eye(3)[None, :, None], own[:, None]).reshape(-1, 9, 3)

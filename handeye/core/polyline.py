@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from handeye.core.pose import Array
 
-_LEAST: Final = 1e-9  # least norm of an interpolated quaternion: halfway to its opposite it would be zero
+_LEAST: Final = 1e-9  # least norm of an interpolated quaternion; halfway between opposites it is zero
 
 Rows = NDArray[np.int64]
 Off = Callable[[Rows, Rows, Rows], Array]

@@ -41,7 +41,7 @@ class Source:
 
     name: str
     text: str
-    key: str = ""  # path of a required text from the main text's folder; empty: the main text
+    key: str = ""  # path of a required text from the main text's folder; empty for the main text
     problem: str = ""  # why a required text could not be read
     required: "tuple[Source, ...]" = ()  # offsets continue through these, one character after each
 

@@ -25,7 +25,7 @@ from handeye.core.faults import Fault
 from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
 
-DRAWING: Final = 4  # version of the drawing: raised when equal seeds give other worlds
+DRAWING: Final = 4  # version of the rules for drawing worlds; raised when a seed gives a different world
 
 LARGEST_SEED: Final = (
     1 << 53
@@ -41,7 +41,7 @@ UNSOURCED: Final = "unsourced"
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
 LARGEST_SCALE: Final = (
-    4.0  # of an error over its nominal size, level included: beyond it friction could be negative
+    4.0  # greatest factor on an error, level included: with a greater one, friction could be negative
 )
 
 
@@ -50,7 +50,7 @@ class Quantity:
     """One number that varies between worlds."""
 
     name: str
-    unit: str  # one of UNITS, of all figures here
+    unit: str  # one of UNITS; the unit of all figures of the quantity
     distribution: Distribution
     nominal: float = 0.0  # its value when switched off
     limits: tuple[float, float] = (-np.inf, np.inf)  # range it can be set to

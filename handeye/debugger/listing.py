@@ -14,7 +14,7 @@ from handeye.core.source import Source, line_name
 from handeye.debugger.view_records import TaskView
 from handeye.runs.system import Listing
 
-Place = tuple[str, int]  # a required file (empty: the script itself), and a line of that file
+Place = tuple[str, int]  # a required file (empty for the script itself), and a line of that file
 _PLACE: Final = re.compile(r"(?:(?P<file>[^:]+):)?(?P<line>[0-9]{1,9})")
 
 
@@ -22,7 +22,7 @@ class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A step, which users select by its number in the plan."""
 
     step: int
-    file: str = ""  # the required file its line is in; empty: the script itself
+    file: str = ""  # the required file that contains its line; empty for the script itself
     line: int
     text: str
 
@@ -32,7 +32,7 @@ class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     number: int
     name: str
-    file: str = ""  # the required file it begins in; empty: the script itself
+    file: str = ""  # the required file in which it begins; empty for the script itself
     lines: tuple[int, int] | None
     """First and last line of the stage's steps in the file; None if there are no steps. Steps of macros count only
     if there are no others.

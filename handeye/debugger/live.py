@@ -30,7 +30,7 @@ class Pace(Observer):
     """Limits the pace of a run to `factor` times real time by waiting. This does not change the course of the
     run."""
 
-    factor: float | None = None  # simulated seconds per second; None: as fast as possible
+    factor: float | None = None  # simulated seconds per second; None for as fast as possible
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
@@ -79,7 +79,7 @@ _OUTCOME_INDENT: Final = 8  # columns, if the outcome has a line of its own
 class Live:
     """The terminal as a run uses it: reads typed lines, and writes text."""
 
-    typed: Callable[[], str | None]  # returns a line that has been typed; None: there is none
+    typed: Callable[[], str | None]  # returns a line that has been typed, or None if there is none
     put: Callable[[str], None]  # prints a piece of a line
     width: int
 

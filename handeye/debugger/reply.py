@@ -31,7 +31,7 @@ class StepSummary(Record, frozen=True, kw_only=True):
     """An executed step, or an event between two steps."""
 
     line: int | None  # line of the source; None between steps
-    file: str = ""  # the required file that line is in; empty: the script itself
+    file: str = ""  # the required file that contains this line; empty for the script itself
     text: str
     outcome: str
 
@@ -132,7 +132,7 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     step: int | None  # the step to be done next; None if the run cannot continue alone
     line: int | None
     text: str | None  # its statement
-    script: str = ""  # the required file its line is in; empty: the script itself
+    script: str = ""  # the required file that contains this line; empty for the script itself
     tasks: tuple[TaskView, ...] | UnsetType = UNSET  # places of the tasks, if there are several
     did: tuple[StepSummary, ...] = ()  # steps that were done, in words
     events: tuple[AnyEvent, ...] = ()  # events that have happened, in full

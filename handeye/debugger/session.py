@@ -52,7 +52,7 @@ class DebugSession:
         self.pace = Pace()
         self.output = Observer()  # prints what the run does while it continues
         self.input = Observer()  # takes lines typed while it continues or goes back
-        self.going: Literal["on", "back"] | None = None  # the direction of the run; None: it is paused
+        self.going: Literal["on", "back"] | None = None  # the direction of the run; None while it is paused
         self._pause_asked = False
         self._set = 0
         self._begun = tuple(runner.events)

@@ -73,11 +73,11 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Where one of several tasks is in the program."""
 
     task: str
-    step: int  # the step that it does next
-    file: str = ""  # the required file its line is in; empty: the script itself
+    step: int  # the step that the task does next
+    file: str = ""  # the required file that contains the line of this step; empty for the script itself
     line: int
     text: str
-    waits_for: str = ""  # what it waits for, in words; empty: only its turn
+    waits_for: str = ""  # what the task waits for, in words; empty if it waits only for its turn
 
 
 class RunViews(Record, frozen=True, kw_only=True):
@@ -86,7 +86,7 @@ class RunViews(Record, frozen=True, kw_only=True):
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET
     hand: HandView | UnsetType = UNSET
-    force_oz: Vector3 | UnsetType | None = UNSET  # on the world, in W; None: not estimated here
+    force_oz: Vector3 | UnsetType | None = UNSET  # on the world, in W; None if there is no estimate here
     gap_in: float | UnsetType = UNSET
     switches: tuple[bool, bool] | UnsetType = UNSET  # on the +y and -y side of the hand
     error: ErrorView | UnsetType | None = UNSET

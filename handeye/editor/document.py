@@ -24,8 +24,8 @@ class Document:
 
     source: Source
     taught: Taught = field(default_factory=Taught)
-    taught_text: str = ""  # of the taught file; empty: none
-    read: Read | None = None  # reads required texts; None: they are not read
+    taught_text: str = ""  # text of the taught file; empty if there is no such file
+    read: Read | None = None  # reads required texts; None if they are not read
 
     @property
     def text(self) -> str:

@@ -157,8 +157,9 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
-        "A search has 49 places, or the number that its STEPS give. If you do not test for this error, it calls "
-        "the operator. This is usually right: the hole is not here. Count with SOJG to give up sooner.",
+        "A search has 49 places, or the number that its STEPS give. If you do not test for this error, it "
+        "calls the operator, which is usually right: the hole is not here. To give up sooner, count the "
+        "places with SOJG.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),
@@ -218,9 +219,9 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),
     errors.GAP_WRONG: Remedy(
-        "If the fingers have room, the potentiometer of the gap is broken: do not test for the error. If the "
-        "fingers may meet an object as they open, open them less. A held part that slips or is pushed also changes "
-        "the gap.",
+        "If nothing is in the way of the fingers, the potentiometer that measures the gap is broken: do not "
+        "test for the error. If the fingers may meet an object as they open, open them less. A held part "
+        "that slips or is pushed also changes the gap.",
         "OPEN 1.8\nSKIPN 51 ;the fingers reached their gap\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(

@@ -31,7 +31,7 @@ class Occurrence:
     name: str
     span: Span
     makes: bool  # defined here
-    scope: str = ""  # macro to which a label or parameter belongs; empty: none
+    scope: str = ""  # macro to which a label or parameter belongs; empty if there is none
     macro: str = ""  # enclosing macro, if any
     fixed: bool = False  # a word of the language, not to be renamed
 

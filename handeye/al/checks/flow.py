@@ -212,7 +212,7 @@ class _Flow:
             yield jump, self.problem(code, jump, message, there, help=help)
 
     def vain(self) -> Iterator[Finding]:
-        """Report the stops and checks whose outcome is always the same."""
+        """Report the steps that can never have their effect, or that always raise an error."""
         for found in always_failing(self.graph):
             cause = () if found.cause is None else (Label(span=self.span(found.cause), text="the cause"),)
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
@@ -253,8 +253,8 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """Return True if a test skips only a second test, the second test is for an error that can be pending, and
-        both lead to the same step.
+        """Return True if a test skips only a second test, if the second test is for an error that can be pending,
+        and if both tests lead to the same step.
         """
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)
@@ -298,8 +298,8 @@ Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """Yield the jumps that repeat the same round of a search or count, each with the step that restarts it. The
-    step is None if nothing advances the round.
+    """Yield the jumps that repeat the same round of a search or count, each with the step that restarts the search
+    or count. This step is None if the round contains no MOVE.
     """
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))

@@ -1,7 +1,7 @@
 """Finds each RESTORE whose difference has not been saved on any path to it.
 
 Exception: a difference may be saved relative to the goal that it shifts. Such a difference follows a moving
-reference, and may start at zero.
+reference. Before its first SAVE, it may be used with the value zero.
 """
 
 from collections.abc import Iterator
