@@ -47,8 +47,8 @@ def used_names(words: ByWord) -> Used:
 
 
 def pairs(statement: Statement) -> Iterable[tuple[Operand, Value | None]]:
-    """Pair the definitions of the operands of a statement with their values. Returns no pairs for a macro call or
-    a statement with an error.
+    """Pair the definition of each operand of a statement with the value of the operand. Returns no pairs for a
+    macro call or a statement with an error.
     """
     if statement.word is None or statement.broken or not statement.operands:
         return ()

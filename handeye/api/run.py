@@ -250,7 +250,7 @@ class Run:
         return state
 
     def attend(self, operator: Operator) -> State:
-        """Run to the end. The operator, a person or a rule, answers each time the program calls for help."""
+        """Run to the end. The operator (a person or a rule) answers each time the program calls for help."""
         self._check_open()
         try:
             pause = attend(self._runner, operator, [], self._session.kept)

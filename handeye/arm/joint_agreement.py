@@ -14,8 +14,8 @@ from handeye.core.record import Record
 MAX_TURN_GAP: Final = 0.0063
 MAX_SLIDE_GAP: Final = 0.0011
 """Difference between the two sensors of a joint (rad or m) that the waviness of a potentiometer can cause: twice
-its largest amplitude, where the amplitude itself is twice the stated one (.09 degrees, .011 in), as at the high
-level of errors.
+the largest amplitude of the waviness. At the high level of errors, this amplitude is twice the stated one (.09
+degrees, .011 in).
 """
 READING_STEPS: Final = 1.5
 """Tolerance for two readings of one position, in converter steps: half a step for each, and their noise."""
@@ -30,7 +30,7 @@ tachometer does not show.
 One step for rounding, and five standard deviations of the noise (.2 steps per reading, .4 at the high level).
 """
 STRUCK: Final = 3.0
-"""Factor by which a struck joint may move farther in one servo period than half the change of its rate explains.
+"""A struck joint may move this many times as far in one servo period as half the change of its rate explains.
 Chosen.
 """
 

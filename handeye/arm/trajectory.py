@@ -24,7 +24,7 @@ from handeye.program.diagnosis.reach import BelowTable
 DIRECT_KNOT: Final = 1 / 9
 """Fraction of the path at which the first and last inner knots lie in a motion without departure or approach.
 
-In the worked example of Paul (1972), it is 5 degrees of 45 degrees.
+In the worked example of Paul (1972), the fraction is 5 degrees of 45 degrees.
 """
 _HEIGHT_SHARES: Final = (1.0, 0.75, 0.5, 0.25)  # of departure and approach, tried in turn
 _END_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)  # durations of the end segments over the middle one's

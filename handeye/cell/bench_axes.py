@@ -194,11 +194,11 @@ class BenchAxes(Axes, Mechanism[AxesState]):
     # -- as time passes -------------------------------------------------------------------------------
 
     def _interpolate(self) -> None:
-        """Move the set-points evenly towards the goal during a period. Goals that jump shake the objects that lie
-        on the axes.
+        """Move the set-points evenly towards the goal during a period. If the set-points jumped to the goal, the
+        objects that lie on the axes would be shaken.
 
-        Measured with jumping goals: on paths planned with 1 m/s2, the acceleration of a platter reached 10.8 m/s2
-        and moved the blocks that lay on it.
+        Measured with set-points that jump: on paths planned with 1 m/s2, the acceleration of a platter reached 10.8
+        m/s2 and moved the blocks that lay on it.
         """
         if self._left:
             self._left -= 1

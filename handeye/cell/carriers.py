@@ -105,7 +105,7 @@ class Carriers:
         self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
     def straighten(self, hole: int, seconds: float) -> None:
-        """Let the thread straighten a screw that is turned in for `seconds`."""
+        """Let the thread straighten a screw while the screw is turned in for `seconds`."""
         model, body, mouth = self._model, self._body[hole], self.mouths[hole]
         place, lean = model.body_pos[body], model.body_quat[body][1:].copy()
         if place.tolist() == mouth.tolist() and not any(lean.tolist()):

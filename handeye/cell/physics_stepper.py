@@ -6,11 +6,11 @@ steps it has the same speeds, but is early by 1.6 ms, half of the difference bet
 friction of joints are constraints too. A joint held by friction creeps at up to 9e-6 rad/s with long steps, instead
 of 4e-6 rad/s.
 
-A part that is carried through the air touches only the bodies that hold it. These contacts also take long steps, if
-the task names the pair of bodies. In long steps the contacts are made stiffer, so that a part sinks as deep into the
-fingers as in short steps. They may neither begin nor end in long steps. If a finger that presses with 80 N lost its
-contact with the part in a long step, the finger would move 1.5 mm into the part before the next step detected the
-contact, and would throw the part away.
+A part that is carried through the air touches only the bodies that hold it. Steps with these contacts may be long
+too, if the task names the pair of bodies. In long steps these contacts are made stiffer, so that a part sinks as
+deep into the fingers as in short steps. Contacts may neither begin nor end in long steps. If a finger that presses
+with 80 N lost its contact with the part in a long step, the finger would move 1.5 mm into the part before the next
+step detected the contact, and would throw the part away.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. It leaves
 out the second-order term of the motion: half the acceleration times the square of the step. After long steps this

@@ -1,4 +1,5 @@
-"""Two methods to compute the light on the camera's target: OpenGL off-screen, and ray casting.
+"""Two methods to compute the light on the camera's target (the light-sensitive plate of its tube): OpenGL
+off-screen, and ray casting.
 
 Within the resolution of a vidicon the two methods give the same picture: diffuse surfaces without texture or gloss,
 lights with shadows, an ambient level, and four samples per picture point with an edge. For one state of the scene,
@@ -53,7 +54,7 @@ _SHOWN: Final = 60  # characters shown of a value that is not a picture
 
 
 class PictureMaker(Protocol):
-    """Computes the light on the target of the television camera. A caller may supply one."""
+    """Computes the light on the target of the television camera. A caller may supply a picture maker."""
 
     def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
         """Compute the light on the target, shape (256, 333), in which 1 is a white surface in full light. `data` is

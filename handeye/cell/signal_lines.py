@@ -51,8 +51,9 @@ _BRIGHTEST: Final = 15  # intensity of a point
 class DefectState(Record, frozen=True, kw_only=True):
     """State of a defect."""
 
-    seconds: float | None = None  # since it set in; None: it has not
-    first: bytes | None = None  # value on its line then, a number or the points of a picture; None: none yet
+    seconds: float | None = None  # since it began; None if it has not begun
+    first: bytes | None = None
+    """Value on its line when it began: a number, or the points of a picture. None if there was no value yet."""
 
 
 class SignalLinesState(Record, frozen=True, kw_only=True):

@@ -49,8 +49,8 @@ class SimulatedCell(Clock, SnapshotCell):
         camera draw their noise from `noise`. Raises ValueError if two devices or mechanisms have the same name,
         because their states are stored by name.
         """
-        self.arm = arm  # the experimenter may push it
-        self.camera = camera  # and take its shadows away
+        self.arm = arm  # kept for the experimenter, who may push the arm
+        self.camera = camera  # and may remove the shadows from the camera's pictures
         self.lines = lines  # lines of its devices, with what is broken on them
         devices = (arm, hand, screwdriver, lamp)
         parts: tuple[Mechanism[Any], ...] = (

@@ -113,7 +113,7 @@ def _files(file: Path) -> list[Path]:
 
 
 def _version(path: Path) -> Version:
-    """Identifies the version of a file: it changes when the file is edited or replaced."""
+    """A value that identifies the version of a file: the value changes when the file is edited or replaced."""
     try:
         status = path.stat()
     except OSError:

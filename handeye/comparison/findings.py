@@ -97,7 +97,7 @@ class Search(Record, frozen=True, kw_only=True):
 
     place: Place  # The step that set up the search
     places: int = 1
-    last: tuple[float, float] = (0.0, 0.0)  # The last place, x and y relative to the first place, m
+    last: tuple[float, float] = (0.0, 0.0)  # The last place: x and y relative to the first place, in m
     exhausted: bool = False
 
 

@@ -59,8 +59,9 @@ class Entry(Record, frozen=True, kw_only=True):
     machines: dict[str, str] = field(default_factory=dict)  # `module:NAME` of an `ArmMachine`, by name
     sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     faults: str = ""
-    """`module:NAME` of a function that returns the kind of sweep and the work of `handeye faults`, given the name of a
-    task and a world. Empty: the system has no such trials."""
+    """`module:NAME` of a function that takes the name of a task and a world, and returns the kind of sweep and the
+    work of `handeye faults`. Empty if the system has no such trials.
+    """
     events: str = ""  # `module:NAME` of a tuple of the kinds of events that it adds to those of all systems
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending
     files: tuple[str, ...] = ()  # files that its finished runs add to their folders

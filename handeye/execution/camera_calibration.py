@@ -1,8 +1,8 @@
 """Calibrates the camera to the arm: the arm carries its lamp through the view of the camera.
 
-The camera is calibrated once when it is set up, before any pump is made, so the time for it is not in the table of
-1973. The position of the hand is measured by the sensors of the arm. The same arm grasps the parts later, so errors
-common to calibration and grasping cancel.
+The camera is calibrated once when it is set up, before any pump is made, so the table of 1973 does not include the
+time for the calibration. The position of the hand is measured by the sensors of the arm. The same arm grasps the
+parts later, so errors common to calibration and grasping cancel.
 """
 
 import math
@@ -68,7 +68,7 @@ def calibrate_camera(
         seen = sum(s.lens == lens for s in sightings)
         if seen < MIN_SIGHTINGS:
             raise CalibrationFailed(f"the lamp was seen {counted(seen, 'time')} with the {lens * 1000:.0f} mm lens; "
-                                    f"{MIN_SIGHTINGS} are needed to calibrate the camera")  # fmt: skip
+                                    f"{MIN_SIGHTINGS} times are needed to calibrate the camera")  # fmt: skip
     back = move(arm, drive.state.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
     if not isinstance(back, IKResult):
         _go(drive, back)

@@ -33,8 +33,8 @@ MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
 Chosen between the ratios of sound joints and of drives that give half of their torque. Measured: sound joints
-reach 1.61 in sixty worlds. In eighty worlds with twice the errors they reach 1.87, and one joint exceeds the
-limit. With a drive that gives half of its torque, the ratio is 1.4 to 2.3.
+reach 1.61 in sixty worlds. In eighty worlds with twice the errors, only one sound joint exceeds the limit, with
+1.87. With a drive that gives half of its torque, the ratio is 1.4 to 2.3.
 """
 
 

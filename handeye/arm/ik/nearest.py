@@ -18,7 +18,7 @@ from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array, Pose
 
 _STEPS: Final = 8  # each squares the error, or halves it where two joints come into line
-_HOPELESS: Final = 1e4  # distance, in terms of `WRITTEN`, that no step mends
+_HOPELESS: Final = 1e4  # distance, in multiples of `WRITTEN`, from which no step helps
 _ASIDE: Final = (0.0, 3e-4, -3e-4)  # of a turn
 _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to joints in line
 

@@ -93,8 +93,8 @@ _JOINTS: Final = (
         drive=(6.0, 12.0, 15.0), mass=1.08, centre=(0.0, 0.0092, -0.0054), tensor=(0.002, 0.001, 0.001),
         armature=0.106, damping=0.3, brake=30.0,
     ),
-    # 220 degrees by the data sheet; the toolbox has +-90, with which the hand could point down only while the
-    # boom slopes down.
+    # The data sheet gives a range of 220 degrees. The toolbox has +-90 degrees, with which the hand could point
+    # down only while the boom slopes down.
     _joint(
         "wrist bend", "revolute", d=0.0, alpha=pi / 2, limits=(-110 * DEGREE, 110 * DEGREE),
         drive=(6.0, 12.0, 15.0), mass=0.63, centre=(0.0, 0.0003, 0.0566), tensor=(0.003, 0.003, 0.0004),
@@ -107,9 +107,9 @@ _JOINTS: Final = (
     ),
 )  # fmt: skip
 
-# Sizes of the hand as drawn. Fingers of .12 kg: placeholder, as their mass centre (they reach from .175 to .254 m).
-# Opening and its rate, 8 cm/s free (3 loaded): data sheet of 1974. Grip: the strongest the assembly study
-# measured. Grasp: chosen.
+# Sizes of the hand: as drawn. Mass of each finger (.12 kg), and mass centre of the fingers (they reach from .175 to
+# .254 m): placeholders. Opening, and its rate of 8 cm/s without load (3 cm/s loaded): data sheet of 1974. Grip: the
+# strongest that the assembly study measured. Grasp: chosen.
 _HAND: Final = HandModel(
     length=HAND_LENGTH, mass=0.24, centre=0.20, gap_max=GAP, gap_speed=0.08, grip=80.0,
     finger_width=0.01905, finger_thickness=0.01016, finger_length=0.0782,
@@ -118,21 +118,22 @@ _HAND: Final = HandModel(
     grasp=GraspModel(speed=0.05, centring=0.5 * INCH, settle=20),
 )  # fmt: skip
 
-# Frequencies: torque held over 1/60 s becomes unstable between 50 and 60 rad/s (measured); at 20 to 30 the arm
-# follows to a fraction of a millimetre. The wrist has little inertia and would bend under a push of a few pounds,
-# hence more there. Lag: placeholder, twenty times what free motions show. Short: placeholder, five times the .032 in
-# that whole runs show; the servo is soft. Drag: chosen; with the little friction of its joints alone the arm would
-# continue.
+# Frequencies: with torques held for 1/60 s, the servo becomes unstable between 50 and 60 rad/s (measured); at 20 to
+# 30 rad/s the arm follows to a fraction of a millimetre. The wrist has little inertia and would bend under a push of
+# a few pounds, so its frequencies are higher. Lag: placeholder, twenty times the lag in free motions. Short:
+# placeholder, five times the .032 in that whole runs show; the servo is soft. Drag: chosen, because the joints have
+# too little friction to stop the floating arm.
 _SERVO: Final = ServoModel(
     period=JIFFY, frequency=(25.0, 25.0, 25.0, 40.0, 40.0, 40.0), lag=(0.05, 0.05, 0.03, 0.15, 0.15, 0.15),
     short=0.004, settle=8, drag=0.1,
 )  # fmt: skip
 
-# Chosen. Gain: slow enough for the arm's 20 kg of felt inertia. Gain of turning: slow for a wrist that gives some 160
-# N m a radian under its servo. Limit of turning: a wrench that turns the hand further means that it was hit.
-# Friction: the data sheet has none. Inferred from the paper, according to which an arm that is let go stays where
-# it is: joints 2 and 3 carry half a step of their torques and what is left of gravity when the arm has weighed
-# itself; the wrist carries half a step. Of joint 1: placeholder, half a per cent of what its drive can do.
+# Chosen. Gain: slow enough for the arm's 20 kg of felt inertia. Gain of turning: slow, because the servo holds the
+# wrist with a stiffness of some 160 N m/rad. Limit of turning: a wrench that turns the hand farther means that the
+# hand was hit. Friction: the data sheet has none. It is inferred from the paper, according to which an arm that is
+# let go stays where it is. Friction must therefore carry half a torque step in each wrist joint; in joints 2 and 3,
+# it must also carry what is left of gravity after the arm has weighed itself. Friction of joint 1: placeholder,
+# .8 per cent of the greatest torque of its drive.
 _COMPLIANCE: Final = ComplianceModel(
     gain=0.0015, speed=0.0127, turn_gain=0.1, turn_speed=0.1, turn_limit=15 * DEGREE, ramp=6,
     friction=(0.4, 0.8, 2.0, 0.1, 0.1, 0.05),
