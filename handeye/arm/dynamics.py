@@ -65,8 +65,8 @@ def at_rest(arm: ArmModel, q: Array) -> Dynamics:
 
 
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """Return the torque of joint j that carries the weight of link i, shape (..., i, j), and the part of each
-    torque that is due to the distance of the mass centre from the origin of the link.
+    """Return two arrays of shape (..., i, j): the torque of joint j that carries the weight of link i, and the part
+    of this torque that is due to the distance of the link's mass centre from its origin.
     """
     links, k = _links(arm, q), constants(arm)
     origins, _ = point_jacobian(arm, links.R, links.p, links.p[..., 1:, :])

@@ -48,8 +48,8 @@ Two steps allow for the noise at the high level, the others for an arm that cree
 
 
 UNEVEN: Final = 0.25
-"""Change between two swings of a joint, as a fraction of its swing, above which its tachometer is looked at more
-closely. Chosen: of 278 measurements in three runs without faults, two were above it.
+"""If a swing of a joint differs from the next by more than this fraction of the swing, the tachometer of the joint
+is examined more closely. Chosen: of 278 measurements in three runs without faults, two were above it.
 """
 STILL_STEPS: Final = 2.0
 """Tolerance, in converter steps, for the median deviation of the rate readings of a joint that is held still.

@@ -88,5 +88,5 @@ class CameraErrors:
     pot_noise: float  # sigma of the pan and tilt readings, rad
     raster: Raster
     drift: (
-        float  # sigma of a picture's position along its lines and across them, over half its width and height
+        float  # sigma of the shift of a picture, along and across its lines, over half its width or height
     )

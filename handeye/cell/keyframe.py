@@ -1,6 +1,4 @@
-"""Stores the state of a simulation in its scene, so that the files of the scene show every body where it was at
-that time.
-"""
+"""Stores the state of a simulation in its scene, so that the files of the scene show where every body was."""
 
 from collections.abc import Mapping
 from typing import Final

@@ -1,7 +1,8 @@
 """Off-screen pictures by OpenGL, on a computer without a display.
 
-The OpenGL context is made here, after its libraries have been tested, and not by the environment variable that
-MuJoCo reads when it is first imported. The result therefore does not depend on the order of imports.
+This module tests the OpenGL libraries, and then makes the OpenGL context itself. It does not leave the choice of a
+library to the environment variable that MuJoCo reads when it is first imported, so the result does not depend on
+the order of imports.
 """
 
 import contextlib

@@ -51,7 +51,7 @@ class SimulatedCell(Clock, SnapshotCell):
         """
         self.arm = arm  # kept for the experimenter, who may push the arm
         self.camera = camera  # and may remove the shadows from the camera's pictures
-        self.lines = lines  # lines of its devices, with what is broken on them
+        self.lines = lines  # signal lines of the devices, with their defects
         devices = (arm, hand, screwdriver, lamp)
         parts: tuple[Mechanism[Any], ...] = (
             *((lines,) if lines.defects else ()),

@@ -363,7 +363,7 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
-    """Print notes on breakpoints that a run cannot reach from its start. Raises Refused if it cannot reach the
+    """Print notes on breakpoints that a run cannot reach from its start. Raises Refused if the run cannot reach the
     place where it is to end.
     """
     from handeye.debugger.breakpoints import breakpoint, is_ahead

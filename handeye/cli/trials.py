@@ -136,8 +136,8 @@ def disturbed_trials(
     """Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the
     arm does damage?
 
-    The stop is in time if, before the stop, no part outside the hand moved by more than 2 mm in a step and the hand
-    felt no more than 60 N. Each trial builds the pump first, which takes one CPU minute.
+    The stop is in time if, up to the stop, no part outside the hand moved by more than 2 mm in one step, and the
+    hand felt at most 60 N. Each trial builds the pump first, which takes one CPU minute.
 
     Exit code 0: every trial was stopped in time; 3: a trial was not stopped in time; 2: bad input; 130: interrupted.
     """

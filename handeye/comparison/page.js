@@ -8,7 +8,7 @@
 
   // -- where both runs stand --------------------------------------------------------------------------
 
-  /** The number of the leg of a time: the last that begins by then, and is not the end. */
+  /** The number of the leg at a time: the last leg that has begun by then, never the end itself. */
   function legAt(time) {
     let first = 0, behind = legs.length - 1;
     while (first < behind) {
@@ -18,7 +18,7 @@
     return Math.max(first - 1, 0);
   }
 
-  /** When a run stands where it does at a time of the course, s since it began. */
+  /** The time of a run, in s since it began, at a time on the common timeline. */
   function moment(leg, side, time) {
     const [begin, ...from] = legs[leg], [over, ...to] = legs[leg + 1];
     const share = over > begin ? Math.min(Math.max((time - begin) / (over - begin), 0), 1) : 0;

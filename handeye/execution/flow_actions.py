@@ -34,7 +34,8 @@ def test_error(run: ExecutionContext, operation: Test) -> bool:
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
     if TESTED.get(operation.number) in run.without:
-        # without its sense, assume the error if only its absence would lead to the operator or to a retry
+        # The sense that would find the error is switched off. Assume that the error occurred if only the branch
+        # for its absence leads to the operator or to a retry.
         assert run.state.at is not None
         unless = run.plan.program.steps[run.state.at].next
         occurred = not _gives_up(run, operation.raised) and _gives_up(run, unless)
@@ -89,10 +90,10 @@ def save(run: ExecutionContext, operation: Save) -> None:
     only the part along the finger line is saved.
     """
     difference = run.drive.hand()[:3, 3] - run.state.goal
-    if operation.name in run.state.restored:  # the shift that it has already added remains part of it
+    if operation.name in run.state.restored:  # the shift that this difference has already added
         difference = difference + run.state.restored[operation.name]
     line = run.state.finger_line
-    if line is not None:  # CENTER measures along the finger line; the rest is servo error
+    if line is not None:  # CENTER measures only along the finger line; all else is servo error
         difference = (difference @ line) * line
     run.state.saved[operation.name] = difference
     run.state.heights[operation.name] = run.drive.height
