@@ -119,11 +119,11 @@ class Instruction(Record, frozen=True, kw_only=True):
 
     @property
     def origin(self) -> str:
-        """`period` or `ours`. If a word of the period has operands that are our additions, these operands are named
-        too.
+        """`1970s` for an instruction in documents of the 1970s, or `handeye` for an addition of handeye. If handeye
+        adds operands to an instruction of the 1970s, these operands are named too.
         """
         added = ", ".join(f"`{operand.shown}`" for operand in self.operands if operand.ours)
-        return "ours" if self.ours else f"period; {added} ours" if added else "period"
+        return "handeye" if self.ours else f"1970s; {added}: handeye" if added else "1970s"
 
     @property
     def usage(self) -> str:

@@ -28,8 +28,8 @@ def takes(definition: Instruction, operand: Operand) -> str:
 
 
 def origin(definition: Instruction, operand: Operand) -> str:
-    """Return the origin of an operand: `ours` or `period`."""
-    return "ours" if operand.ours or definition.ours else "period"
+    """Return the origin of an operand: `1970s`, or `handeye` for an addition of handeye."""
+    return "handeye" if operand.ours or definition.ours else "1970s"
 
 
 def part(definition: Instruction) -> str:

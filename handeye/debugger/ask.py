@@ -95,5 +95,5 @@ def _choices(runner: Runner) -> list[str]:
         "u [STAGE]  unwind: the arm undoes its work back to the beginning of this stage, and the program "
         "continues from there",
         "a          abort",
-        "show       show the state of the run, or a topic of it",
+        "show       show the state of the run, or one topic of it",
     ]

@@ -69,7 +69,7 @@ def _text(document: Document, line: Line, token: Token) -> str | None:
 
 def about_instruction(definition: Instruction) -> str:
     """Return the usage, meaning and origin of an instruction."""
-    return f"`{definition.usage}`\n\n{definition.help}\n\n*{definition.origin}*"
+    return f"`{definition.usage}`\n\n{definition.help}\n\n*origin: {definition.origin}*"
 
 
 def _about_value(definition: Instruction, place: OperandToken) -> str | None:

@@ -230,7 +230,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
         "u [STAGE]  unwind: the arm undoes its work back to the beginning of this stage, and the program continues "
         "from there",
         "a          abort",
-        "show       show the state of the run, or a topic of it",
+        "show       show the state of the run, or one topic of it",
     ]
 
 
