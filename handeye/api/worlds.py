@@ -59,7 +59,7 @@ class World:
                 value, each in its own unit: a number for `arm.friction` is in N m for revolute joints and in N for
                 the prismatic joint.
             scale: a factor for each name of a quantity or group. Its errors are multiplied by this factor, in
-                addition to the level. `unsourced` stands for all quantities whose size has no source.
+                addition to the level. `unsourced` stands for all errors for which no source gives a size.
             faults: faults to inject, from the list that `handeye faults --list` prints: `NAME` or `NAME=VALUE`.
                 With `@N` at the end, the fault begins at stage N of the program.
             task: name of the task.

@@ -216,8 +216,9 @@ def compare_trials(
     """Compare batches of trials with a first batch, world by world: how much a sensor, or an error of the world,
     changes the success rate.
 
-    All batches must be of the same kind. Only trials that are in both batches are counted. `p` is from McNemar's exact
-    test: the probability of differences at least this uneven if neither batch is better.
+    All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches.
+    `p` is from McNemar's exact test: the probability of differences at least this uneven if neither batch is
+    better.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

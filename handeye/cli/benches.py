@@ -77,7 +77,8 @@ def insertion(
     search: Annotated[
         Literal["gentle", "1973"],
         Parameter(
-            help="Search pattern: `gentle` is that of the bench's own program, `1973` that of the 1973 listing."
+            help="Search pattern: `gentle` is the pattern of the bench's own program, `1973` is the pattern of "
+            "the program listing of 1973."
         ),
     ] = "gentle",
     options: SweepOptions = ANY,

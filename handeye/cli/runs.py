@@ -49,8 +49,8 @@ Step = Annotated[bool, Parameter(help="Step through the run with commands, typed
 Live = Annotated[
     bool,
     Parameter(
-        help="With --step and piped commands: print each line as it begins, and accept `pause` and `pace` during "
-        "the run, as on a terminal. Send each command only after the answer to the previous one."
+        help="With --step and piped commands: print each line as it begins, and accept the commands `pause` and "
+        "`pace` during the run, as on a terminal. Send each command only after the answer to the previous one."
     ),
 ]
 OnStop = Annotated[
@@ -149,8 +149,8 @@ def run(
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Have the referee judge the result. Default: only if the plan is given by the name of a "
-            "program.",
+            help="Have the referee, which knows the true state of the cell, judge the result. Default: only if the "
+            "plan is given by the name of a program.",
         ),
     ] = None,
     json: Json = False,

@@ -204,10 +204,10 @@ def chaos_trials(
     """Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one
     command that repeats it.
 
-    A schedule starts somewhere in a fault-free run and continues for a few steps, or to the end of the stage. It
-    has up to two faults, and up to two interruptions: panic button, pause, going back, killed process. After each
-    interruption, the run resumes from disk. A simulated operator retries, skips, proceeds and aborts. The same
-    schedule then runs again without its interruptions.
+    A schedule is one test. It starts somewhere in a fault-free run and continues for a few steps, or to the end of
+    the stage. It has up to two faults, and up to two interruptions: panic button, pause, going back, killed
+    process. After each interruption, the run resumes from disk. A simulated operator retries, skips, proceeds and
+    aborts. The same schedule then runs again without its interruptions.
 
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read

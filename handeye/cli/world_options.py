@@ -41,7 +41,7 @@ class ErrorOptions:
     task: TaskWords = None
     level: Annotated[
         Literal["low", "nominal", "high"],
-        Parameter(help="Size of the errors: `low` is half of nominal, `high` twice."),
+        Parameter(help="Size of the errors: `low` is half of `nominal`, `high` is twice `nominal`."),
     ] = "nominal"
     without: Annotated[
         list[str] | None,
@@ -49,8 +49,8 @@ class ErrorOptions:
             help="Errors, or groups of errors, to switch off, separated by commas; `handeye world` lists their "
             "names. `assemble`, `run` and `trials assembly` also accept senses (vision, touch, search, force, "
             "centring): without a sense, the program relies on its plan. These commands also accept macros of the "
-            "program, and skip them: for example HEADS, which checks the screws of the "
-            "pump, and TOOLS, which checks that the screwdriver and the pins are back in their places.",
+            "program, and skip them: for example HEADS, which checks the screws of the pump, and TOOLS, which "
+            "checks that the screwdriver and the pins are back in their places.",
             consume_multiple=False,
         ),
     ] = None
@@ -67,7 +67,7 @@ class ErrorOptions:
         list[str] | None,
         Parameter(
             help="NAME=FACTOR: multiply the errors of a quantity or group by a factor; unsourced=2 doubles all "
-            "errors whose sizes have no source. May be repeated.",
+            "errors for which no source gives a size. May be repeated.",
             consume_multiple=False,
         ),
     ] = None
