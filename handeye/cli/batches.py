@@ -66,7 +66,7 @@ def assembly_trials(
         str,
         Parameter(
             help="How to answer when the program calls the operator: `abort`, `retry:N`, `unwind` or "
-            "`unwind:STAGE`, as in `assemble`."
+            "`unwind:STAGE`, as for `handeye assemble`."
         ),
     ] = "abort",
     simulated_limit: Annotated[
@@ -83,9 +83,9 @@ def assembly_trials(
 ) -> int:
     """Assemble in many worlds: success rate with its confidence interval, and what failed where.
 
-    The figures are the same for any number of workers. A trial whose process is killed is repeated once; an exception
-    counts as a failure. Trials that ended because this computer failed are repeated when the batch continues. With
-    --out, the folder also receives figures.html, a page with the figures.
+    The figures are the same for any number of processes. A trial whose process is killed is repeated once; an
+    exception counts as a failure. Trials that ended because this computer failed are repeated when the batch
+    continues. With --out, the folder also receives figures.html, a page with the figures.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
         success but the referee disagreed; 2: bad input; 130: interrupted.

@@ -24,8 +24,8 @@ _USUAL_WIDTH: Final = 80
 Script = Annotated[
     Path,
     Parameter(
-        help="A script (.al), with its taught file (.toml) next to it; or the name of a program of a task, such "
-        "as `insertion`."
+        help="A script (.al), with its taught positions (.toml) next to it; or the name of a program of a task, "
+        "such as `insertion`."
     ),
 ]
 PlanFile = Annotated[
@@ -122,8 +122,8 @@ NoKeep = Annotated[
     bool,
     Parameter(
         name="--no-keep",
-        help="Keep no record of the run. By default the run is saved in a new folder in `runs`, where only the newest "
-        "ten runs are kept.",
+        help="Keep no record of the run. By default the run is saved in a new folder in the folder `runs`, which "
+        "keeps only the newest ten runs.",
     ),
 ]
 CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")

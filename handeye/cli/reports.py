@@ -121,11 +121,12 @@ def compare(
     a: Annotated[
         Path | None,
         Parameter(
-            name="A", help="The folder of a run, or its trace.mcap; by default the second newest in `runs`."
+            name="A",
+            help="The folder of a run, or its trace.mcap; by default the second newest run in the folder `runs`.",
         ),
     ] = None,
     b: Annotated[
-        Path | None, Parameter(name="B", help="Another run; by default the newest in `runs`.")
+        Path | None, Parameter(name="B", help="Another run; by default the newest run in the folder `runs`.")
     ] = None,
     /,
     *,

@@ -265,7 +265,7 @@ def resume(
 
     If the run has ended, the command shows its result and changes nothing; with `--step` you can go back in it.
 
-    The folder of a run resumes from its newest valid checkpoint. Exit codes are the same as for `run`.
+    The folder of a run resumes from its newest valid checkpoint. The exit codes are those of `handeye run`.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.reports import shown

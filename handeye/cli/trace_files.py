@@ -8,7 +8,7 @@ from cyclopts import Parameter
 from handeye.cli.common import note
 from handeye.core.errors import BadFile, Refused
 
-_NEWEST: Final = "by default the newest in `runs`."
+_NEWEST: Final = "by default the newest run in the folder `runs`."
 Run = Annotated[Path | None, Parameter(name="RUN", help=f"The folder of a run; {_NEWEST}")]
 RunOrCheckpoint = Annotated[
     Path | None, Parameter(name="RUN", help=f"The folder of a run, or a checkpoint; {_NEWEST}")

@@ -47,9 +47,9 @@ class AttemptOptions:
     eye: Annotated[
         Known,
         Parameter(
-            help="How the program knows the pose of its camera: from a calibration with the lamp, from simulated "
-            "sightings of the lamp (faster, and more accurate than real ones), from the drawing of the cell, or "
-            "exactly."
+            help="How the program knows the pose of its camera. `lamp`: from a calibration with the lamp on the "
+            "arm. `sightings`: from simulated sightings of the lamp, which are faster, and more accurate than real "
+            "ones. `drawn`: from the drawing of the cell. `true`: exactly."
         ),
     ] = "lamp"
     camera: Camera = "auto"
@@ -114,8 +114,8 @@ def gasket_vision_trials(
 ) -> int:
     """Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 
-    The camera cannot see a second gasket on top of the first, so two gaskets count as right here; in a run, the
-    hand detects two gaskets by their height.
+    The camera cannot see a second gasket on top of the first, so accepting two gaskets counts as right here; in a
+    run, the hand detects two gaskets by their height.
 
     Exit code 0: no shifted or absent gasket was accepted; 3: such a gasket was accepted.
     """
@@ -125,7 +125,8 @@ def gasket_vision_trials(
 def disturbed_trials(
     *,
     only: Annotated[
-        list[str] | None, Parameter(help="Only this disturbance. May be repeated.", consume_multiple=False)
+        list[str] | None,
+        Parameter(help="Try only this disturbance. May be repeated.", consume_multiple=False),
     ] = None,
     listed: Annotated[bool, Parameter(name="--list", help="List the disturbances; run nothing.")] = False,
     n: Worldly = 1,

@@ -24,8 +24,8 @@ def view(
         Path | None,
         Parameter(
             help="A plan made by `handeye plan` (.plan.json), or the name of a program; or the folder or trace of "
-            "a run, which is shown as its report. Default: the newest run in `runs`; the plan of the pump if "
-            "there is no run, or if a world or --out is given."
+            "a run, which is shown as its report. Default: the newest run in the folder `runs`; the plan of "
+            "the pump if there is no run, or if a world or --out is given."
         ),
     ] = None,
     /,
@@ -50,8 +50,9 @@ def view(
     """Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
 
     Prints the address to open, which contains a secret and works on this computer only. Several pages can
-    show the run, but only one controls it; the other pages neither change nor slow the run. Exit codes are the same
-    as for `run`, or with --teach for `teach`. For a recorded run, Ctrl-C ends the command with exit code 0.
+    show the run, but only one controls it; the other pages neither change nor slow the run. The exit codes are
+    those of `handeye run` or, with --teach, those of `handeye teach`. For a recorded run, Ctrl-C ends the command
+    with exit code 0.
     """
     from handeye.cli.job import Job, work
     from handeye.core import resources

@@ -25,7 +25,7 @@ def tables(
         Path | None,
         Parameter(
             help="The folder of a run, or a program in ML (.ml), which is first run on perfect motors. Default: the "
-            "newest run in `runs`."
+            "newest run in the folder `runs`."
         ),
     ] = None,
     table: Annotated[
