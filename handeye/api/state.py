@@ -42,7 +42,7 @@ class State:
     """
 
     position: int  # number of steps done since the run began
-    time: float  # simulated time since the program began, s
+    time: float  # simulated time since the program began, in s
     stage: str | None  # the present or next stage; None after the last stage
     step: int | None  # number of the next step; None if the run cannot continue by itself
     file: str  # required file that contains the next step; empty if the script itself contains it

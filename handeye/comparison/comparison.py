@@ -120,9 +120,9 @@ class Comparison(Brief):
     """
     first: First | None
     parted: Divergence | None
-    searches: tuple[Searches, ...]  # number of places that each search tried
-    stops: tuple[Stops, ...]  # ends of guarded motions
-    corrections: tuple[Corrections, ...]  # saved differences, and located parts
+    searches: tuple[Searches, ...]  # the searches, each with the number of places that each run tried
+    stops: tuple[Stops, ...]  # the guarded motions, each with how it ended in each run
+    corrections: tuple[Corrections, ...]  # the saved differences and the located parts in each run
     stages: tuple[Stages, ...]
 
     @property

@@ -148,8 +148,8 @@ class First:
     period: int | None = None  # servo period of the step, from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """The next event of each run, if the events are what differs; None for a run in which the step continued or the
-    run ended.
+    """If the events differ: the next event of each run, or None for a run in which the step continued or the run
+    ended.
     """
 
     @property

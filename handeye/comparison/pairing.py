@@ -26,7 +26,7 @@ class Place(Record, frozen=True, kw_only=True):
     file: str = ""  # required file that contains the step; empty for the script itself
     line: int
     text: str
-    time: float  # time at which the step began, s since the run began
+    time: float  # time at which the step began, in seconds since the run began
 
     @property
     def name(self) -> str:
