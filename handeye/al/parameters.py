@@ -41,7 +41,7 @@ class _Piece(Located, frozen=True, gc=False):
 
 @dataclass(frozen=True, slots=True)
 class FilledLine:
-    """A line of a macro with arguments filled in. `given` has the arguments by the span of their parameter."""
+    """A line of a macro with arguments filled in. `given` gives, for the span of each parameter, its argument."""
 
     statement: Statement
     pieces: Sequence[_Piece]

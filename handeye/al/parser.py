@@ -56,8 +56,8 @@ def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, 
 @dataclass(slots=True)
 class _Parser:
     texts: dict[str, list[Line]]
-    known: dict[str, Instruction | None]  # macros; None: with a wrong head
-    requirements: Requirements | None  # None: requirements are not read
+    known: dict[str, Instruction | None]  # macros by name; None for a macro with a wrong head
+    requirements: Requirements | None  # None if requirements are not read
     errors: int = 0
     statements: list[Statement] = field(default_factory=list)
     macros: dict[str, Macro] = field(default_factory=dict)

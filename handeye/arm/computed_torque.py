@@ -41,7 +41,7 @@ def felt_wrench(
 
 def external_wrench(J: Array, unexplained: Array) -> Array:
     """Estimate the external wrench on the hand that best explains a torque residual: force and moment at T in world
-    axes, shape (6,), N and N m.
+    axes, shape (6,), in N and N m.
 
     The residual `unexplained` is M qdd + bias - torque, shape (n,). The estimate needs no wrist sensor, but joint
     friction that the model lacks appears as force. An arm with fewer than six joints senses only the components

@@ -16,7 +16,7 @@ TORQUE_BITS: Final = 8  # drives: "8 bits or more"
 
 @lru_cache(maxsize=16)
 def position_step(arm: ArmModel) -> Array:
-    """Return one converter step of each potentiometer, shape (n,), rad or m. The steps of a converter span the
+    """Return one converter step of each potentiometer, shape (n,), in rad or m. The steps of a converter span the
     range of its joint.
     """
     return (arm.upper - arm.lower) / 2**SENSE_BITS
@@ -24,7 +24,7 @@ def position_step(arm: ArmModel) -> Array:
 
 @lru_cache(maxsize=16)
 def rate_step(arm: ArmModel) -> Array:
-    """Return one converter step of each tachometer, shape (n,), rad/s or m/s. The steps of a converter are taken to
+    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. The steps of a converter are taken to
     span the rates of its joint.
     """
     return 2 * constants(arm).speed / 2**SENSE_BITS
@@ -32,7 +32,7 @@ def rate_step(arm: ArmModel) -> Array:
 
 @lru_cache(maxsize=16)
 def torque_step(arm: ArmModel) -> Array:
-    """Return one converter step of each drive, shape (n,), N m or N. The steps of a converter span the torques in
+    """Return one converter step of each drive, shape (n,), in N m or N. The steps of a converter span the torques in
     both directions.
     """
     return 2 * constants(arm).effort / 2**TORQUE_BITS

@@ -36,7 +36,7 @@ def mass_matrix(arm: ArmModel, q: Array) -> Array:
 
 
 def gravity(arm: ArmModel, q: Array) -> Array:
-    """Return the joint torques that hold the arm up at rest, shape (..., n), N m or N."""
+    """Return the joint torques that hold the arm up at rest, shape (..., n), in N m or N."""
     return _bias(arm, _links(arm, q), None)
 
 

@@ -82,8 +82,8 @@ def crept(arm: ArmModel, change: Array) -> Disagreement | None:
 
 
 class Scatter(Record, frozen=True, kw_only=True):
-    """Scatter of the rate readings of a joint at rest and its limit, median deviations from the median in rad/s or
-    m/s.
+    """Scatter of the rate readings of a joint at rest, and the limit of this scatter. Both are median deviations
+    from the median, in rad/s or m/s.
     """
 
     joint: int
@@ -95,7 +95,7 @@ def swings_unevenly(arm: ArmModel, M: Array, dither: Array, rates: Array) -> boo
     """Return True if the rate readings of a joint, shape (N, n), change from each swing to the next by more than
     the fraction `UNEVEN` of the swing plus two converter steps.
 
-    The torques `dither`, shape (n,), N m and N, shake the joints, and change sign in each servo period. The swing
+    The torques `dither`, shape (n,), in N m and N, shake the joints, and change sign in each servo period. The swing
     is computed for a joint without friction, from the inertia and from the damping of the servo.
     """
     period = arm.servo.period
@@ -120,7 +120,7 @@ def scattered(arm: ArmModel, rates: Array) -> Scatter | None:
 
 @dataclass(slots=True, kw_only=True)
 class JointAgreement:
-    """Compares the sensors of all joints from the start of a motion; arrays have shape (n,), rad and m."""
+    """Compares the sensors of all joints from the start of a motion; arrays have shape (n,), in rad and m."""
 
     arm: ArmModel
     start: Array  # potentiometers at the start

@@ -14,7 +14,7 @@ from handeye.core.pose import Array, Pose
 
 def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
     """Compute the DH frames 0 (base) to n (tool) in W at joint positions `q`, shape (..., n). Returns rotations,
-    shape (..., n + 1, 3, 3), and origins, shape (..., n + 1, 3), m.
+    shape (..., n + 1, 3, 3), and origins, shape (..., n + 1, 3), in m.
     """
     k = constants(arm)
     q = np.asarray(q, dtype=np.float64)

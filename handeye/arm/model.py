@@ -25,7 +25,7 @@ class GraspModel:
 
     def lag(self, force: float, grip: float) -> float:
         """Return how far (m) the set-point of the gap leads the fingers when they press with `force`, of at most
-        `grip` (both N).
+        `grip` (both in N).
         """
         return self.give * force / grip
 
@@ -35,7 +35,7 @@ class HandModel:
     """A hand with two fingers that open and close together, with its palm and wrist; lengths in m."""
 
     length: float  # wrist centre to finger tips
-    mass: float  # of both fingers, kg; not included in the last link's `mass`
+    mass: float  # of both fingers, in kg; not included in the last link's `mass`
     centre: float  # wrist centre to the fingers' mass centre, along the approach direction
     gap_max: float
     gap_speed: float  # m/s, at most
@@ -94,7 +94,7 @@ class ServoModel:
     """Parameters of the servo, and the limits of the following error beyond which a motion has failed."""
 
     period: float  # s between torque updates
-    frequency: tuple[float, ...]  # of each joint's error, rad/s, critically damped
+    frequency: tuple[float, ...]  # of each joint's error, in rad/s, critically damped
     lag: tuple[float, ...]  # following error that means collision, rad or m
     short: float  # m from the set-point that means contact, after a free motion
     settle: int  # periods held after a motion, and averaged for the tare
@@ -112,7 +112,7 @@ class ComplianceModel:
     turn_limit: float  # rad, at most
     ramp: int  # servo periods to full speed of a motion that does not press
     friction: tuple[float, ...]
-    """Expected Coulomb friction of each joint, N m or N. It is used for checks before a run; during a run, the
+    """Expected Coulomb friction of each joint, in N m or N. It is used for checks before a run; during a run, the
     measured friction is used.
     """
 
@@ -217,7 +217,7 @@ class Constants:
     brake: Array
     lag: Array
     frequency: Array
-    mass: Array  # of each link, kg, fingers included in the last
+    mass: Array  # of each link, in kg, fingers included in the last
     centre: Array  # in the DH frame, (n, 3), m
     inertia: Array  # about the mass centre, DH axes, (n, 3), kg m2
     carried: Array  # 1 where a joint (column) moves a link (row), (n, n)

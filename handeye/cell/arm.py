@@ -79,7 +79,7 @@ class ArmState(Record, frozen=True, kw_only=True):
     q: tuple[float, ...]
     qd: tuple[float, ...]
     braked: bool
-    command: tuple[float, ...] | None  # torques; None: brakes
+    command: tuple[float, ...] | None  # torques; None for the brakes
     tripped: bool
     unanswered: float  # s since it was driven
 
@@ -106,7 +106,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Make an arm with its brakes set at a posture, shape (n,), rad or m. `noise` generates the noise of its
+        """Make an arm with its brakes set at a posture, shape (n,), in rad or m. `noise` generates the noise of its
         sensors.
 
         The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for joint

@@ -24,7 +24,7 @@ _FINEST: Final = 10**6
 steps in a second.
 """
 FASTEST: Final = 1000.0
-"""Greatest plausible speed, m/s and rad/s. Only a failure of the contact solver makes a body on a bench faster."""
+"""Greatest plausible speed, in m/s and rad/s. Only a failure of the contact solver makes a body on a bench faster."""
 _STRETCH: Final = Fraction(1, 60)  # longest time (s) for which the action of mechanisms may stay constant
 
 
@@ -90,7 +90,7 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     @property
     def tick(self) -> Fraction:
-        """The physics step, s."""
+        """The physics step, in s."""
         return self._tick
 
     @property

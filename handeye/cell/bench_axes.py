@@ -36,7 +36,7 @@ def switch(name: str, above: float = 0.0) -> Sense:
 class AxesState(Record, frozen=True, kw_only=True):
     """State of the controller of a machine with n axes."""
 
-    goal: tuple[float, ...]  # where its servos are to be at the end of the period, m and rad, n numbers
+    goal: tuple[float, ...]  # where its servos are to be at the end of the period: n numbers, in m and rad
     way: tuple[float, ...]  # how far they go in a physics step, n numbers
     left: int  # physics steps of the period that are left
     powered: bool = True
@@ -68,7 +68,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         Args:
             specs: the axes of the machine, by the names of their joints and servos. A servo without a joint of its
                 name drives a tendon.
-            period: time between two goals, s.
+            period: time between two goals, in s.
             channels: the sensor channels, each with the function that reads it.
             at_once: axes whose servos get a goal at once, not gradually during the period.
             bent: a function from the potentiometer readings, shape (n,), to the difference between true and

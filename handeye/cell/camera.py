@@ -42,7 +42,7 @@ class CameraState(Record, frozen=True, kw_only=True):
     lens: float
     pots: tuple[float, float]
     stand: tuple[float, float]  # true pan and tilt, rad
-    focus: float | None  # m; None: at infinity
+    focus: float | None  # in m; None for infinity
     gain: float | None
 
 
@@ -167,7 +167,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         )
 
     def shown(self, points_W: Array) -> Array:
-        """Return the true picture points, shape (n, 2), of points in W, shape (n, 3), m, without the drift of the
+        """Return the true picture points, shape (n, 2), of points in W (in m, shape (n, 3)), without the drift of the
         tube. For the referee and for tests.
         """
         return self._raster.shown(self.true_view().project(points_W))

@@ -20,7 +20,7 @@ from handeye.core.pose import Array, Pose, inverse, pose
 STRAIGHTENING: Final = (
     1.33  # rad of turn in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen.
 )
-_STRAIGHT: Final = 1e-6  # rad, m: a lean smaller than this is set to zero
+_STRAIGHT: Final = 1e-6  # in rad or m: a lean smaller than this is set to zero
 
 
 class Carriers:
@@ -45,7 +45,7 @@ class Carriers:
         self.head = np.array([model.geom(f"head{k}").id for k in holes])  # their heads, geoms
         self.site = [model.site(f"thread{k}").id for k in holes]  # their frames, sites
         self.mouths: Array = model.body_pos[self._body].copy()
-        """Positions of the mouths of the tapped holes in the frame of the base, m, shape (n, 3)."""
+        """Positions of the mouths of the tapped holes in the frame of the base, in m, shape (n, 3)."""
         self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian
         self._solid = [np.array([self.head[k], model.geom(f"shank{k}").id]) for k in holes]
         self._bits = [(model.geom_contype[g].copy(), model.geom_conaffinity[g].copy()) for g in self._solid]

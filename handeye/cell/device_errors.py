@@ -22,10 +22,10 @@ class ArmErrors:
     phase: Array  # phase of the waviness, rad
     centre: Array  # posture at which `scale` makes no error
     pot_noise: Array  # sigma, before the converter
-    pot_step: Array  # step of the potentiometer's converter; 0: it has none
-    tachometer_noise: Array  # sigma before the converter, rad/s, m/s
-    tachometer_step: Array  # step of the tachometer's converter, rad/s, m/s; 0: it has none
-    torque_step: Array  # step of the converter that gives the drive its torque, N m, N; 0: it has none
+    pot_step: Array  # step of the potentiometer's converter; 0 if it has none
+    tachometer_noise: Array  # sigma before the converter, in rad/s or m/s
+    tachometer_step: Array  # step of the tachometer's converter, in rad/s or m/s; 0 if it has none
+    torque_step: Array  # step of the drive's torque converter, in N m or N; 0 if it has none
     drive_gain: Array  # true torque over the torque that is put out
 
     @classmethod
@@ -60,7 +60,7 @@ class ArmBuild:
     mass_centre: Array  # distance of each link's mass centre from the joint that moves the link
     armature: Array  # inertia of each drive
     damping: Array  # viscous friction
-    friction: Array  # Coulomb friction, N m, N
+    friction: Array  # Coulomb friction, in N m or N
     hand_length: float  # true minus modelled, m
 
 
@@ -71,7 +71,7 @@ class HandErrors:
     gap_offset: float  # m
     gap_scale: float
     gap_noise: float  # sigma before the converter, m
-    gap_step: float  # step of the converter, m; 0: it has none
+    gap_step: float  # step of the converter, in m; 0 if it has none
     switch_force: tuple[float, float]  # force at which the +y and the -y finger's switch fires, N
     torque_noise: float  # sigma, N m
 
@@ -84,7 +84,7 @@ class CameraErrors:
     turn: tuple[float, float, float]  # error of pan, tilt and roll, rad
     focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
-    """Error of the position of each lens, m: forwards, to the right and upwards in its picture."""
+    """Error of the position of each lens, in m: forwards, to the right and upwards in its picture."""
     pot_noise: float  # sigma of the pan and tilt readings, rad
     raster: Raster
     drift: (

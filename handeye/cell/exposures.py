@@ -46,7 +46,7 @@ def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
     }
 
 
-APERTURE: Final = 0.008  # radius of the opening, m: of a 50 mm lens at f/3.1
+APERTURE: Final = 0.008  # radius of the opening, in m: of a 50 mm lens at f/3.1
 _NEAR, _FAR = 0.1, 14.0  # clipping planes, m
 _MIDDLE: Final = 20  # the focus is measured in the middle of the picture, 1/20 of its sides to either side
 

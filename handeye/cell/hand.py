@@ -74,7 +74,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
 
     @property
     def gap(self) -> float:
-        """The true gap between the finger tips, m."""
+        """The true gap between the finger tips, in m."""
         qpos = self._data.qpos
         return sum(float(qpos[finger]) for finger in self._fingers)
 
@@ -215,7 +215,7 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         watchdog: Watchdog,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Make a screwdriver at rest. `torque_noise` is the standard deviation of its torque reading, N m.
+        """Make a screwdriver at rest. `torque_noise` is the standard deviation of its torque reading, in N m.
 
         The torque of the screwdriver is the sum of the torques of `motors`, counter-clockwise about the spindle.
         The watchdog of the arm that carries the screwdriver also stops its motor. The lines are
@@ -230,7 +230,7 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
 
     @property
     def speed(self) -> float:
-        """Commanded speed of the motor, rad/s, positive to drive a screw in."""
+        """Commanded speed of the motor, in rad/s, positive to drive a screw in."""
         return 0.0 if self._watchdog.tripped else self._lines.carried("screwdriver.motor", self._command)
 
     def torque(self) -> float:

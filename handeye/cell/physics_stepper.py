@@ -178,7 +178,7 @@ class PhysicsStepper:
             mujoco.mju_quatIntegrate(data.qpos[start + 3 : start + 7], along, 1.0)
 
 
-_NUDGE: Final = 1e-12  # rad/s, m/s: a velocity that is not zero wakes a tree
+_NUDGE: Final = 1e-12  # in rad/s or m/s: a velocity that is not zero wakes a tree
 _POLICY: Final = {
     True: int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED),
     False: int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER),

@@ -25,8 +25,8 @@ def hand_poses(model: mujoco.MjModel, time: float) -> dict[str, Array]:
 
 
 def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> dict[str, Array]:
-    """Return the poses in W of bodies fixed in the world at times (s) of the cell's clock, by name. The poses of
-    each body have shape (n, 7).
+    """Return, for times (s) of the cell's clock, the poses in W of bodies that are fixed in the world, by name. The
+    poses of each body have shape (n, 7).
 
     A pose is a position (m), then a unit quaternion w, x, y, z. Clock hands turn clockwise about their z axis, and
     point to twelve at time 0.

@@ -44,7 +44,9 @@ class RayRenderer(SceneRenderer):
         return result.astype(np.float32)
 
     def _sampled(self, data: mujoco.MjData, view: View, points: Array) -> tuple[Array, NDArray[np.int32]]:
-        """Return luminance and geom (-1: none) at picture points (u, v), shape (n, 2); both of shape (n,)."""
+        """Return luminance and geom, each of shape (n,), at picture points (u, v), shape (n, 2). The geom is -1
+        where no shape is visible.
+        """
         model = self._model
         albedo, glow = _reflectance(model)  # again: the lamp may have been switched on
         eye = view.X_WC[:3, 3]
@@ -111,8 +113,8 @@ def cast(
 
 
 def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
-    """Return where a picture changes, shape as given: True for both points of a pair of neighbours whose geoms or
-    luminances differ.
+    """Return an array of the shape of the picture that is True where the picture changes: at both points of each
+    pair of neighbours whose geoms or luminances differ.
     """
     rough = np.zeros(geom.shape, dtype=bool)
     for a, b in (

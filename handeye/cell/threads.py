@@ -71,7 +71,7 @@ class Thread(Record, frozen=True, kw_only=True):
     crossed: bool = False  # it has cut a thread of its own
     scarred: bool = False  # a screw has been crossed in it, now or before
     clamp: float = 0.0
-    """Force of the head of the screw on the part beneath, N, at the last turn of the screw, smoothed over a few
+    """Force (N) of the head of the screw on the part beneath, at the last turn of the screw, smoothed over a few
     ticks.
     """
 
@@ -88,7 +88,7 @@ class Driver(Protocol):
 
     @property
     def speed(self) -> float:
-        """Speed of the spindle, rad/s; positive drives a screw in."""
+        """Speed of the spindle, in rad/s; positive drives a screw in."""
 
     @property
     def magnet(self) -> bool:
@@ -217,7 +217,7 @@ class Threads(Mechanism[ThreadsState]):
 
     def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
         """Return True if the tip of a screw enters the thread of a hole within `seconds`. `offset` is the position
-        of the tip from the mouth of the hole, shape (3,), m.
+        of the tip from the mouth of the hole, shape (3,), in m.
         """
         in_bore = np.hypot(offset[0], offset[1]) < CAPTURE and -offset[2] > START_DEPTH
         rate = -self._rate(screw)
@@ -231,7 +231,7 @@ class Threads(Mechanism[ThreadsState]):
         return acos(min(1.0, float(X_WS[:3, 2] @ self._axes()[:, 2])))
 
     def _rate(self, screw: int) -> float:
-        """Return the rotation rate of a loose screw about its axis, rad/s, positive counter-clockwise."""
+        """Return the rotation rate of a loose screw about its axis, in rad/s, positive counter-clockwise."""
         return float(self._data.qvel[self._free(screw)[1] + 5])  # free joints turn in body axes
 
     def _free(self, screw: int) -> tuple[int, int]:
@@ -258,7 +258,7 @@ class Threads(Mechanism[ThreadsState]):
 
     def loosen(self, screw: int, turns: float | None = None) -> bool:
         """Raise a screw in its thread by some turns, or release the screw if `turns` is None. Returns False if the
-        screw is in no thread, or if the bit is on it.
+        screw is in no thread, or if the bit is on the screw.
         """
         hole = next((k for k, thread in enumerate(self.holes) if thread.screw == screw), None)
         if hole is None or hole == self._under_bit():

@@ -125,7 +125,7 @@ ERRORS: Final[dict[int, str]] = {
     JOINT_STIFF: "one joint alone does not follow its drive: its drive, brake or friction has changed",
 }
 """Error numbers that a script can test, with the message to the operator. Numbers 2 and 23 are from 1973; numbers
-from 50 on mean a faulty sensor.
+from 50 on usually mean a faulty sensor or drive.
 """
 
 

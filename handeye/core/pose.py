@@ -52,7 +52,7 @@ def rotation(vector: Array) -> Array:
 
 
 def pose(R: Array, p: Array | Sequence[float]) -> Pose:
-    """Make the pose with rotation `R`, shape (3, 3), and position `p`, shape (3,), m."""
+    """Make the pose with rotation `R`, shape (3, 3), and position `p`, shape (3,), in m."""
     X = np.eye(4)
     X[:3, :3] = R
     X[:3, 3] = p
@@ -66,7 +66,7 @@ def inverse(X_AB: Pose) -> Pose:
 
 
 def planar(x: float, y: float, z: float, yaw: float) -> Pose:
-    """Return the pose of an upright part at position (x, y, z), m, turned about the vertical by `yaw` (rad)."""
+    """Return the pose of an upright part at position (x, y, z), in m, turned about the vertical by `yaw` (rad)."""
     return pose(rotation_z(yaw), (x, y, z))
 
 
@@ -76,7 +76,7 @@ def yaw(X: Pose) -> float:
 
 
 def hand(x: float, y: float, z: float, o: float, a: float, t: float) -> Pose:
-    """Return the pose of the hand with its tool centre point at (x, y, z), m, and the angles O, A, T (rad)."""
+    """Return the pose of the hand with its tool centre point at (x, y, z), in m, and the angles O, A, T (rad)."""
     return pose(rotation_z(o) @ rotation_x(a) @ _R_ZERO @ rotation_z(t), (x, y, z))
 
 

@@ -40,7 +40,7 @@ def heard(handler: Handler) -> Iterator[None]:
         handler(number, frame)
 
     for number in ENDING:
-        if signal.getsignal(number) not in (signal.SIG_IGN, None):  # None: not set by Python
+        if signal.getsignal(number) not in (signal.SIG_IGN, None):  # None if it was not set by Python
             before[number] = signal.signal(number, hear)
     try:
         yield

@@ -21,7 +21,7 @@ class Course:
     direction: Array  # unit vector, (3,)
     distance: float  # m, at most
     speed: float  # m/s, if not pressing
-    force: float | None = None  # force to press with, N; None: move at `speed`
+    force: float | None = None  # force to press with, in N; None to move at `speed`
     free: Array = field(default_factory=lambda: np.zeros(3))
     """1 for each axis of W along which the hand yields to force, and 0 for the others, shape (3,)."""
     moment: Array = field(default_factory=lambda: np.zeros(3))

@@ -53,7 +53,7 @@ class ExecutionContext:
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     vision: Stopwatch = field(default_factory=Stopwatch)
-    """CPU time of vision, s. The working phase itself reads no clock of the computer."""
+    """CPU time of vision, in s. The working phase itself reads no clock of the computer."""
     state: ExecutionState = field(init=False)
     drive: ArmDrive = field(init=False)
     world: WorldModel = field(init=False)
@@ -67,7 +67,7 @@ class ExecutionContext:
 
     @property
     def time(self) -> float:
-        """Time on the cell's clock, s, rounded to the period of the clock so that it is printed the same on every
+        """Time on the cell's clock, in s, rounded to the period of the clock so that it is printed the same on every
         computer.
         """
         period = self.arm.servo.period

@@ -36,7 +36,7 @@ from handeye.touch.senses import (
     thick,
 )
 
-_SHUT: Final = -0.02  # gap set-point, m, beyond any closed gap: the fingers press with full force
+_SHUT: Final = -0.02  # gap set-point, in m, beyond any closed gap: the fingers press with full force
 
 
 def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:

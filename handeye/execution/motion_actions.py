@@ -174,7 +174,7 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
 
 def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
     """Report a guard that is hard to distinguish from friction, once for each statement. The motion begins in
-    direction `along`, shape (3,), W.
+    direction `along`, shape (3,), in W.
     """
     assert run.state.at is not None
     place = run.plan.program.steps[run.state.at].place

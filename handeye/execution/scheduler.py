@@ -20,7 +20,7 @@ from handeye.ports.clock import Clock
 
 Time = TypeVar("Time", int, Fraction)
 T = TypeVar("T")
-_FINEST: Final = 1_000_000  # largest denominator of a duration, s, that is given in floating point
+_FINEST: Final = 1_000_000  # largest denominator of a duration, in s, that is given in floating point
 _ROUNDING_S: Final = 1e-12
 _MOST_AT_ONCE: Final = 1_000_000  # turns of a task at one moment
 
@@ -118,7 +118,7 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
 
 
 def microseconds(count: int) -> Fraction:
-    """Convert a whole number of microseconds to a duration, s."""
+    """Convert a whole number of microseconds to a duration, in s."""
     return Fraction(count, 1_000_000)
 
 

@@ -70,7 +70,7 @@ class Servo:
 
     @property
     def period(self) -> float:
-        """Servo period, s."""
+        """Servo period, in s."""
         return self.arm.servo.period
 
     @property

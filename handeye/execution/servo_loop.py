@@ -164,7 +164,8 @@ class ServoLoop(Servo):
         """Follow set-points through free air. See `following`.
 
         The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand
-        that is stopped is off from that point on; a hand on which a force acts is off all the way.
+        that is stopped lies behind its set-points from that point on; a hand on which a force acts is displaced all
+        the way.
         """
         held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it had pressed on an object
         self.state.in_air = False

@@ -36,15 +36,15 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     """An executed step. Pairs give the values before and after the step."""
 
     step: Natural
-    way: bytes = b""  # set-points, see `undo.way`; empty: nothing moved
-    gap: tuple[float, float]  # sensed before and after, m
-    fingers: float  # gap set-point before, m
+    way: bytes = b""  # set-points, see `undo.way`; empty if nothing moved
+    gap: tuple[float, float]  # sensed before and after, in m
+    fingers: float  # gap set-point before, in m
     grasping: bool = False  # fingers closed before
-    load: float  # compensated weight before, N; no default: msgspec omits defaults by identity
-    tool: float  # screwdriver speed before, rad/s; as `load`
-    force: float = 0.0  # greatest force felt, N; 0: none was estimated
+    load: float  # compensated weight before, in N; no default: msgspec omits defaults by identity
+    tool: float  # screwdriver speed before, in rad/s; no default, as for `load`
+    force: float = 0.0  # greatest force felt, in N; 0 if none was estimated
     ended: GuardKind | None = None  # the guard that ended it
-    risen: float = 0.0  # rise of the hand, m, while its screw was being turned out, if that was interrupted
+    risen: float = 0.0  # rise (m) of the hand while its screw was being turned out, if that was interrupted
     remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
     """Fields of the program's memory that the step changed, with their values before the step; see `undo.memory`.
     """
@@ -74,7 +74,7 @@ class SearchState(MutableRecord, kw_only=True):
     limit: Natural
     count: Natural = 0
     around: str = ""  # position of its last motion
-    along: float | None = None  # direction of its line, rad from table x; None: a pattern
+    along: float | None = None  # direction of its line (rad from table x); None for a pattern
 
     def offset(self, pattern: SearchPattern) -> tuple[float, float]:
         """Return the horizontal offset (m) of the present place of the search."""
@@ -127,7 +127,7 @@ class DriveState(MutableRecord, kw_only=True):
 
     q: Array  # set-point
     here: Array  # position by potentiometers and tachometers
-    friction: Array  # Coulomb friction, N m and N; 0: unknown
+    friction: Array  # Coulomb friction, in N m and N; 0 if unknown
     gap: float  # set-point of the finger gap, m
     grip: float  # finger force limit, N
     load: float = 0.0  # compensated weight, N

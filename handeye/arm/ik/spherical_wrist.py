@@ -116,7 +116,7 @@ def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> lis
 
 
 def _wrist_centre(arm: ArmModel, rows: Any) -> Any:
-    """Return the position of the wrist centre relative to the shoulder, in the base frame, m."""
+    """Return the position of the wrist centre relative to the shoulder, in the base frame, in m."""
     (_, _, ax, px), (_, _, ay, py), (_, _, az, pz) = rows
     d = arm.hand.length
     return px - d * ax, py - d * ay, pz - d * az - arm.joints[0].d

@@ -47,7 +47,7 @@ def _joint(
     wrist: float = 0.0,
 ) -> Joint:
     """Make a joint from published values. `wrist` is the position, along z of our frame, of the origin of the
-    published frame, m.
+    published frame, in m.
     """
     speed, acceleration, effort = drive
     x, y, z = centre
