@@ -30,8 +30,8 @@ SLEW: Final = 5 * DEGREE  # rad/s of pan and of tilt, which turn together
 REFOCUS: Final = 0.0347
 """Speed of refocusing, 1/m per second, because focus rings are divided by the reciprocal of the distance. With
 these rates the looks of a pump take 90 s, the time that the paper gives for all lens changes and focusing: 40 s for
-the turret, 12 s for 60 degrees, 36 s for 1.25 1/m, and 2 s for four pictures. Section 6 of the layout study divides
-the 90 s in this way.
+the turret, 12 s for turning by 60 degrees, 36 s for refocusing by 1.25 1/m, and 2 s for four pictures. Section 6 of
+the layout study divides the 90 s in this way.
 """
 
 

@@ -30,7 +30,7 @@ class Near:
     place: tuple[float, float, float]  # W, m
     distance: float  # m
     turned: float = 0.0
-    """Angle by which the viewpoint is turned about the place, degrees, counter-clockwise seen from above."""
+    """Angle by which the viewpoint is turned about the place, in degrees, counter-clockwise as seen from above."""
 
 
 class Photographer:

@@ -1,4 +1,4 @@
-"""Commands that export worlds, the end of a run, and traces to other programs."""
+"""Commands that export worlds, states of runs, and traces to other programs."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

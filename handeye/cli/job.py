@@ -84,7 +84,7 @@ class Job:
 
 
 class _StageKeeper(Observer):
-    """Keeps the states at the beginnings of stages in a folder."""
+    """Keeps, in a folder, the states at the beginnings of stages."""
 
     def __init__(self, folder: Path, setup: Setup) -> None:
         try:

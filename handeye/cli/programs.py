@@ -106,7 +106,7 @@ def _is_name(given: Path) -> bool:
 
 
 def made_known(words: str | None) -> str | None:
-    """The name of the task that `--task` gives, which is registered by this call; None if the option was left out."""
+    """The name of the task that `--task` gives, None if the option was left out. This call registers the task."""
     return None if words is None else named(words).name
 
 

@@ -76,7 +76,7 @@ def register(entry: Entry) -> None:
 
 
 def entries() -> Mapping[str, Entry]:
-    """Return all entries by name: the entries included with handeye, of installed packages, and of registered
+    """Return all entries by name: those included with handeye, those of installed packages, and those of registered
     systems.
     """
     return {entry.name: entry for entry in (*_installed(), *_registered.values())}

@@ -50,8 +50,8 @@ def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
 
 
 def _oblique(R: Array, gap: Array, a: Array, b: Array) -> Array:
-    """Return the overlap (m) of K pairs of boxes: the least overlap along the axes of the first box and the cross
-    products of the edges.
+    """Return the overlap (m) of K pairs of boxes: the least overlap along the axes of the first box and along the
+    cross products of the edges.
 
     Args:
         R: orientation of the first box in the frame of the second, shape (K, 3, 3).

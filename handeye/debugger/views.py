@@ -1,4 +1,4 @@
-"""Shows the state of a paused run in views."""
+"""Makes the views that show the state of a paused run."""
 
 from collections.abc import Collection
 from pathlib import Path

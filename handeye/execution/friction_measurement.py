@@ -125,7 +125,9 @@ def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PassTorques:
-    """Torques beyond the arm model in a pass, separated into friction and weight, each of shape (n,)."""
+    """The torques of a pass that the arm model does not explain, separated into friction and weight, each of shape
+    (n,).
+    """
 
     rubbing: Array  # opposing the motion
     weight: Array  # equal out and back

@@ -144,7 +144,7 @@ class DriveState(MutableRecord, kw_only=True):
     starting: list[float] = msgspec.field(default_factory=list)
     """Torques of the screwdriver (N m) in the first servo periods since its speed was set."""
     lately: list[float] = msgspec.field(default_factory=list)
-    """Torques of the screwdriver (N m) in the last second since its speed was set."""
+    """Torques of the screwdriver (N m) in the last second, but only those since its speed was set."""
     leapt: GapJumped | None = None  # the first jump of the gap since the last step
     magnet: bool = True  # the magnet of its bit is on
     lamp: bool = False
