@@ -22,7 +22,7 @@ def main() -> None:
     for number in ENDING:
         if _hear(number):
             atexit.register(signal.signal, number, signal.SIG_IGN)
-    # otherwise, importing MuJoCo would load an OpenGL library; `cell.opengl` chooses the library instead
+    # without this, importing MuJoCo would load an OpenGL library; `cell.opengl` chooses the library instead
     os.environ["MUJOCO_GL"] = "disable"
     gc.set_threshold(ALLOCATIONS)
     import handeye.core.host_time  # noqa: F401 - a command's time counts from here

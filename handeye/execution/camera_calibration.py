@@ -68,7 +68,7 @@ def calibrate_camera(
         seen = sum(s.lens == lens for s in sightings)
         if seen < MIN_SIGHTINGS:
             raise CalibrationFailed(f"the lamp was seen {counted(seen, 'time')} with the {lens * 1000:.0f} mm lens; "
-                                    f"{MIN_SIGHTINGS} times are needed to calibrate the camera")  # fmt: skip
+                                    f"{MIN_SIGHTINGS} sightings are needed to calibrate the camera")  # fmt: skip
     back = move(arm, drive.state.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
     if not isinstance(back, IKResult):
         _go(drive, back)

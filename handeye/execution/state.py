@@ -140,7 +140,7 @@ class DriveState(MutableRecord, kw_only=True):
     `arm.torque_balance`; None if not yet estimated.
     """
     tool: float = 0.0  # screwdriver speed, rad/s
-    current: float = 0.0  # its greatest torque since that speed was set, N m
+    current: float = 0.0  # its greatest torque since that speed was set, in N m
     starting: list[float] = msgspec.field(default_factory=list)
     """Torques of the screwdriver (N m) in the first servo periods since its speed was set."""
     lately: list[float] = msgspec.field(default_factory=list)
