@@ -79,14 +79,14 @@ class Joint:
     lower: float
     upper: float
     speed: float  # rad/s or m/s, at most
-    acceleration: float  # of planned motions, rad/s2 or m/s2
-    effort: float  # of the drive, N m or N
-    mass: float  # of the link, kg
-    centre: tuple[float, float, float]  # mass centre in the link's DH frame, m
-    inertia: tuple[float, float, float]  # about the mass centre, DH axes, kg m2; products are zero
-    armature: float  # drive inertia at the joint, kg m2 or kg
-    damping: float  # viscous friction, N m s or N s/m
-    brake: float  # torque at which the set brake slips, N m or N
+    acceleration: float  # of planned motions, in rad/s2 or m/s2
+    effort: float  # of the drive, in N m or N
+    mass: float  # of the link, in kg
+    centre: tuple[float, float, float]  # mass centre in the link's DH frame, in m
+    inertia: tuple[float, float, float]  # about the mass centre, DH axes, in kg m2; products are zero
+    armature: float  # drive inertia at the joint, in kg m2 or kg
+    damping: float  # viscous friction, in N m s or N s/m
+    brake: float  # torque at which the set brake slips, in N m or N
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,7 +95,7 @@ class ServoModel:
 
     period: float  # s between torque updates
     frequency: tuple[float, ...]  # of each joint's error, in rad/s, critically damped
-    lag: tuple[float, ...]  # following error that means collision, rad or m
+    lag: tuple[float, ...]  # following error that means collision, in rad or m
     short: float  # m from the set-point that means contact, after a free motion
     settle: int  # periods held after a motion, and averaged for the tare
     drag: float  # s for the floating arm to come to rest
@@ -218,8 +218,8 @@ class Constants:
     lag: Array
     frequency: Array
     mass: Array  # of each link, in kg, fingers included in the last
-    centre: Array  # in the DH frame, (n, 3), m
-    inertia: Array  # about the mass centre, DH axes, (n, 3), kg m2
+    centre: Array  # in the DH frame, (n, 3), in m
+    inertia: Array  # about the mass centre, DH axes, (n, 3), in kg m2
     carried: Array  # 1 where a joint (column) moves a link (row), (n, n)
 
 

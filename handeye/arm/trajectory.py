@@ -36,7 +36,7 @@ class Trajectory:
     """Joint positions as functions of time: one polynomial per joint and segment."""
 
     knots: Array  # start, between segments, end: (N + 1, n), N at least 3
-    times: Array  # of each segment, (N,), s
+    times: Array  # of each segment, (N,), in s
     coefficients: Array  # (N, 5, n): segment, ascending power of time since its start, joint
 
     @property

@@ -41,7 +41,7 @@ class CameraState(Record, frozen=True, kw_only=True):
     noise: str  # state of its generator, as JSON
     lens: float
     pots: tuple[float, float]
-    stand: tuple[float, float]  # true pan and tilt, rad
+    stand: tuple[float, float]  # true pan and tilt, in rad
     focus: float | None  # in m; None for infinity
     gain: float | None
 

@@ -19,7 +19,7 @@ class ArmErrors:
     scale: Array  # relative error of the reading, about `centre`
     wave: Array  # amplitude of the waviness of a potentiometer
     period: Array  # wavelength of the waviness
-    phase: Array  # phase of the waviness, rad
+    phase: Array  # phase of the waviness, in rad
     centre: Array  # posture at which `scale` makes no error
     pot_noise: Array  # sigma, before the converter
     pot_step: Array  # step of the potentiometer's converter; 0 if it has none
@@ -61,7 +61,7 @@ class ArmBuild:
     armature: Array  # inertia of each drive
     damping: Array  # viscous friction
     friction: Array  # Coulomb friction, in N m or N
-    hand_length: float  # true minus modelled, m
+    hand_length: float  # true minus modelled, in m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,10 +70,10 @@ class HandErrors:
 
     gap_offset: float  # m
     gap_scale: float
-    gap_noise: float  # sigma before the converter, m
+    gap_noise: float  # sigma before the converter, in m
     gap_step: float  # step of the converter, in m; 0 if it has none
-    switch_force: tuple[float, float]  # force at which the +y and the -y finger's switch fires, N
-    torque_noise: float  # sigma, N m
+    switch_force: tuple[float, float]  # force at which the +y and the -y finger's switch fires, in N
+    torque_noise: float  # sigma, in N m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,11 +81,11 @@ class CameraErrors:
     """How a TV camera differs from its design."""
 
     place: tuple[float, float, float]  # error of the mount in W, m
-    turn: tuple[float, float, float]  # error of pan, tilt and roll, rad
+    turn: tuple[float, float, float]  # error of pan, tilt and roll, in rad
     focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
     """Error of the position of each lens, in m: forwards, to the right and upwards in its picture."""
-    pot_noise: float  # sigma of the pan and tilt readings, rad
+    pot_noise: float  # sigma of the pan and tilt readings, in rad
     raster: Raster
     drift: (
         float  # sigma of the shift of a picture, along and across its lines, over half its width or height

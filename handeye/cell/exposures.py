@@ -47,7 +47,7 @@ def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
 
 
 APERTURE: Final = 0.008  # radius of the opening, in m: of a 50 mm lens at f/3.1
-_NEAR, _FAR = 0.1, 14.0  # clipping planes, m
+_NEAR, _FAR = 0.1, 14.0  # clipping planes, in m
 _MIDDLE: Final = 20  # the focus is measured in the middle of the picture, 1/20 of its sides to either side
 
 
@@ -60,7 +60,7 @@ class Lens:
     up: Array
     slopes: tuple[float, float]  # half the width and half the height of what it sees, over the distance
     size: tuple[int, int]  # points of the picture, width and height
-    focus: float = 1.0  # distance at which things are sharp, m
+    focus: float = 1.0  # distance at which things are sharp, in m
 
     @classmethod
     def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:

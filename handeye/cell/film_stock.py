@@ -26,7 +26,7 @@ class Lighting:
     sky: Colour
     everywhere: Colour  # light that throws no shadow
     stand: tuple[float, float, float]  # where the lamp stands, from the middle of the scene over its size
-    radius: float  # radius of the lamp's disc, m
+    radius: float  # radius of the lamp's disc, in m
     cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:

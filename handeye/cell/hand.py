@@ -26,7 +26,7 @@ class HandState(Record, frozen=True, kw_only=True):
 
     gap: float
     touch: tuple[bool, bool]
-    set_point: float  # of the finger servo, m
+    set_point: float  # of the finger servo, in m
     command: tuple[float, float] | None  # commanded gap (m) and grip (N)
 
 

@@ -29,7 +29,7 @@ PLATFORMS: Final = (
 """Platforms: the name, the module, and alternatives for the libraries that the platform needs."""
 SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
 """Prefixes of the environment variables by which a user selects a device or a driver."""
-NEAR, FAR = 0.3, 10.0  # clipping planes, m
+NEAR, FAR = 0.3, 10.0  # clipping planes, in m
 MOST_GEOMS: Final = 10000
 
 _WIDTH, _HEIGHT = COLUMNS * FINE, ROWS * FINE

@@ -35,7 +35,7 @@ class Solid:
 
     name: str  # unique in its body
     mesh: str | None  # name of its shape, which other solids may have too
-    shape: trimesh.Trimesh  # in its own frame, m
+    shape: trimesh.Trimesh  # in its own frame, in m
     X_BS: Pose
     colours: Array
     """Red, green, blue and opacity, as screen values, for each corner, shape (n, 4), or for the whole solid, shape
@@ -124,8 +124,8 @@ class WeighedBody:
     """The mass of a body of solid metal, as computed from its volume and as given in the model."""
 
     body: str
-    mass: float  # by volume and density, kg
-    mass_there: float  # in the scene, kg
+    mass: float  # by volume and density, in kg
+    mass_there: float  # in the scene, in kg
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

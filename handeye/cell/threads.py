@@ -99,7 +99,7 @@ class Driver(Protocol):
 class ThreadFigures:
     """True dimensions of threads and screws. Holes and screws are numbered from 0."""
 
-    phases: tuple[float, ...]  # where the thread of each hole starts, rad
+    phases: tuple[float, ...]  # where the thread of each hole starts, in rad
     friction: float = THREAD_FRICTION
     scarred: Set[int] = frozenset()  # holes in which a screw has been crossed before
     crossing: Set[int] = frozenset()  # holes in which every screw crosses

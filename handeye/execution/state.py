@@ -128,9 +128,9 @@ class DriveState(MutableRecord, kw_only=True):
     q: Array  # set-point
     here: Array  # position by potentiometers and tachometers
     friction: Array  # Coulomb friction, in N m and N; 0 if unknown
-    gap: float  # set-point of the finger gap, m
-    grip: float  # finger force limit, N
-    load: float = 0.0  # compensated weight, N
+    gap: float  # set-point of the finger gap, in m
+    grip: float  # finger force limit, in N
+    load: float = 0.0  # compensated weight, in N
     links: Array | None = None
     """Link weights that the arm has measured, divided by the weights in the model, shape (n,); None if not
     measured.
@@ -139,7 +139,7 @@ class DriveState(MutableRecord, kw_only=True):
     """Later estimate of the errors of links and drives with its covariance, shape (3n, 1 + 3n), see
     `arm.torque_balance`; None if not yet estimated.
     """
-    tool: float = 0.0  # screwdriver speed, rad/s
+    tool: float = 0.0  # screwdriver speed, in rad/s
     current: float = 0.0  # its greatest torque since that speed was set, in N m
     starting: list[float] = msgspec.field(default_factory=list)
     """Torques of the screwdriver (N m) in the first servo periods since its speed was set."""
@@ -178,7 +178,7 @@ class ExecutionState(SystemState, kw_only=True):
 
     pending: Fault | None = None  # an error that the next step may test
     idle: int = 0  # steps since time last passed
-    clock: float = -1.0  # end of the last step, s
+    clock: float = -1.0  # end of the last step, in s
     saved: dict[str, Array] = msgspec.field(default_factory=dict)
     heights: dict[str, float] = msgspec.field(default_factory=dict)  # height in W (m) of each SAVE
     counters: dict[str, int] = msgspec.field(default_factory=dict)
@@ -187,14 +187,14 @@ class ExecutionState(SystemState, kw_only=True):
     goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
     """Goal of the last Move in W (m), without the offset of the search."""
     place: str = ""  # its name
-    travel: float = 0.0  # m, of the last straight motion
+    travel: float = 0.0  # length (m) of the last straight motion
     finger_line: Array | None = None  # unit vector, if the last action was a Center
     grasping: bool = False  # the fingers were last closed
-    unlike: float | None = None  # gap of the last hold that was not as thick as specified, m
+    unlike: float | None = None  # gap (m) of the last hold that was not as thick as specified
     calibration: Calibration | None = None  # of the camera, if the plan takes pictures
     unable: str | None = None  # why calibration failed
     lens: float = FIRST_LENS
-    camera_ready: float = 0.0  # when the camera is ready, s by the cell's clock
+    camera_ready: float = 0.0  # time (s on the cell's clock) at which the camera is ready
     shots: dict[str, Shot] = msgspec.field(default_factory=dict)
     general: dict[str, GeneralLocation] = msgspec.field(default_factory=dict)
     found: dict[str, VisionResult] = msgspec.field(default_factory=dict)  # by picture

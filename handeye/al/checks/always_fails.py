@@ -52,7 +52,7 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
 
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
     """Yield the grasps that expect a wider object than the hand was opened for."""
-    least = min(_gaps(graph, graph.which(Open)), default=math.inf)  # always wide enough up to this
+    least = min(_gaps(graph, graph.which(Open)), default=math.inf)  # no OPEN is narrower
     grasps: Iterator[tuple[int, Close | Center]] = chain(graph.each(Close), graph.each(Center))
     for number, grasp in grasps:
         if grasp.minimum <= least:

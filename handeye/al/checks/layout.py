@@ -12,7 +12,7 @@ from handeye.core.source import Source
 _NOT_A_STEP = frozenset(i.op for i in INSTRUCTIONS.values() if i.role in (DECLARATION, SHIFT))
 _LEAVES = frozenset(i.op for i in INSTRUCTIONS.values() if i.role is JUMP) | {*SKIPS, "WAIT"}
 _OPENING_MOTIONS = ("MOVE", "PARK")  # often the first motion after the macros
-_MIN_BODY = 2  # steps: more than a skip skips
+_MIN_BODY = 2  # steps; a skip skips only one
 
 
 def check_layout(script: Script, source: Source) -> Iterator[Diagnostic]:

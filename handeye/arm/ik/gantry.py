@@ -25,7 +25,7 @@ from handeye.core.pose import Array, Pose, rotation_x
 from handeye.program.diagnosis.reach import InLine
 
 _COLLINEAR: Final = 1e-11  # sine of the middle wrist joint below which the others are one axis
-_EXACT: Final = 1e-6  # round-off of a twist, m/s or rad/s
+_EXACT: Final = 1e-6  # round-off of a twist, in m/s or rad/s
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -20,7 +20,7 @@ from handeye.program.diagnosis.reach import JointLimit, OutOfReach, ReachFailure
 class IKResult:
     """Joint positions for a hand pose, or the reason why the pose or the motion is impossible."""
 
-    q: Array | None = None  # shape (n,), rad and m
+    q: Array | None = None  # shape (n,), in rad and m
     reason: ReachFailure | None = None  # why there is no solution
     along: float | None = None  # of motions: m along the hand's path
 
@@ -37,7 +37,7 @@ class IKResult:
         return BeyondArm(goal=goal, reason=msgspec.convert(plain, ReachFailure), arm=ArmNames.of(arm))
 
 
-SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, rad or m
+SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, in rad or m
 WRITTEN: Final = (0.0025 * INCH, 0.0125 * DEGREE)
 """Greatest distance (m) and turn (rad) by which a pose may be off because it is written with few digits. Distance
 and turn are combined as the root of the sum of squares. Errors of .0005 in and of .005 degrees in each coordinate

@@ -57,8 +57,8 @@ class Resistance:
 class EarlyContact:
     """Trips when a finger touches an object while the gap is still too wide."""
 
-    gap: Callable[[], float]  # present gap, m
-    kept: float  # gap when the step was executed, m
+    gap: Callable[[], float]  # present gap, in m
+    kept: float  # gap when the step was executed, in m
     holding: bool  # True if the hand held an object at that time
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
@@ -92,7 +92,7 @@ class ReturnPath:
     """A reverse path."""
 
     samples: Samples
-    gap: Array  # finger set-points, (N,), m
+    gap: Array  # finger set-points, (N,), in m
     left: Array  # number of set-points of the path left after each, (N,)
 
 

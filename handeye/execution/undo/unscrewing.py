@@ -45,12 +45,12 @@ head of the screw.
 class ScrewMonitor:
     """Trips when the screw is out, or when it does not rise."""
 
-    height: Callable[[], float]  # of the hand, m
-    rise: float  # least rise of a screw that is out, m
-    before: float  # rise before an interruption, m
+    height: Callable[[], float]  # of the hand, in m
+    rise: float  # least rise of a screw that is out, in m
+    before: float  # rise before an interruption, in m
     highest: float = field(init=False)
     started: float = field(init=False)
-    torque: float = 0.0  # greatest so far, N m
+    torque: float = 0.0  # greatest so far, in N m
     _quiet: int = 0
     _periods: int = 0
 

@@ -20,8 +20,8 @@ _LONGEST: Final = 1 << 22  # decompressed bytes: days
 class RecordedPath:
     """Set-points from the start of a step to its end."""
 
-    q: Array  # (N, n), rad and m
-    gap: Array  # (N,), m
+    q: Array  # (N, n), in rad and m
+    gap: Array  # (N,), in m
 
     def __len__(self) -> int:
         return len(self.gap)
@@ -31,7 +31,7 @@ class RecordedPath:
 class Track:
     """Records the set-points of a step, and the greatest force during the step."""
 
-    force: float = 0.0  # greatest so far, N
+    force: float = 0.0  # greatest so far, in N
     _q: list[Array] = field(default_factory=list)
     _gap: list[float] = field(default_factory=list)
 
