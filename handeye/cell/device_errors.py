@@ -80,7 +80,7 @@ class HandErrors:
 class CameraErrors:
     """How a TV camera differs from its design."""
 
-    place: tuple[float, float, float]  # error of the mount in W, m
+    place: tuple[float, float, float]  # error of the mount in W, in m
     turn: tuple[float, float, float]  # error of pan, tilt and roll, in rad
     focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]

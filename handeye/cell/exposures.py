@@ -65,7 +65,7 @@ class Lens:
     @classmethod
     def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:
         """Return the lens of the camera for which a scene was prepared."""
-        left, right = scene.camera  # two, next to the camera
+        left, right = scene.camera  # MuJoCo makes two, one on each side of the camera
         high = (left.frustum_top - left.frustum_bottom) / 2 / left.frustum_near
         wide = left.frustum_width / left.frustum_near or high * size[0] / size[1]
         return cls(

@@ -57,7 +57,7 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
     if any(warnings):
         name = mujoco.mjtWarning(next(kind for kind, count in enumerate(warnings) if count)).name
         raise PhysicsFailed(f"the simulated cell broke down ({name})")
-    if data.qvel @ data.qvel < fastest * fastest:  # then nothing is as fast as that; a quick test
+    if data.qvel @ data.qvel < fastest * fastest:  # a quick test: then no single rate is as fast
         return
     if not np.abs(data.qvel).max(initial=0.0) < fastest:  # also true for NaN
         raise PhysicsFailed(
@@ -90,7 +90,7 @@ class PhysicsStepper:
         self._bends = np.zeros((2, 3, model.nv))
         self._soft = model.geom_solimp.copy()
         self._stiff = self._soft.copy()
-        impedance = self._stiff[:, :2]  # a contact's stiffness is as d / (1 - d)
+        impedance = self._stiff[:, :2]  # a contact's stiffness is proportional to d / (1 - d)
         impedance *= STIFFER / (1.0 + (STIFFER - 1.0) * impedance)
 
     def step(self, steps: int) -> None:

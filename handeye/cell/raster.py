@@ -34,7 +34,7 @@ class Raster:
         """Return the light that the beam reads, shape (256, 333), in a picture that is shifted by `shift` =
         (columns, rows).
         """
-        import cv2  # not for plans, which know the pump's worlds
+        import cv2  # imported here, because planning loads this module and does not need OpenCV
 
         u, v = np.meshgrid(np.arange(COLUMNS) - shift[0], np.arange(ROWS) - shift[1], sparse=True)
         x, y = self._target(u, v)

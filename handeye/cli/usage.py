@@ -38,7 +38,7 @@ def usage_sentence(error: CycloptsError) -> str:
 def _fault(error: CycloptsError, command: str) -> str:
     match error:
         case UnknownCommandError(unused_tokens=[word, *_], app=app):
-            option = word.startswith("-")  # then the options of a group, else its commands
+            option = word.startswith("-")  # an option of a group, or else a command of it
             alike = () if app is None else (name for name in app if name.startswith("-") == option)
             return f"there is no {'option' if option else 'command'} {quoted(word)}{_meant(word, alike)}"
         case UnknownOptionError(token=token, argument_collection=known):

@@ -18,7 +18,7 @@ _CANNOT: Final = {
     errno.ENOSYS,
     errno.ENOTSUP,
     errno.EOPNOTSUPP,
-}  # of a file system that cannot do it
+}  # errors from a file system that lacks the operation
 _NOWHERE: Final = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
 _OF_NAME: Final = 40
 """Number of characters of a file's name that are repeated in the name of its temporary file. A longer name could
@@ -79,7 +79,7 @@ def is_there(path: Path) -> bool:
     except ValueError:  # a name with a NUL in it
         return False
     except OSError as error:
-        if error.errno in _NOWHERE:  # no file can have the name, for one
+        if error.errno in _NOWHERE:  # for example, because no file can have this name
             return False
         raise BadFile(f"{path} cannot be read: {error.strerror}") from None
     return True

@@ -87,7 +87,7 @@ def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
     if abs(abs(a) - math.pi / 2) < UPRIGHT:
         return math.atan2(finger[1], finger[0]), a, 0.0
     o = math.atan2(approach[0], -approach[1])
-    along = np.array([math.cos(o), math.sin(o), 0.0])  # of the fingers, were T nothing
+    along = np.array([math.cos(o), math.sin(o), 0.0])  # direction of the finger line if T were 0
     return o, a, math.atan2(float(along @ X_WT[:3, 0]), float(along @ finger))
 
 
