@@ -62,11 +62,11 @@ class Trace(recorded.Trace):
         Args:
             camera: `orbit`, which moves around the cell; `follow`, which moves close to the hand; or the name of a
                 camera of the scene.
-            seconds: length of the video, s, 14 by default. Short stages are played more slowly, so that each can be
-                seen.
-            speed: instead of `seconds`: factor by which the video is faster than the run.
-            first: the first stage: its number, its name, or part of its name.
-            last: the last stage.
+            seconds: length of the video in seconds, 14 by default; short stages are played more slowly, so that
+                each can be seen.
+            speed: how many times faster than the run the video plays; give this instead of `seconds`.
+            first: the stage with which the video begins: its number, its name, or part of its name.
+            last: the stage with which the video ends, given likewise.
             captions: show stage and clock, and pause at each picture that the program takes.
             overwrite: replace an existing video.
 
