@@ -87,6 +87,4 @@ class CameraErrors:
     """Error of the position of each lens, in m: forwards, to the right and upwards in its picture."""
     pot_noise: float  # sigma of the pan and tilt readings, in rad
     raster: Raster
-    drift: (
-        float  # sigma of the shift of a picture, along and across its lines, over half its width or height
-    )
+    drift: float  # sigma of the shift of a picture, along and across its lines, over half its width or height

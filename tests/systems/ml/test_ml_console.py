@@ -60,7 +60,9 @@ def test_try_shows_each_statement_before_it_runs() -> None:
     typed = Typed()
     typed(COUNT)
     typed.answers = ["", "n", "?", "A"]
-    assert typed("TRY") == ["type N to execute the statement, R to run on without asking, or A to abandon the program"]
+    assert typed("TRY") == [
+        "type N to execute the statement, R to run on without asking, or A to abandon the program"
+    ]
     assert typed.prompts == ["10 LOAD 1 3 ? ", "20 ADD 1 1 ? ", "30 PRINT &1 ? ", "30 PRINT &1 ? "]
     typed.answers = ["R"]
     assert typed("TRY 20") == ["5"]

@@ -167,7 +167,9 @@ class Interpreter:
         """
         line = statement_of(text)
         if line is None or line.number is not None or line.statement.code != "FILE":
-            raise BadArgument("while a statement is being executed, FILE is the only command that you can type")
+            raise BadArgument(
+                "while a statement is being executed, FILE is the only command that you can type"
+            )
         BEHAVIOUR["FILE"](self, *map(self._value, line.statement.parameters))
         self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
 

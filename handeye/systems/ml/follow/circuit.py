@@ -24,7 +24,9 @@ ALONE: Final = 19  # statements without any touch, eight steps: a plate is at mo
 NOTHING: Final = (
     "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"
 )
-EVERYWHERE: Final = "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
+EVERYWHERE: Final = (
+    "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
+)
 LONGEST: Final = 3000  # statements in which it closes a circuit, or is lost
 
 Point = tuple[float, float]

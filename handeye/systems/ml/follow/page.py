@@ -139,7 +139,9 @@ def _depths(true: Array, touches: Array) -> Iterator[Markup]:
         yield bar(_BARS[0] + number * width + 1, top, width - 2, high, class_="block")
     if off:
         worst = max(off, key=abs)
-        yield words(_BARS[0], 20, f"{counted(len(off), 'touch')}; the largest distance is {abs(worst):.2f} mm")
+        yield words(
+            _BARS[0], 20, f"{counted(len(off), 'touch')}; the largest distance is {abs(worst):.2f} mm"
+        )
 
 
 def _points(xs: Scale, ys: Scale, points: Array) -> str:

@@ -118,9 +118,7 @@ class Orient(ReportingTask):
         turn = off_attitude(bar.xmat.reshape(3, 3), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
         touching = sum(_touch(truth, "bar", pad) for pad in ("left_pad", "right_pad"))
         return {
-            "attitude": at_most(
-                turn, ATTITUDE, "deg", "angle between the bar and the required attitude"
-            ),
+            "attitude": at_most(turn, ATTITUDE, "deg", "angle between the bar and the required attitude"),
             "place": at_most(
                 float(off) / MILLIMETRE, PLACED, "mm", "distance of the bar from the required place"
             ),

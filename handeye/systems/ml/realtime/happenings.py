@@ -87,8 +87,7 @@ class TableWritten(LevelEvent, frozen=True, kw_only=True):
     value: int
 
     def sentence(self, measures: Measures) -> str:
-        return f"in the table {self.table}, word {self.word} of line {self.line} changes from {self.was} to "
-        f"{self.value}"
+        return f"in the table {self.table}, word {self.word} of line {self.line} changes from {self.was} to {self.value}"
 
 
 class GoalRounded(LevelEvent, frozen=True, kw_only=True):

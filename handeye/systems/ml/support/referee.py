@@ -68,7 +68,10 @@ def judge(truth: Truth, counted: int) -> Findings:
         "screws_clamp": at_least(screws.weakest, CLAMP, "N", "smallest clamping force of a screw"),
         "screws_strain": at_most(screws.strongest, STRAIN, "N", "greatest clamping force of a screw"),
         "counted": at_most(
-            abs(counted - right), 0, "parts", "difference between the program's count and the number of parts in place"
+            abs(counted - right),
+            0,
+            "parts",
+            "difference between the program's count and the number of parts in place",
         ),
         "parts": at_least(right, PARTS, "parts", "parts in place"),
         "rack": at_most(

@@ -138,7 +138,8 @@ def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
             yield _refused(line, "with NOWAIT, the program would go on before the arm has arrived")
         elif word == "MOVE" and statement.slow is not None and len(statement.goals) > 1:
             yield _refused(
-                line, "with SLOW, the path of several axes is not straight; use LINE, or one MOVE for each axis"
+                line,
+                "with SLOW, the path of several axes is not straight; use LINE, or one MOVE for each axis",
             )
         elif word == "ORIGIN" and len(statement.names) != len(COMPONENTS):
             yield _refused(line, "ORIGIN is a single motion of the arm: name all three axes")

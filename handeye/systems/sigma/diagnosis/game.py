@@ -44,7 +44,8 @@ MEANS: Final = {
     ),
     "force": Means("force ARM", "apply known forces to a wrist, along each of its axes X, Y and Z"),
     "beam": Means(
-        "beam ARM", "read the light beam of a hand with nothing in it, then with a rod, then with a grey filter"
+        "beam ARM",
+        "read the light beam of a hand with nothing in it, then with a rod, then with a grey filter",
     ),
     "grip": Means("grip ARM", "close a hand on a block that is not in the middle of its fingers"),
     "origin": Means("origin AXIS", "move to the low end of a rail with ORIGIN"),

@@ -74,7 +74,10 @@ class AssemblyLine(JobTask):
             ),
             "pressed": at_most(max(proud), PRESSED, "mm", "greatest height of a pin above its piece"),
             "counted": at_most(
-                wrong, 0, "pieces", "difference between the program's counts and the number of finished pieces"
+                wrong,
+                0,
+                "pieces",
+                "difference between the program's counts and the number of finished pieces",
             ),
             "apart": at_most(watched.touched_ms, 0, "ms", "time for which arms touched each other"),
         }

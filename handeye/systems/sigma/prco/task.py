@@ -69,7 +69,9 @@ class Plate(JobTask):
         wrong = abs(counted[0] - pins.right) + abs(counted[1] - screws.right)
         return {
             "plate": at_most(max(gaps), SEATED, "mm", "greatest gap between plate and base at a corner"),
-            "pins": at_least(pins.right, PINS, "pins", "pins that stand upright at the bottom of their holes"),
+            "pins": at_least(
+                pins.right, PINS, "pins", "pins that stand upright at the bottom of their holes"
+            ),
             "screws": at_least(
                 screws.taken, pump.screws, "screws", "threads with a screw that is not crossed"
             ),
