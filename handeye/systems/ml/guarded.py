@@ -102,7 +102,7 @@ def arrived(state: State) -> bool:
 
 
 def one_cycle(state: State, senses: Senses, speeds: Mapping[int, int]) -> tuple[State, Ending]:
-    """Let a cycle pass. If a motion ends in this cycle, also say how. `speeds` are in hundredths of a unit per cycle."""
+    """Let a cycle pass. If a motion ends in it, also say how. `speeds` are in hundredths of a unit per cycle."""
     new = crossed(state, senses(state.cycle, state.positions))
     ending: Ending = "force" if new else "goal" if arrived(state) else ""
     goals = state.positions if new else state.goals

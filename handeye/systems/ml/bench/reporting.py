@@ -1,4 +1,4 @@
-"""Programs that end by printing two numbers: first 0 if all went well, or else the number of a trouble; then a count."""
+"""Programs that end by printing two numbers: 0 if all went well, or else the number of a trouble; then a count."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Printed(Record, frozen=True, kw_only=True):
 
 
 def counted(heard: object) -> int:
-    """Return the count in the last printed line, which is `0 COUNT` if all went well; 0 if the line has another form."""
+    """Return the count in the last printed line, `0 COUNT`; 0 if the line has another form."""
     assert isinstance(heard, Printed)
     words = heard.lines[-1].split() if heard.lines else []
     return int(words[1]) if len(words) == 2 and words[0] == "0" else 0

@@ -87,7 +87,7 @@ class TableWritten(LevelEvent, frozen=True, kw_only=True):
     value: int
 
     def sentence(self, measures: Measures) -> str:
-        return f"in the table {self.table}, word {self.word} of line {self.line} changes from {self.was} to {self.value}"
+        return f"word {self.word} of line {self.line} in the table {self.table} changes from {self.was} to {self.value}"
 
 
 class GoalRounded(LevelEvent, frozen=True, kw_only=True):
