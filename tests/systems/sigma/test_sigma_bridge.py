@@ -155,7 +155,7 @@ def test_the_command_writes_a_plan_and_says_that_there_is_no_bus(command: Comman
     file.write_text(mal("handover"), encoding="utf-8")
     code, _, err = command("sigma", "bridge", str(file))
     assert (code, "line 40 cannot become a motion" in err, "Traceback" in err) == (2, True, False)
-    assert err.count("a plan can have only MOVE") == 1
+    assert err.count("tests of FORCE right after a MOVE") == 1
     assert command("sigma", "bridge", str(tmp_path / "none.mal"))[0] == 2
     assert AT == (350.0, 550.0)
 

@@ -65,7 +65,7 @@ def test_pages_count_the_lines_of_a_program_as_they_are() -> None:
         found
         for page in (ROOT / "docs").glob("*.md")
         for found in re.findall(
-            r"\[`plans/(\w+)\.mal`\]\(\S+\)[^\[]*?(\d+)\s+lines of \[MAL\]", page.read_text(encoding="utf-8")
+            r"\[`plans/(\w+)\.mal`\]\(\S+\)[^\[]*?(\d+)\s+lines of\s\[MAL\]", page.read_text(encoding="utf-8")
         )
     }
     assert counted == {
