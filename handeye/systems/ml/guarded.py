@@ -18,11 +18,11 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 Limits = tuple[int, int]
-Readings = Mapping[int, int]  # of sensors
+Readings = Mapping[int, int]  # readings by the numbers of the sensors
 Senses = Callable[[int, Mapping[int, int]], Readings]
 """Function that returns what the sensors read in a cycle while the motors are at certain positions."""
 
-FINE: Final = 100  # a set-point is counted in hundredths of a unit, as 20 cm/s are 78.74 units a cycle
+FINE: Final = 100  # set-points are counted in hundredths of a unit, because 20 cm/s is 78.74 units per cycle
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +55,7 @@ class Branch:
     """`BRANCH`: go to `then` if the flag of any listed sensor is on; a negative number asks whether the flag is off."""
 
     then: int
-    other: int | None = None  # None: always to `then`
+    other: int | None = None  # None: the branch always goes to `then`
     sensors: tuple[int, ...] = ()  # empty: any sensor
 
 
@@ -71,7 +71,7 @@ class State:
     positions: Mapping[int, int]  # by motor
     goals: Mapping[int, int]
     set_points: Mapping[int, int]  # hundredths of a unit
-    limits: Mapping[int, Limits]  # of the sensors whose limits are not open
+    limits: Mapping[int, Limits]  # limits of those sensors whose limits are not open
     flags: frozenset[int] = frozenset()
 
     @staticmethod

@@ -34,7 +34,7 @@ class Nullified(SystemEvent, frozen=True, kw_only=True):
     """A motion was not executed, because flags of sensors were on."""
 
     statement: int  # 0: a typed line
-    sensors: tuple[int, ...]  # whose flags are on
+    sensors: tuple[int, ...]  # sensors whose flags are on
 
     def sentence(self, measures: Measures) -> str:
         where = f"statement {self.statement}" if self.statement else "the typed line"

@@ -21,8 +21,8 @@ class Shape(NamedTuple):
     title: str
     lines: int
     words: int
-    internal: bool = True  # serves the real-time level
-    names: tuple[str, ...] = ()  # of its words, where they have names
+    internal: bool = True  # True: the real-time level uses the table
+    names: tuple[str, ...] = ()  # names of the words of a line; empty if they have none
 
 
 class View(Protocol):

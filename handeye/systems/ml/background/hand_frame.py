@@ -13,7 +13,7 @@ import numpy as np
 
 from handeye.core.pose import Array
 
-TIPS: Final = 5906  # from the wrist to the fingertips, units
+TIPS: Final = 5906  # units from the wrist to the fingertips
 _X, _Y, _Z, _ROLL, _YAW, _PITCH = 4, 3, 2, 8, 9, 10
 MOTORS: Final = (_X, _Y, _Z, _ROLL, _YAW, _PITCH)
 
@@ -54,7 +54,7 @@ def _angles(frame: Array, near: Mapping[int, int]) -> dict[int, int]:
     the one nearer to the angles `near` is returned.
     """
     yaw = asin(min(max(float(frame[2, 1]), -1.0), 1.0))
-    if hypot(frame[2, 0], frame[2, 2]) < 1e-9:  # roll and pitch turn about one axis: keep the pitch
+    if hypot(frame[2, 0], frame[2, 2]) < 1e-9:  # roll and pitch turn about the same axis: keep the pitch
         pitch = radians(near[_PITCH] / 100)
         total = atan2(frame[1, 0], frame[0, 0])
         solutions = [(total - pitch if yaw > 0 else total + pitch, yaw, pitch)]

@@ -42,7 +42,7 @@ class Interpreter:
         the commands that need a host raise an error.
         """
         self.levels, self.program, self.host = levels, program, host
-        self._own = levels[side]  # whose registers and clock the program uses, whatever arm it commands
+        self._own = levels[side]  # the program uses its registers and clock, whichever arm it commands
         self.memory = BackgroundMemory(side=side)
         self.joystick = joystick
         self._tell = tell
@@ -167,9 +167,7 @@ class Interpreter:
         """
         line = statement_of(text)
         if line is None or line.number is not None or line.statement.code != "FILE":
-            raise BadArgument(
-                "while a statement is being executed, FILE is the only command that you can type"
-            )
+            raise BadArgument("while a statement is being executed, you can type only the command FILE")
         BEHAVIOUR["FILE"](self, *map(self._value, line.statement.parameters))
         self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
 

@@ -9,7 +9,7 @@ from handeye.core.mutable_records import MutableRecord
 from handeye.systems.ml.language.syntax import LAST
 from handeye.systems.ml.level import Side
 
-Wait = Literal["", "post", "until", "joy"]  # for the end of a motion, for a cycle, for a function key
+Wait = Literal["", "post", "until", "joy"]  # for nothing, the end of a motion, a cycle, a function key
 Number = Annotated[int, msgspec.Meta(ge=0, le=LAST)]
 KEPT: Final = 100  # lines of the trace and of the session
 
@@ -25,15 +25,15 @@ class BackgroundMemory(MutableRecord, kw_only=True):
     side: Side = "right"  # the arm that commands refer to
     tracing: bool = False
     trying: bool = False  # each statement waits for a key
-    cycle: int = 0  # in which statements were counted
+    cycle: int = 0  # the cycle in which statements were counted last
     share: int = 0  # statements executed in that cycle
     stopped: str = ""  # why the program was stopped, as a sentence; empty: it was not
     onward: Number = 0  # after a stop: the statement that would have been next
-    closed: bool = False  # the session with the host
-    sent: int = 0  # commands to the host
-    received: int = 0  # programs from the host
+    closed: bool = False  # True: the session with the host is closed
+    sent: int = 0  # commands that were sent to the host
+    received: int = 0  # programs that were read from the host
     traced: list[tuple[int, ...]] = field(
         default_factory=list
-    )  # numbers of statement and command, and values
+    )  # number of the statement, number of the command, and values
     typed: list[str] = field(default_factory=list)
-    left: bool = False  # by EXIT
+    left: bool = False  # True after EXIT

@@ -42,7 +42,7 @@ def mult(mos: "Interpreter", variable: int, value: int, high: int | None = None)
     if high is None:
         _result(mos, variable, product)
         return
-    mos.variable(high)  # which raises before anything has changed
+    mos.variable(high)  # raises MlError, if at all, before anything has changed
     upper, lower = halves(product)
     mos.set_variable(variable, lower)
     mos.set_variable(high, upper)

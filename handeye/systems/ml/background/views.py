@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 NUMBERS: Final = {code: number for number, code in enumerate(COMMANDS, 1)}
 """Numbers of the commands in the tables TK, TR and CC."""
-_SIGN: Final = 8  # beside three bits for the number of ampersands
+_SIGN: Final = 8  # the bit above the three bits for the number of ampersands
 _PACKED: Final = 4  # parameters whose forms fit into a word
 
 

@@ -33,17 +33,17 @@ STRAINS: Final = tuple(Channel(name=f"{side}_strain", unit="N", width=3) for sid
 RANGE: Final = Channel(name="range", unit="m")
 TORQUE: Final = Channel(name="torque", unit="N m")
 INSIDE: Final = tuple(Channel(name=f"inside_{side}") for side in ("left", "right"))
-SIGNALS: Final = 0.0001  # m at the tip of the wand
+SIGNALS: Final = 0.0001  # m by which the tip of the wand is bent when it signals a contact
 PROBE: Final = 0.03  # m, length of the wand
-RANGED: Final = 0.5  # m that the range finder reaches
+RANGED: Final = 0.5  # m: reach of the range finder
 _PINGS: Final = 5  # cycles from one sound of the range finder to the next
-STRAINED: Final = 1500 * GRAM_FORCE  # N, the most that a gauge shows
-RESOLVED: Final = 5 * GRAM_FORCE  # N, a step of its converter
+STRAINED: Final = 1500 * GRAM_FORCE  # N: the greatest force that a gauge shows
+RESOLVED: Final = 5 * GRAM_FORCE  # N: one step of a gauge's converter
 FINGER_STIFFNESS: Final = 10_000.0  # N/m along y and z
 _STIFF: Final = np.array(
     [100_000.0, FINGER_STIFFNESS, FINGER_STIFFNESS] * 2
 )  # N/m of the fingers along x, y and z
-_PRESSED: Final = 0.2  # N that close a switch inside a finger
+_PRESSED: Final = 0.2  # N: force that closes a switch inside a finger
 _SLIDES: Final = slice(1, 4)
 _SLIDE_NAMES: Final = tuple(spec.name for spec in AXES[_SLIDES])
 _WAVE: Final = np.array([0.1 if spec.kind == "prismatic" else 1.0 for spec in AXES])
@@ -58,8 +58,8 @@ class ArmState(Record, frozen=True, kw_only=True):
     goal: tuple[float, ...]  # last goals of the three slides, m
     ways: tuple[int, ...]  # directions in which these goals have moved: -1, 0 or 1
     motions: tuple[int, ...]  # motions that the slides have begun
-    offsets: tuple[float, ...]  # m, their errors in the present motions
-    ranged: float = 0.0  # m, the last range
+    offsets: tuple[float, ...]  # m: errors of the slides in their present motions
+    ranged: float = 0.0  # m: the last measured range
     signalled: tuple[str, ...] = ()  # interlocks that are on
 
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from handeye.core.pose import Array
 
-LONG: Final = 0.050  # m, along y of a bar
-WIDE: Final = 0.014  # m, its sides along x and z
+LONG: Final = 0.050  # m: length of a bar, along its y axis
+WIDE: Final = 0.014  # m: side of a bar, along its x and z axes
 DENSITY: Final = 2700.0  # kg/m3: a bar weighs 26.5 g
 
 

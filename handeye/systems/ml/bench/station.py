@@ -19,9 +19,9 @@ from handeye.systems.ml.realtime.machine import Machine
 SCENE: Final = "rectilinear_arm/rectilinear_arm.xml"
 CAMERA: Final = "people"
 WAND: Final = "wand"
-HAND: Final = ("separation", "angle")  # axes that two fingers share
+HAND: Final = ("separation", "angle")  # axes that the two fingers share
 TABLE: Final = "table_1"  # the interlock of the work table, and the sensor of its load
-FUSE: Final = 200.0  # N on the work table that open its structural fuse
+FUSE: Final = 200.0  # N on the work table that blow its structural fuse
 
 
 def scene(world: ArmWorld, *, wand: bool = True) -> mujoco.MjSpec:

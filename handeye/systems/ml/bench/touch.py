@@ -20,24 +20,24 @@ from handeye.systems.ml.bench.station import scene
 from handeye.systems.ml.bench.world import ArmWorld
 from handeye.systems.ml.machine.spec import GRAM_FORCE
 
-PERIOD: Final = 10  # ms, of the paper
-BANDWIDTH: Final = 50.0  # Hz, of the paper
+PERIOD: Final = 10  # ms, as in the paper
+BANDWIDTH: Final = 50.0  # Hz, as in the paper
 SPEED: Final = 25.0  # mm/s
 LIMIT: Final = 300  # grams on a finger
-PERIODS: Final = (1, 100)  # ms that can be asked for
+PERIODS: Final = (1, 100)  # ms: range of periods that can be simulated
 BANDWIDTHS: Final = (5.0, 120.0)  # Hz
-SPEEDS: Final = (1.0, 200.0)  # mm/s; the paper holds the slides to 200
-LIMITS: Final = (10, 1500)  # grams; a gauge shows no more
+SPEEDS: Final = (1.0, 200.0)  # mm/s; the slides of the paper move at no more than 200
+LIMITS: Final = (10, 1500)  # grams; 1500 is the greatest reading of a gauge
 PHASES: Final = 4
 _DAMPING: Final = 0.8
 _CARRIED: Final = 29.08  # kg that the z slide moves
-_DRAG: Final = 300.0  # N s/m of its joint
+_DRAG: Final = 300.0  # N s/m: damping of the slide's joint
 _BLOCK: Final = 0.04  # m, height of the block
 _REACH: Final = 0.25  # m from the fingertips to the table at z = 0
 STIFFNESS: Final = 10_000.0  # N/m of a finger along z
-_START: Final = 0.15  # s in which a start has died away
-_BEFORE: Final = 30.0  # ms that are kept before the contact
-_AFTER: Final = 0.1  # s that are watched after the contact
+_START: Final = 0.15  # s after which the jolt of a start has died away
+_BEFORE: Final = 30.0  # ms before the contact that are kept
+_AFTER: Final = 0.1  # s after the contact that are simulated
 _MS: Final = 0.001  # s, the step of the physics
 
 
@@ -48,8 +48,8 @@ class Touch(Record, frozen=True, kw_only=True):
     bandwidth: float  # Hz
     speed: float  # mm/s
     limit: int  # grams on the right finger
-    phase: float  # of the contact in the period: 0 just after the sensors were read, nearly 1 just before
-    jolt: float  # N on the finger from the start of the motion, before the contact
+    phase: float  # when in the period the contact occurs: 0 just after the sensors were read, nearly 1 just before
+    jolt: float  # N: greatest force on the finger before the contact, caused by the start of the motion
     noticed: float | None  # ms from the contact to the reading that is beyond the limit; None: there was none
     way: float  # mm that the slide goes on after the contact
     force: float  # N, the greatest force of both fingers on the block
@@ -81,7 +81,7 @@ class _Course:
     z: list[float]
     goal: list[float]
     strain: list[float]  # N, of the right finger
-    load: list[float]  # N, of both
+    load: list[float]  # N, of both fingers
 
 
 def touch(
@@ -106,8 +106,8 @@ def touch(
     _check("the limit", limit, LIMITS, "grams")
     _check("the phase", phase, (0.0, 0.999), "periods")
     v, lag = speed * MILLIMETRE, 2 * _DAMPING / (2 * pi * bandwidth)
-    cycles = ceil((_START + 3 / (2 * pi * bandwidth)) / (period * _MS))  # in the air
-    contact = cycles * period * _MS + phase * period * _MS  # s at which the slide is at the block
+    cycles = ceil((_START + 3 / (2 * pi * bandwidth)) / (period * _MS))  # cycles before the contact
+    contact = cycles * period * _MS + phase * period * _MS  # s: time at which the slide reaches the block
     bench = Bench(_model(round(bandwidth, 3)))
     far = _REACH - _BLOCK - v * (contact - lag)
     bench.data.joint("z").qpos[0] = far

@@ -13,8 +13,8 @@ from handeye.systems.ml.bench.touch import LIMIT, Touch, worst
 PERIODS: Final = (2, 5, 10, 20, 50)  # ms
 BANDWIDTHS: Final = (10.0, 20.0, 50.0, 100.0)  # Hz
 SPEEDS: Final = (5.0, 10.0, 25.0, 50.0, 100.0, 200.0)  # mm/s
-SPEED: Final = 50.0  # shown at first
-FORCE: Final = 20.0  # N that the fastest admissible touch may reach
+SPEED: Final = 50.0  # the speed that the page shows at first
+FORCE: Final = 20.0  # N: force that a touch may reach at the fastest allowed speed
 MARK: Final = "<!doctype html>\n<!-- handeye touches -->\n"
 PAGE: Final = Kind("page of touches", MARK.encode(), ending=".html")
 _CAPTIONS: Final = {

@@ -12,7 +12,7 @@ TROUBLES: Final = {
     "3": "the range finder does not show that the hand has come down",
     "4": "a finger's gauge does not feel the table",
     "5": "the fingers do not open",
-}  # by the number that the program prints
+}  # sentences by the numbers that the program prints
 _LEFT, _LOST, _RANGE, _GAUGE, _SHUT = calls_of(TROUBLES)
 EMPTY, WIDE, HEAVY = "bin.empty", "part_1.wide", "part_1.heavy"
 FAULTS: Final = Catalogue(

@@ -8,14 +8,14 @@ import mujoco
 from handeye.systems.ml.bench.bars import turned
 from handeye.systems.ml.machine.spec import LINEAR
 
-FLOOR: Final = 0.002  # m, the flat middle of the hopper over the table
-HALF: Final = 0.048  # m, half of the side of its flat middle
-SLOPE: Final = radians(25)  # of its four sides
-RIM: Final = 0.090  # m from its middle to its rim
+FLOOR: Final = 0.002  # m: height of the flat middle of the hopper over the table
+HALF: Final = 0.048  # m: half the side of the flat middle
+SLOPE: Final = radians(25)  # rad: slope of the hopper's four sides
+RIM: Final = 0.090  # m from the middle of the hopper to its rim
 BOXES: Final = {"good": -6500, "bad": 6500}  # x of the slides
-BOX: Final = 0.050  # m, half of the inner side of a box
-_HIGH: Final = 0.030  # m, walls of a box, and the rim of the hopper over the table
-_THIN: Final = 0.002  # m, half of the thickness of walls
+BOX: Final = 0.050  # m: half the inner side of a box
+_HIGH: Final = 0.030  # m: height of the walls of a box, and of the rim of the hopper, over the table
+_THIN: Final = 0.002  # m: half the thickness of walls
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
@@ -35,7 +35,7 @@ def add_hopper(spec: mujoco.MjSpec, friction: float) -> None:
     plate([HALF, HALF, FLOOR / 2], [0, 0, FLOOR / 2], [1, 0, 0, 0])
     run = RIM - HALF
     middle, high = HALF + run / 2, FLOOR + run / 2 * tan(SLOPE)
-    sunk = middle + _THIN * sin(SLOPE), high - _THIN * cos(SLOPE)  # so that the upper side is the slope
+    sunk = middle + _THIN * sin(SLOPE), high - _THIN * cos(SLOPE)  # so that the upper side lies in the slope
     for way in (-1, 1):
         plate(
             [run / 2 / cos(SLOPE), RIM, _THIN],

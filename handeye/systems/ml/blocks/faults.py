@@ -12,7 +12,7 @@ TROUBLES: Final = {
     "3": "the block meets nothing on its way down, or the gauges do not feel the contact",
     "4": "the block stops at a wrong height: something else stands on the stack, or the block has the wrong size",
     "5": "the fingers do not open",
-}  # by the number that the program prints
+}  # sentences by the numbers that the program prints
 _MET, _NONE, _UNFELT, _HIGH, _SHUT = calls_of(TROUBLES)
 MISSING, MOVED, SMALL, LARGE, OCCUPIED, SLIPPERY = (
     "block_1.missing",

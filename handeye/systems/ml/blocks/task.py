@@ -33,13 +33,13 @@ EXPECTED: Final = (
     (0, 2000),
     (4000, 2000),
 )  # x and y of the slides, where the program expects blocks
-STACK: Final = (0, -2000)  # where it stacks them
-APART: Final = 2.0  # mm from the block below
+STACK: Final = (0, -2000)  # x and y of the slides, where the program stacks the blocks
+APART: Final = 2.0  # mm: greatest distance of a block from the block below
 HEIGHT: Final = 1.0  # mm
 LEAN: Final = 2.0  # deg
-PLACED: Final = 3.0  # mm of the lowest block from its place
+PLACED: Final = 3.0  # mm: greatest distance of the lowest block from its place
 _PLACE, _TURNED, _SIZE, _FRICTION = "blocks.place", "blocks.turned", "blocks.size", "blocks.friction"
-SHORTER, LONGER = 0.008, 0.006  # m, of the sides of blocks of a wrong size
+SHORTER, LONGER = 0.008, 0.006  # m by which the side of a wrong block is shorter or longer
 _DENSITY: Final = 600.0  # kg/m3, wood
 VARIATION: Final = Variation(
     *ARM,

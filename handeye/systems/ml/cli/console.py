@@ -105,7 +105,7 @@ class Console:
             else:
                 self._mos.statement()
         memory = self._mos.memory
-        if memory.stopped and memory.stopped != self._mos.level.stopped:  # which has been shown as an event
+        if memory.stopped and memory.stopped != self._mos.level.stopped:  # an emergency has been shown
             self._say(memory.stopped)
         memory.stopped = ""
 

@@ -25,8 +25,8 @@ class Head(Record, frozen=True, kw_only=True):
 
     program: str
     sides: Annotated[tuple[Side, ...], msgspec.Meta(min_length=1, max_length=2)]
-    cycles: Annotated[int, msgspec.Meta(ge=0, le=10**9)]  # that have passed
-    statements: Mapping[int, str] = {}  # of the program, by number
+    cycles: Annotated[int, msgspec.Meta(ge=0, le=10**9)]  # number of cycles that have passed
+    statements: Mapping[int, str] = {}  # statements of the program, by their numbers
 
 
 @dataclass

@@ -18,9 +18,9 @@ _SPECS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
 class Segment(NamedTuple):
     """A table of an arm, or one that both arms share."""
 
-    side: str  # empty: it is shared
+    side: str  # the arm; empty: both arms share the table
     table: str
-    base: int  # number of its first word
+    base: int  # number of the table's first word
     shape: Shape
 
     @property

@@ -53,7 +53,7 @@ class LiveTables(LiveNews):
         self._log.append(changes)
 
     def since(self, seen: object) -> tuple[object, str] | None:
-        log = self._log  # another one after the run has gone back
+        log = self._log  # this list is replaced when the run goes back
         count = len(log)
         known, told = seen if isinstance(seen, tuple) else (None, 0)
         if known is log and told == count:

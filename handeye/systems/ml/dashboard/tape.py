@@ -34,7 +34,7 @@ from handeye.systems.ml.realtime.machine import Machine
 BLOCK: Final = 1 << 16  # bytes of a block when it is compressed
 _MOST: Final = 1 << 24  # bytes of a block that is read from a file
 _LINES: Final = ("MT", "ST", "CY", "AR")  # tables that change in most cycles, kept as lists of records
-_WORDS: Final = ("AI", "AO", "DI", "DO", "PI", "CA")  # the same, kept as lists of words
+_WORDS: Final = ("AI", "AO", "DI", "DO", "PI", "CA")  # such tables that are kept as lists of words
 _SHARED: Final = ("TM",)
 _EVENTS: Final = ("FE", "GO", "EM", "SF")  # tables that change in some cycles
 
@@ -50,7 +50,7 @@ class Tape(MutableRecord):
 
     blocks: tuple[bytes, ...] = ()  # compressed
     open: Annotated[bytes, msgspec.Meta(max_length=_MOST)] = (
-        b""  # changes of the last block, which still grows
+        b""  # changes of the last block, to which more are added
     )
 
 
@@ -95,12 +95,12 @@ class TapeRecorder:
     ) -> None:
         self.tape = Tape()
         self.segments = segments([*machine.levels])
-        self.hear: Callable[[Changes], None] | None = None  # gets all changes, for a live page
+        self.hear: Callable[[Changes], None] | None = None  # called with all changes, for a live page
         self._machine = machine
         self._new: list[bytes] = []  # changes since the last statement
         self._fast = _Fast(machine, self.segments)
         self._events: list[_Source] = []
-        self._others: list[_Source] = []  # which only statements change
+        self._others: list[_Source] = []  # tables that only statements change
         for segment in self.segments:
             side: Side = "left" if segment.side == "left" else "right"
             seen = _views(interpreters[side], program).get(segment.table)

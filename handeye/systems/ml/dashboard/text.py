@@ -9,7 +9,7 @@ from handeye.systems.ml.dashboard.history import Course, History
 from handeye.systems.ml.dashboard.layout import Segment, line_labels
 from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 
-CHANGED: Final = "*"  # behind a word that changed in the cycle
+CHANGED: Final = "*"  # written after a word that changed in the cycle
 
 
 def all_tables(done: History, cycle: int) -> dict[str, Any]:

@@ -17,17 +17,15 @@ from handeye.core.plain_text import counted
 from handeye.core.record import Record
 
 STEP: Final = 1000.0  # units of the slides
-ROUND: Final = 4  # turns of a circuit
-NEAR: Final = 1.5 * STEP  # from the first touch, at most, of the touch that closes a circuit
+ROUND: Final = 4  # left turns minus right turns in a circuit
+NEAR: Final = 1.5 * STEP  # greatest distance from the first touch to the touch that closes a circuit
 IDLE: Final = 40  # squares without a touch after which a follower is lost
-ALONE: Final = 19  # statements without any touch, eight steps: a plate is at most six steps ahead
+ALONE: Final = 19  # statements (eight steps) without any touch; a plate is at most six steps ahead
 NOTHING: Final = (
     "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"
 )
-EVERYWHERE: Final = (
-    "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
-)
-LONGEST: Final = 3000  # statements in which it closes a circuit, or is lost
+EVERYWHERE: Final = "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
+LONGEST: Final = 3000  # statements after which a follower with an open circuit is lost
 
 Point = tuple[float, float]
 Heading = tuple[int, int]

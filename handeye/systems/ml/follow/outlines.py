@@ -10,10 +10,10 @@ from handeye.systems.ml.follow.names import OutlineName
 from handeye.systems.ml.machine.spec import LINEAR
 
 HIGH: Final = 0.03  # m, height of a plate
-CENTRE: Final = -0.0134  # m along x of the scene: the wand stands there while the slides are at 0
+CENTRE: Final = -0.0134  # m along x of the scene: place of the wand while the slides are at 0
 PLATE: Final = "plate"
 _DENSITY: Final = 2700.0  # kg/m3, aluminium
-_ROUND: Final = 180  # corners of a polygon in place of a circle
+_ROUND: Final = 180  # corners of the polygon that stands for a circle
 
 
 class Rectangle(NamedTuple):
@@ -29,7 +29,7 @@ class Outline(NamedTuple):
     """A plate, in units of the slides x and y. Its origin is where the slides are at 0."""
 
     corners: tuple[tuple[float, float], ...]  # x, y of a polygon, in order around it
-    parts: tuple[Rectangle, ...]  # of which it consists; none: it is a disc
+    parts: tuple[Rectangle, ...]  # rectangles of which the plate consists; none: the plate is a disc
     start: tuple[float, float]  # x, y of the wand, before the follower begins
     radius: float = 0.0
 
@@ -106,6 +106,6 @@ def placed(points: Array, R: Array, centre: Array) -> Array:
     """Convert points of a plate, shape (n, 2), to where they lie on the table, in units of the slides. The plate has
     the true rotation `R`, shape (3, 3), and its middle is at `centre` (m, shape (3,)) in the scene.
     """
-    flat = np.array([[1.0, 0.0], [0.0, -1.0]])  # from the slides to the scene
+    flat = np.array([[1.0, 0.0], [0.0, -1.0]])  # from coordinates of the slides to those of the scene
     lying = points * LINEAR @ flat @ R[:2, :2].T + centre[:2] - [CENTRE, 0.0]
     return np.asarray(lying @ flat / LINEAR)

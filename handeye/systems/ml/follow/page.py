@@ -29,11 +29,11 @@ _LARGEST: Final = 1_000_000  # bytes
 _MAX_PLACE: Final = 1e5  # units
 _MM: Final = LINEAR / MILLIMETRE
 _WIDE, _HIGH = 960.0, 520.0
-_PLAN: Final = (20.0, 500.0)  # left and right ends of the drawing from above
+_PLAN: Final = (20.0, 500.0)  # left and right ends of the drawing that shows the plate from above
 _BARS: Final = (560.0, 940.0)
-_LEVEL: Final = 260.0  # of the wand's radius in the chart
+_LEVEL: Final = 260.0  # y in the chart where the wand's surface is on the outline
 _DEEP: Final = 60.0  # length of a bar of one millimetre
-_FAR: Final = 200.0  # units, between which the way from the plate is measured
+_FAR: Final = 200.0  # units: distance of the points from which the direction away from the plate is computed
 
 
 class FollowReport(Record, frozen=True, kw_only=True):
@@ -41,7 +41,7 @@ class FollowReport(Record, frozen=True, kw_only=True):
 
     outline: OutlineName
     world: str
-    end: str  # of the run in words
+    end: str  # the end of the run in words
     exit_code: int
     felt: Felt
     true: tuple[tuple[float, float], ...]  # corners of the plate, x and y in units of the slides
@@ -154,7 +154,7 @@ def follow_files(done: FollowReport, report: str, parts: Sequence[PagePart]) -> 
     return {
         FOLLOWED: written,
         report: follow_page(_read(written, FOLLOWED), parts),
-    }  # as `kept_page` makes it
+    }  # the same page as that of `kept_page`
 
 
 def kept_page(folder: Path, parts: Sequence[PagePart]) -> bytes | None:

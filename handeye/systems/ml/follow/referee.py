@@ -9,15 +9,15 @@ from handeye.core.units import MILLIMETRE
 from handeye.judge.finding import Findings, at_most
 from handeye.systems.ml.machine.spec import LINEAR
 
-RADIUS: Final = 0.8  # mm, of the wand
+RADIUS: Final = 0.8  # mm: radius of the wand
 FELT: Final = 3.3
 """Greatest distance (mm) of the wand from the outline when a touch is noticed. It has four terms: a slide moves by up
 to 2.1 mm in a cycle; the wand signals when it is bent by .1 mm; a position is wrong by up to .3 mm; and at a sudden
 start a finger lags behind its slide by up to v sqrt(m / k), which is .8 mm.
 """
-FOUND: Final = 38.1  # mm from a place of the outline to the nearest touch, one step and a half
+FOUND: Final = 38.1  # mm (1.5 steps): greatest distance from a place on the outline to the nearest touch
 UNMOVED: Final = 0.1  # mm
-_DEEP: Final = 500.0  # units, deeper than touches
+_DEEP: Final = 500.0  # units: a depth that touches do not reach
 
 
 def judge(touches: Array, outline: Array, before: Array) -> Findings:

@@ -43,7 +43,7 @@ FELT, LAID = "felt", "laid"
 USUAL: Final[OutlineName] = "square"
 HEIGHT: Final = 8071  # units of z at which the wand hangs beside a plate
 _Y, _X = 3, 4  # motors
-_FORWARD: Final = (2, 1)  # variables: forward step along x and y
+_FORWARD: Final = (2, 1)  # variables that hold the forward step along x and y
 _PLACE, _TURNED, _FRICTION = "plate.place", "plate.turned", "plate.friction"
 VARIATION: Final = Variation(
     *ARM,

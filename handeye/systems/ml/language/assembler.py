@@ -21,7 +21,7 @@ from handeye.systems.ml.language.parser import parsed_line
 from handeye.systems.ml.language.syntax import LAST, VARIABLES
 from handeye.systems.ml.tables.layout import SHAPES
 
-STEP: Final = 5  # between two sequence numbers
+STEP: Final = 5  # difference between two sequence numbers
 _NAME: Final = re.compile(r"[A-Z][A-Z0-9_]*")
 _LABEL: Final = re.compile(r"[ \t]*([^\s:]+):")
 _DEFINED: Final = re.compile(r"[ \t]*(\S+)[ \t]+(EQU|VAR)(?:[ \t]+(-?[0-9]+))?[ \t]*", re.IGNORECASE)

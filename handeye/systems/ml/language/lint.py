@@ -20,23 +20,23 @@ from handeye.systems.ml.tables.store import word_of
 
 STRAIN: Final = range(2, 8)  # sensors of the fingers, gram-force
 SLIDES: Final = (2, 3, 4)
-UNIT_M: Final = 25.4e-6  # of a slide
+UNIT_M: Final = 25.4e-6  # m: the unit of a slide
 CYCLE_S: Final = 0.01
 GRAM_N: Final = 9.80665e-3
-STIFFNESS: Final = 10_000.0  # of a finger, N/m
-FINGERS_KG: Final = 0.15  # of a finger, beyond its strain gauges, with nothing held
-FASTEST: Final = 79  # of a slide, units a cycle
+STIFFNESS: Final = 10_000.0  # N/m: stiffness of a finger
+FINGERS_KG: Final = 0.15  # kg: mass of a finger beyond its strain gauges, with nothing held
+FASTEST: Final = 79  # units per cycle: top speed of a slide
 ANY: Final = 0  # stands for a sensor whose number is computed
-_SPEED: Final = 8  # word of MT
+_SPEED: Final = 8  # the word of MT that holds the speed
 
 
 class Watch(NamedTuple):
     """What is known about the sensors before a statement is executed."""
 
-    guarded: frozenset[int] = frozenset()  # sensors with limits, on every path
-    on: frozenset[int] = frozenset()  # sensors whose flag a branch has found on, on some path
-    limits: tuple[tuple[int, int], ...] = ()  # the tighter limit of sensors of strain
-    speeds: tuple[tuple[int, int], ...] = ()  # of slides, units a cycle, where the program has set them
+    guarded: frozenset[int] = frozenset()  # sensors that have limits on every path to the statement
+    on: frozenset[int] = frozenset()  # sensors whose flag a BRANCH has found on, on at least one path
+    limits: tuple[tuple[int, int], ...] = ()  # the tighter of the two limits, for sensors of strain
+    speeds: tuple[tuple[int, int], ...] = ()  # speeds of slides (units per cycle) that the program has set
 
     def joined(self, other: "Watch") -> "Watch":
         """Return what is known where two paths meet."""
@@ -160,7 +160,7 @@ def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
     speed, motor = max(
         ((speeds.get(each, FASTEST), -each) for each in moving(line.statement)), default=(0, 0)
     )
-    a_unit = UNIT_M / CYCLE_S * sqrt(STIFFNESS * FINGERS_KG) / GRAM_N  # g for a speed of one unit a cycle
+    a_unit = UNIT_M / CYCLE_S * sqrt(STIFFNESS * FINGERS_KG) / GRAM_N  # g at a speed of one unit per cycle
     limit, sensor = min((limit, sensor) for sensor, limit in watch.limits)
     if speed * a_unit > limit:
         told = (

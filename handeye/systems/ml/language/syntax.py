@@ -8,7 +8,7 @@ from handeye.systems.ml.language.commands import COMMANDS, TABLE_NAMES
 
 LAST: Final = 5000  # greatest sequence number
 VARIABLES: Final = 256
-DEEPEST: Final = 6  # ampersands of a reference
+DEEPEST: Final = 6  # greatest number of ampersands of a reference
 MOTORS: Final = 12
 FINGERS: Final = 11  # the first of the two motors of the fingers
 
@@ -48,7 +48,7 @@ class Line(Record, frozen=True, kw_only=True):
     number: int | None  # None: the line is executed at once
     statement: Statement
     row: int
-    span: Span  # of the sequence number, or else of the command
+    span: Span  # the span of the sequence number or, without one, of the command
     spans: tuple[Span, ...]
 
     def place(self, parameter: int) -> Span:

@@ -24,7 +24,7 @@ _SPECS: Final[Mapping[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
 class PerfectMemory(MutableRecord, kw_only=True):
     """The complete state of an arm with perfect motors."""
 
-    q: list[float]  # m or rad, by axis
+    q: list[float]  # positions of the axes (m or rad)
     goal: list[float]
     powered: bool = False
     outputs: dict[str, float] = field(default_factory=dict)

@@ -12,7 +12,7 @@ LINEAR: Final = 0.001 * INCH  # m, the unit of slides
 ROTARY: Final = 0.01 * DEGREE  # rad, the unit of rotations
 GRAM_FORCE: Final = 9.80665e-3  # N
 RANGE_COUNT: Final = 1e-4  # m
-TORQUE_COUNT: Final = 0.001  # N m, a count of the torque of a power tool
+TORQUE_COUNT: Final = 0.001  # N m: one count of the torque of a power tool
 CYCLE: Final = 0.01  # s
 CYCLES_PER_SECOND: Final = 100
 HUNDREDTHS: Final = 100
@@ -28,7 +28,7 @@ class MotorSpec:
     unit: float = LINEAR  # m or rad
     lower: int
     upper: int
-    peak: int  # greatest advance of its set-point, hundredths of a unit a cycle
+    peak: int  # greatest advance of the set-point, in hundredths of a unit per cycle
     tolerance: int = 6
     detent: int = 0
     output: int  # point of AO; a negative number is a word of DO
@@ -48,14 +48,14 @@ class ArmSpec:
 
     side: Side
     motors: tuple[MotorSpec, ...]
-    analog: Mapping[int, AnalogInput] = field(default_factory=dict)  # by point of AI
+    analog: Mapping[int, AnalogInput] = field(default_factory=dict)  # analog inputs by their points in AI
     digital: Mapping[int, tuple[str, ...]] = field(
         default_factory=dict
-    )  # by word of DI: channels, bit 0 first
-    interlocks: tuple[str, ...] = ()  # channels of the bits of the first word of PI, bit 0 first
-    tools: tuple[str, ...] = ()  # outputs of the bits of the first word of DO, bit 0 first
-    sensors: Mapping[int, SensorLine] = field(default_factory=dict)  # first lines of ST
-    wand: tuple[int, int] | None = None  # word of DI and mask
+    )  # for each word of the table DI: the channels of its bits, bit 0 first
+    interlocks: tuple[str, ...] = ()  # channels of the bits of the first word of the table PI, bit 0 first
+    tools: tuple[str, ...] = ()  # outputs of the bits of the first word of the table DO, bit 0 first
+    sensors: Mapping[int, SensorLine] = field(default_factory=dict)  # lines that the table ST has at first
+    wand: tuple[int, int] | None = None  # word of the table DI, and mask
     every: int = 1  # cycles of 10 ms in a period of this arm
 
 

@@ -8,7 +8,7 @@ import msgspec
 from handeye.core.record import Record
 
 Point = tuple[float, float]
-MOST: Final = 1e6  # of any unit
+MOST: Final = 1e6  # greatest value, in any unit
 MOST_STIMULI: Final = 1000
 MOST_CORNERS: Final = 1000
 
@@ -21,8 +21,8 @@ class Stimulus(Record, frozen=True, kw_only=True):
     channel: str
     value: Annotated[float, msgspec.Meta(ge=-MOST, le=MOST)]  # SI
     since: Annotated[int, msgspec.Meta(ge=0)] = 0  # first cycle
-    until: int | None = None  # first cycle after it
-    motor: int = 0  # 0: wherever the motors are
+    until: int | None = None  # first cycle in which the channel no longer has the value
+    motor: int = 0  # 0: the value does not depend on a motor
     beyond: int = 0  # ML units
     side: Literal["above", "below"] = "above"
 

@@ -13,7 +13,7 @@ TROUBLES: Final = {
     "4": "the bar does not lie flat on the table",
     "5": "the bar does not meet the stop, or the gauges do not feel the contact",
     "6": "the fingers do not open",
-}  # by the number that the program prints
+}  # sentences by the numbers that the program prints
 _MET, _NONE, _NO_TABLE, _TILTED, _NO_STOP, _SHUT = calls_of(TROUBLES)
 MISSING, NARROW, WIDE, SHORT, CRADLE, NO_STOP, STOP = (
     "bar.missing",

@@ -29,18 +29,18 @@ if TYPE_CHECKING:
     from handeye.core.pose import Array
 
 CRADLE: Final = (0, 3000)  # x and y of the slides, where the program expects the bar
-STOP: Final = (-4000, -1500)  # the axis of the stop against which it feels the end of the bar
+STOP: Final = (-4000, -1500)  # x and y of the slides: axis of the stop that the bar is moved against
 ASKED: Final = (3000, -2500, 0.100)  # where the bar is wanted: x and y of the slides, and m over the table
 ATTITUDE: Final = 3.0  # deg
 PLACED: Final = 1.0  # mm
 STOP_RADIUS: Final = 0.004  # m: the stop fits between fingers that hold a bar
-HIGH: Final = 0.050  # m, the middle of the bar in its cradle over the table
+HIGH: Final = 0.050  # m: height of the middle of the bar over the table, in its cradle
 _PITCH, _YAW = "cradle.pitch", "cradle.yaw"
 _PLACE, _STOP, _FRICTION = "cradle.place", "stop.place", "bar.friction"
-_OFF: Final = 0.003  # m, of the width of a wrong bar
-_SHORTER: Final = 0.004  # m, of a bar that is too short
-_PLATE: Final = (0.0025, 0.004, 0.0015)  # m, half sizes of the two plates on which the ends of the bar lie
-_LIP: Final = (0.0025, 0.0015, 0.004)  # of the lip at the lower end
+_OFF: Final = 0.003  # m by which a wrong bar is too narrow or too wide
+_SHORTER: Final = 0.004  # m by which a short bar is too short
+_PLATE: Final = (0.0025, 0.004, 0.0015)  # m: half sizes of the two plates on which the ends of the bar lie
+_LIP: Final = (0.0025, 0.0015, 0.004)  # m: half sizes of the lip at the lower end
 VARIATION: Final = Variation(
     *ARM,
     quantity(

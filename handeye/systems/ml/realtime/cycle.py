@@ -47,7 +47,7 @@ from handeye.systems.ml.tables.records import (
 )
 from handeye.systems.ml.tables.store import ArmMemory, SharedMemory, Tables
 
-POSTS: Final[tuple[Post, ...]] = ("", "force", "goal", "emergency")  # by the word `posted` of AR
+POSTS: Final[tuple[Post, ...]] = ("", "force", "goal", "emergency")  # by the value of `posted` in AR
 STUCK_AFTER: Final = 1000
 """A motion is given up if its set-points stand still for this many cycles while its motors are not at their goals."""
 _PROGRAM_CHECK: Final = "program_check"

@@ -10,7 +10,7 @@ class LevelEvent(SystemEvent, frozen=True, kw_only=True):
     """Base class of the events of an arm's real-time level."""
 
     arm: str  # right or left
-    cycle: int  # of 10 ms
+    cycle: int  # number of the 10 ms cycle
 
 
 class LimitCrossed(LevelEvent, frozen=True, kw_only=True):
@@ -41,7 +41,7 @@ class Posted(LevelEvent, frozen=True, kw_only=True):
 
     importance: ClassVar[Importance] = "debug"
     what: str  # goal, force or emergency
-    cycles: int  # that the motion took
+    cycles: int  # cycles that the motion took
 
     def sentence(self, measures: Measures) -> str:
         ends = {
@@ -57,7 +57,7 @@ class EmergencyStopped(LevelEvent, frozen=True, kw_only=True):
 
     importance: ClassVar[Importance] = "error"
     cause: str
-    statement: int  # that was being executed; 0: none
+    statement: int  # the statement that was being executed; 0: none
     text: str
 
     def sentence(self, measures: Measures) -> str:

@@ -50,7 +50,7 @@ class RealTime(Cycles, Level):
     def write(self, table: str, line: int, word: int, value: int) -> None:
         was = self._tables.read(table, line, word)
         self._tables.write(table, line, word, value)
-        if table not in ("RG", "VR"):  # which the interpreter writes
+        if table not in ("RG", "VR"):  # the interpreter itself writes these two tables
             self._told(TableWritten, table=table, line=line, word=word, was=was, value=value)
 
     def view(self, table: str, contents: View) -> None:

@@ -30,7 +30,7 @@ class Danger(NamedTuple):
     """A cause of an emergency."""
 
     cause: str
-    number: int = 0  # of the sensor, of the line of SF, or of the first motor that has not reached its goal
+    number: int = 0  # number of the sensor, of the line of SF, or of the first motor not at its goal
 
 
 def danger(memory: ArmMemory, spec: ArmSpec) -> Danger | None:

@@ -36,7 +36,7 @@ class Hardware(ABC):
     machine: Machine
     joints: Sequence[str] = ()
     channels: Sequence[Channel] = ()
-    watched: int = 1  # cycles between two moments that a trace keeps
+    watched: int = 1  # cycles from one state that a trace keeps to the next
 
     @property
     def cell(self) -> "SnapshotCell | None":

@@ -18,9 +18,9 @@ PROGRAMS: Final = {
     "orient": "orient.ml",
     "bin": "bin.ml",
 }
-SYMBOLIC: Final = ".sym"  # ending of programs that the symbolic assembler translates off line
-FEW: Final = {"bin": "3"}  # variant of a job with little work, for trials of faults
-USUAL: Final = {"follow": "square", "bin": "8"}  # variant of a job where none is named
+SYMBOLIC: Final = ".sym"  # file extension of symbolic programs, which are assembled before a run
+FEW: Final = {"bin": "3"}  # variants of jobs that have little work, for trials of faults
+USUAL: Final = {"follow": "square", "bin": "8"}  # variants of jobs if none is named
 
 
 def job_plan(job: str, variant: str = "") -> MlPlan:

@@ -34,11 +34,11 @@ class MlPlan(Record, frozen=True, kw_only=True):
     )
     left: Number | None = None
     """The statement at which the program of the left arm begins; None: there is no left arm."""
-    stimuli: Annotated[tuple[Stimulus, ...], msgspec.Meta(max_length=MOST_STIMULI)] = ()  # of perfect motors
+    stimuli: Annotated[tuple[Stimulus, ...], msgspec.Meta(max_length=MOST_STIMULI)] = ()  # for perfect motors
     outline: Annotated[tuple[Point, ...], msgspec.Meta(max_length=MOST_CORNERS)] = ()
     """The corners (y, x), in ML units, of an object that the wand touches. Only an arm with perfect motors has one."""
-    job: str = ""  # that the program does; empty: none
-    variant: str = ""  # of the job
+    job: str = ""  # the job that the program does; empty: none
+    variant: str = ""  # variant of the job
 
     @property
     def lines(self) -> Mapping[int, Line]:

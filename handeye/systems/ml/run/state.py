@@ -28,7 +28,7 @@ class MlState(SystemState, kw_only=True):
     perfect: dict[Side, PerfectMemory] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)  # programs that the host keeps
     statements: int = 0  # executed
-    tape: Tape = field(default_factory=Tape)  # the tables by cycle
+    tape: Tape = field(default_factory=Tape)  # the tables in each cycle
     standing: list[TaskPlace] = field(default_factory=list)
     """For each arm whose program has not ended, the place in this program. The program whose turn it is comes first."""
 

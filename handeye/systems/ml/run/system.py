@@ -27,7 +27,7 @@ from handeye.systems.ml.run.running import RunningMl
 from handeye.systems.ml.run.state import MlState
 from handeye.tasks import any_task
 
-OWN: Final = "guarded_move.ml"  # the program that is run where none is named
+OWN: Final = "guarded_move.ml"  # the program that is run if none is named
 
 
 WORKED_EXAMPLE: Final = (

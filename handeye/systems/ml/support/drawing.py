@@ -50,7 +50,7 @@ STOP_LEAD: Final = 6.0
 
 # Pallets, dispenser, and the rack of the screwdriver
 FRAME_PALLET: Final = (-4500, -4500)
-SADDLE_PALLET: Final = ((-7500, 1500), (0, 1200))  # the first place, and the way to the next
+SADDLE_PALLET: Final = ((-7500, 1500), (0, 1200))  # the first place, and the distance to each next one
 RAIL_PALLET: Final = ((-4500, 5500), (1500, 0))
 PIN_PALLET: Final = ((-5000, 1500), (1200, 0))
 PALLET: Final = 20.0  # height of the pallet of the pins
@@ -61,9 +61,9 @@ RACK_HEIGHT: Final = 60.0
 RACK_PLAY: Final = 0.3
 RACK_LEAD: Final = 4.0
 
-DRIVER: Final = (25.4, 50.0)  # width and height of its block
+DRIVER: Final = (25.4, 50.0)  # width and height of the block of the screwdriver
 DRIVER_MASS: Final = 0.3  # kg
-BIT: Final = 50.0  # of the face of the bit below the block
+BIT: Final = 50.0  # distance of the face of the bit below the block
 
 _PLAY, _TURNED, _FIXTURE, _FRICTION, _HOLE, _CURRENT = (
     "support.play",

@@ -11,7 +11,7 @@ from handeye.core.record import Record
 from handeye.systems.ml.bench.arm import FINGER_STIFFNESS
 
 SPEED: Final = 20.0  # rad/s, 190 turns a minute
-_CYCLES: Final = 4093  # after which the noise of the current repeats
+_CYCLES: Final = 4093  # cycles after which the noise of the current repeats
 
 
 class PowerScrewdriver:
@@ -57,9 +57,9 @@ class ScrewdriverCurrent:
 class FingerForces(Record, frozen=True, kw_only=True):
     """The greatest forces so far on both fingers together (N)."""
 
-    driving: float = 0.0  # along the fingers, while the screwdriver turns
-    along: float = 0.0  # along the fingers, at any time
-    across: float = 0.0  # across the line between the fingers
+    driving: float = 0.0  # greatest force along the fingers while the screwdriver turns
+    along: float = 0.0  # greatest force along the fingers at any time
+    across: float = 0.0  # greatest force across the line between the fingers
 
 
 class ForceGauge(Mechanism[FingerForces]):

@@ -13,7 +13,7 @@ TROUBLES: Final = {
     "4": "the bit finds no screw in the dispenser",
     "5": "a screw finds no thread",
     "6": "a screw does not become tight",
-}  # by the number that the program prints
+}  # sentences by the numbers that the program prints
 _MET, _NONE, *_ = calls_of(TROUBLES)
 MAY_LACK: Final = ("frame", "rail_1", "pin_1")
 FAULTS: Final = Catalogue(

@@ -34,11 +34,11 @@ PLACED: Final = 1.5
 direction without stops, the errors of fixtures and of two motions and the play of pallets and nest can add up to
 1.3 mm.
 """
-SEATED: Final = 0.5  # mm of a part over its seat
+SEATED: Final = 0.5  # mm: greatest height of a part over its seat
 LEAN: Final = 1.0  # deg
-HEAD_GAP: Final = 0.2  # mm under a head, as of the pump
-CLAMP: Final = 100.0  # N, at least
-STRAIN: Final = 420.0  # N, at most, as of the pump
+HEAD_GAP: Final = 0.2  # mm: greatest gap under a head, as for the pump
+CLAMP: Final = 100.0  # N: least clamping force
+STRAIN: Final = 420.0  # N: greatest clamping force, as for the pump
 RACKED: Final = 1.0  # mm
 
 

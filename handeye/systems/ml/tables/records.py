@@ -36,14 +36,14 @@ class MotorLine(MutableRecord):
     tactical: Word = 0  # the goal of this cycle, on the way to the strategic goal
     lower: Word = 0  # ends of the travel
     upper: Word = 0
-    speed: Word = 0  # greatest advance of the tactical goal, units a cycle
+    speed: Word = 0  # greatest advance of the tactical goal, in units per cycle
     tolerance: Word = 0  # greatest distance from a goal that has been reached
     detent: Word = 0  # the motor can stop at multiples of it; 0: anywhere
     input: Word = 0  # point of AI
     output: Word = 0  # point of AO; a negative number is a word of DO
-    numerator: Word = 1  # units a count of the input: numerator / denominator
+    numerator: Word = 1  # numerator / denominator: units per count of the input
     denominator: Word = 1
-    offset: Word = 0  # subtracted, in units
+    offset: Word = 0  # in units; it is subtracted
     status: Word = 0
 
 
@@ -55,13 +55,13 @@ class SensorLine(MutableRecord):
     mask: Word = 0  # bits of a digital input
     numerator: Word = 1
     denominator: Word = 1
-    offset: Word = 0  # subtracted, in units: the zero that CALIB finds
+    offset: Word = 0  # in units; it is subtracted: the zero that CALIB finds
     reading: Word = 0
     lower: Word = 0  # the reading is expected between the two, and equal to neither
     upper: Word = 0
     open: Word = BOTH_OPEN  # limits that are not checked
     flag: Word = 0  # 1: the reading has left its limits since SENSOR was executed
-    cycle: Word = 0  # low word of the cycle at which it did
+    cycle: Word = 0  # low word of the cycle at which the flag came on
     lower_emergency: Word = 0
     upper_emergency: Word = 0
     emergency_open: Word = BOTH_OPEN
@@ -95,15 +95,15 @@ class GoalLine(Record, frozen=True):
     cycle: Word = 0
     epoch: Word = 0
     statement: Word = 0
-    cycles: Word = 0  # that the motion took
+    cycles: Word = 0  # cycles that the motion took
 
 
 class EmergencyLine(Record, frozen=True):
     """The line of EM: the latest emergency."""
 
     cause: Word = 0  # number in `CAUSES`; 0: there was none
-    number: Word = 0  # of the sensor, or of the line of SF
-    statement: Word = 0  # that was being executed; 0: none
+    number: Word = 0  # number of the sensor, or of the line of SF
+    statement: Word = 0  # the statement that was being executed; 0: none
     cycle: Word = 0
     epoch: Word = 0
     persists: Word = 0  # 1 until ENABLE
@@ -127,19 +127,19 @@ class ArmLine(MutableRecord):
 
     enabled: Word = 0  # 1: the pump is on
     posted: Word = 2  # 0 while a motion is under way, 1 force, 2 goal, 3 emergency
-    statement: Word = 0  # that is being executed; 0: none
+    statement: Word = 0  # the statement that is being executed; 0: none
     coordinate: Word = 0  # 1: motors of a motion arrive together
     waited: Word = 0  # cycles of the motion under way
-    still: Word = 0  # cycles of it in which no tactical goal advanced
+    still: Word = 0  # cycles of the motion in which no tactical goal advanced
 
 
 class InterlockLine(Record, frozen=True):
     """A line of SF: a bit of a process-interrupt word that stops the arm."""
 
-    word: Word = 1  # of PI
+    word: Word = 1  # word of the table PI
     mask: Word = 0
-    now: Word = 0  # 1: it says stop
-    tripped: Word = 0  # 1: it has said so since ENABLE
+    now: Word = 0  # 1: the interlock says stop
+    tripped: Word = 0  # 1: the interlock has said stop since ENABLE
 
 
 class SpaceLine(Record, frozen=True):

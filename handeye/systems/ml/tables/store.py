@@ -97,7 +97,7 @@ class ArmMemory(MutableRecord, kw_only=True):
     fine: list[Fine] = _zeros(MOTORS)  # set-points
     pace: list[Fine] = _zeros(MOTORS)
     """Greatest advance of each set-point per cycle in the present motion; 0 stands for the motor's own limit."""
-    tools: Word = 0  # the outputs of tools as they are
+    tools: Word = 0  # the present outputs of the tools
 
 
 def word_of(name: str) -> int:

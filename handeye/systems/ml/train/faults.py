@@ -12,7 +12,7 @@ TROUBLES: Final = {
     "3": "the peg does not go into its hole",
     "4": "a wagon has not followed the engine, or the gauges do not feel the wagon",
     "5": "the fingers do not open",
-}  # by the number that the program prints
+}  # sentences by the numbers that the program prints
 _MET, _NONE, _NO_HOLE, _LEFT, _SHUT = calls_of(TROUBLES)
 NO_ENGINE, NO_WAGON, MOVED, REVERSED, THICK, NO_PEG, BLOCKED = (
     "engine.missing",

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 EXPECTED: Final = {"engine": (0, -3500), "wagon_1": (-5000, 2500), "wagon_2": (5000, 2500)}
 """Places at which the program expects the vehicles (x and y of the slides)."""
 PULLED: Final = 0.050  # m by which the engine is pulled
-COUPLED: Final = 0.5  # mm between the axes of a peg and its hole
-SEATED: Final = 0.5  # mm of a wagon over the table: its peg is in to the shoulder
-PLACED: Final = 3.0  # mm from the engine to where it should have been pulled
+COUPLED: Final = 0.5  # mm: greatest distance between the axes of a peg and its hole
+SEATED: Final = 0.5  # mm: greatest height of a wagon over the table, with its peg in to the shoulder
+PLACED: Final = 3.0  # mm: greatest distance of the engine from where it should be after the pull
 LEAN: Final = 2.0  # deg
 _PLACE, _TURNED, _FRICTION, _CLEARANCE = "train.place", "train.turned", "train.friction", "train.clearance"
 VARIATION: Final = Variation(

@@ -13,14 +13,14 @@ HIGH: Final = 0.040
 REACH: Final = 0.042  # m from the middle of a body to its hole and to its peg
 TAB: Final = (0.010, 0.016)  # m, heights of the lower and upper side of the tab with the hole
 PEG: Final = 0.00635  # m, diameter
-THICKER: Final = 0.001  # m, of a peg that is too thick
-CLEARANCE: Final = 0.0003  # m between hole and peg, of their diameters
+THICKER: Final = 0.001  # m by which a thick peg is too thick
+CLEARANCE: Final = 0.0003  # m: difference of the diameters of hole and peg
 TIP: Final = 0.009  # m, height of the lower end of a peg
 _SHOULDER: Final = 0.0163  # m, height at which a peg widens
-_ARM: Final = 0.024  # m, upper side of the bar that carries a peg
+_ARM: Final = 0.024  # m: height of the upper side of the bar that carries a peg
 _CHAMFER: Final = 0.001  # m
 _RIM: Final = 0.009  # m, outer radius of a tab
-_PARTS: Final = 16  # of a ring
+_PARTS: Final = 16  # sectors of a ring
 _BRASS, _WOOD = 8000.0, 600.0  # kg/m3
 
 

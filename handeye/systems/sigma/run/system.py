@@ -17,7 +17,7 @@ from handeye.systems.sigma.run.running import RunningMal
 from handeye.systems.sigma.run.state import MalState
 from handeye.tasks import any_task
 
-OWN: Final = "handover.mal"  # the program that is run where none is named
+OWN: Final = "handover.mal"  # the program that is run if none is named
 
 
 class SigmaSystem(System):
