@@ -12,10 +12,10 @@ from handeye.ports.microbus import COMMAND_BYTES, Command
 
 STEP_MM: Final = 0.0375  # mm, travel of one step
 STEPS_PER_TURN: Final = 400
-FORCE_STEP_N: Final = 0.01  # of forces and thresholds on the bus
+FORCE_STEP_N: Final = 0.01  # N: unit of forces and thresholds on the bus
 STANDARD: Final = 0xFFFF  # a threshold that restores the standard one
-LONGEST_MOVE: Final = 0xFFFF  # steps of one command
-SLOWEST: Final = 31  # steps/s that a counter of 16 bits can make of 2 MHz
+LONGEST_MOVE: Final = 0xFFFF  # greatest number of steps in one command
+SLOWEST: Final = 31  # steps/s: the lowest rate to which a 16-bit counter can divide 2 MHz
 SLOW_STEP_MM: Final = 2  # mm/s, the speed that each unit of a speed code stands for: 2 to 254 mm/s
 
 _NAMES: Final = ("X1", "Y1", "Z1", "FORCE1", "HAND1", "X2", "Y2", "Z2", "FORCE2", "HAND2")
@@ -30,20 +30,20 @@ LINE_NUMBERS: Final = NUMBERS | {name: len(NUMBERS) + number for number, name in
 AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
 LINE_AXES: Final = (*AXES, "X3", "Y3", "Z3", "X4", "Y4", "Z4", "X5", "Y5", "X6")
 """The axes of the assembly line. Those of arms, which have wrists, come first."""
-COMPONENTS: Final = ("X", "Y", "Z")  # of a wrist, in the order that byte 3 counts
+COMPONENTS: Final = ("X", "Y", "Z")  # components of a wrist, as byte 3 numbers them
 DEVICES: Final = {
     "HAND": 0,
     "DRIVER": 1,
     "LAMP": 2,
     "BELL": 3,
-}  # of a hand microcomputer, as byte 3 names them
+}  # devices of a hand microcomputer, as byte 3 numbers them
 
 
 class Timing(Record, frozen=True, kw_only=True):
     """Times at which lines change, are polled and are sampled, in whole microseconds of each device's clock."""
 
     slot: int = 20  # from byte to byte of a command
-    strobe_falls: int = 2  # /DATA READY, after the first byte begins
+    strobe_falls: int = 2  # from the beginning of the first byte to the falling edge of /DATA READY
     strobe_rises: int = 12
     poll: int = 5  # between two looks of a free microcomputer at /DATA READY
     interrupt: int = 3  # from the fall of /DATA READY until an interrupt is served
@@ -52,12 +52,12 @@ class Timing(Record, frozen=True, kw_only=True):
     act: int = 4  # to execute a command that moves nothing
     prepare: int = 20  # from a question until its first byte
     answer: int = 100  # from byte to byte of an answer
-    answer_low: int = 50  # /ANSWER READY and data, from the beginning of each
+    answer_low: int = 50  # time for which /ANSWER READY is low and a byte is on the lines
     guard: int = 20  # after the last byte, for which the bus is watched for a byte that was not requested
     time_limit: int = 5_000  # until each byte of an answer
     settle: int = 0  # from the change of a data line until its new level can be read
-    scan: int = 1_000  # of a force microcomputer, all its channels
-    hand: int = 150_000  # that a hand opens or closes
+    scan: int = 1_000  # time in which a force microcomputer scans all its channels
+    hand: int = 150_000  # time in which a hand opens or closes
 
     @property
     def command(self) -> int:
@@ -68,8 +68,8 @@ class Timing(Record, frozen=True, kw_only=True):
 class Op(IntEnum):
     """The operations that microcomputers can execute. The operation is byte 2 of a command."""
 
-    MOVE = 0x01  # steps, profile by length
-    MOVE_SLOW = 0x02  # steps at constant speed
+    MOVE = 0x01  # moves by steps; the profile depends on their number
+    MOVE_SLOW = 0x02  # moves by steps at constant speed
     LIMIT_SPEED = 0x03
     ORIGIN = 0x04
     POSITION = 0x05  # asks
@@ -77,12 +77,12 @@ class Op(IntEnum):
     SET_POSITION = 0x07
     FORCE = 0x21  # asks
     THRESHOLD = 0x22
-    PEAK_FORCE = 0x23  # asks for the greatest force since the last such question
+    PEAK_FORCE = 0x23  # question: the greatest force since the last such question
     ACTUATE = 0x31
     BEAM = 0x32  # asks
-    SENSE = 0x41  # asks a sensor of a newer kind; the length of its answer is its own
-    SELF_TEST = 0x7F  # asks; 0 is well
-    ECHO = 0x80  # asks for bytes 3 to 5 back; shares no bit with SELF_TEST
+    SENSE = 0x41  # question to a newer kind of sensor; the length of its answer depends on the sensor
+    SELF_TEST = 0x7F  # question; the answer 0 means that no fault was found
+    ECHO = 0x80  # question: send bytes 3 to 5 back; it shares no bit with SELF_TEST
 
 
 ANSWERS: Final[dict[Op, int]] = {

@@ -18,12 +18,12 @@ from handeye.systems.sigma.mal.compiler import program_of
 from handeye.systems.sigma.mal.virtual_machine import STATEMENT_US, VirtualMachine
 from handeye.systems.sigma.protocol import STEP_MM
 
-MOST: Final = 1_000_000 // (COMMAND_BYTES * BYTE_US)  # commands that the bus carries in a second
-BUSIEST: Final = 0.005  # share of the bus that no real program needs
-LEAST_IDLE: Final = 0.5  # share of the time in which the computer has nothing to do
-TIMES_FASTER: Final = (1.2, 2.0)  # of two arms that share a job
-WITHIN: Final = 0.01  # of the seconds of layer 1
-CALCULATIONS: Final = (0, 10, 100, 1000)  # between two moves
+MOST: Final = 1_000_000 // (COMMAND_BYTES * BYTE_US)  # commands that the bus can carry per second
+BUSIEST: Final = 0.005  # fraction of the bus that no real program exceeds
+LEAST_IDLE: Final = 0.5  # least fraction of the time in which the computer has nothing to do
+TIMES_FASTER: Final = (1.2, 2.0)  # speed of two arms that share a job, as a multiple of that of one arm
+WITHIN: Final = 0.01  # greatest relative error of the seconds of layer 1
+CALCULATIONS: Final = (0, 10, 100, 1000)  # numbers of calculations between two moves
 
 
 class PaperRow(Record, frozen=True, kw_only=True):
@@ -63,7 +63,7 @@ class Load(Record, frozen=True, kw_only=True):
     """How much a program loads the bus and the computer."""
 
     name: str
-    commands: int  # questions among them
+    commands: int  # number of commands, including questions
     seconds: float
     per_second: float
     saturation: float  # percent of the commands that the bus carries

@@ -48,7 +48,7 @@ class Touch(Record, frozen=True, kw_only=True):
     bandwidth: float  # Hz
     speed: float  # mm/s
     limit: int  # grams on the right finger
-    phase: float  # when in the period the contact occurs: 0 just after the sensors were read, nearly 1 just before
+    phase: float  # when the contact occurs in the period: 0 just after a reading, near 1 just before one
     jolt: float  # N: greatest force on the finger before the contact, caused by the start of the motion
     noticed: float | None  # ms from the contact to the reading that is beyond the limit; None: there was none
     way: float  # mm that the slide goes on after the contact

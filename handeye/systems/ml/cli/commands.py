@@ -86,7 +86,7 @@ def run(
         return 2
     plan = MlPlan(name=file.name, text=source.text, arm=arm, first=first, left=left, stimuli=stimuli)
     sound(plan)
-    judged = arm == "none"  # what any program does to an empty table is neither right nor wrong
+    judged = arm == "none"  # whatever a program does to an empty table is neither right nor wrong
     setup = Setup(system="ml", plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=judged)
     return carry_out_run(setup, options, (Printer(note if options.json else say),), judged=judged)
 

@@ -37,9 +37,9 @@ from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 FASTEST: Final = 150.0  # mm/s: at this speed, the arm feels up to about 5 N in free motion
-QUINTIC: Final = 1.875  # greatest speed of a smooth motion from rest to rest, over its mean speed
+QUINTIC: Final = 1.875  # a smooth motion from rest to rest: greatest speed / mean speed
 SETTLES: Final = 0.15  # s from the last goal until the arm has arrived
-HAND_S: Final = 1.0  # in which the fingers open or close
+HAND_S: Final = 1.0  # s in which the fingers open or close
 _START_SPEED: Final = 0.1  # m/s, on the way to the places of the axes at power-on
 _AXES: Final = tuple(NUMBERS[f"{component}1"] for component in COMPONENTS)
 _FORCE: Final = NUMBERS["FORCE1"]
@@ -62,7 +62,7 @@ class BorrowedArm(PerfectMotors):
         self._limits: dict[int, float | None] = dict.fromkeys(_AXES)  # N
         self._slow: set[int] = set()  # motors whose motion has a constant speed
         self.felt = np.zeros(3)  # N on the hand, along X, Y and Z
-        self.most = 0.0  # N, the greatest of them in any direction
+        self.most = 0.0  # N: the greatest force so far, along any axis
         self._approach()
         self._axes.tare()
         self._zero = drive.cell.clock.now

@@ -9,7 +9,7 @@ from handeye.systems.sigma.mal.check import constant
 from handeye.systems.sigma.mal.syntax import Binary, Call, Line, Statement
 from handeye.systems.sigma.protocol import COMPONENTS
 
-END: Final = None  # in place of the number of a line: the program ends
+END: Final = None  # stands for the number of a line: the program ends
 
 
 @dataclass(frozen=True, slots=True)

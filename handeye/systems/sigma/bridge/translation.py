@@ -46,9 +46,9 @@ from handeye.systems.sigma.mal.words import MAL_DEVICES
 from handeye.systems.sigma.protocol import AXES, COMPONENTS, STEP_MM
 
 LANGUAGE: Final = "mal"
-AT: Final = (350.0, 550.0)  # mm, of the board's corner X1 = 0, Y1 = 0 on the table
-TOP: Final = 180.0  # mm of the tips over the board at Z = 0
-ACROSS: Final = 600.0  # mm: X2 = 0 is there
+AT: Final = (350.0, 550.0)  # mm: place of the board's corner X1 = 0, Y1 = 0 on the table
+TOP: Final = 180.0  # mm: height of the fingertips over the board at Z = 0
+ACROSS: Final = 600.0  # mm: X1 at the place where X2 is 0
 OPEN: Final = 44.0  # mm between the fingers of an open hand
 SPINDLE: Final = {0.0: 0.0, 1.0: 20.0, 2.0: -20.0}  # rad/s, by the value of DRIVER2
 _MM: Final = 0.001
@@ -237,7 +237,7 @@ class _Translation:
                 return [_Draft(Jump(), _Stop(int(statement.target.text)))]
             case "END" | "STOP":
                 return [_Draft(Jump(), _Stop(END))]
-        return [_Draft(Jump(), after)]  # of an IF, the motion before has the test
+        return [_Draft(Jump(), after)]  # for an IF, the motion before it has the test
 
     def _motion(self, line: Line, before: Before) -> list[_Draft]:
         statement, after = line.statement, self._after.get(line.number)

@@ -24,12 +24,12 @@ from handeye.systems.sigma.protocol import (
 )
 
 ASKED: Final = "Y1"
-COUNT: Final = 0x1234  # that it has at first
+COUNT: Final = 0x1234  # the count that Y1 has at first
 SHORT_MOVE: Final = 8  # steps that the late riser makes
 COMMAND: Final = Command(number=NUMBERS["X1"], op=Op.MOVE, detail=Op.SET_POSITION, value=0x0102)
 """A move of X1 whose bytes, from the second on, are also a command to Y1 that would change Y1's count."""
 RISES: Final = 26  # microseconds after the command began, when the late riser becomes free
-_MARGIN: Final = 20  # microseconds around what is drawn
+_MARGIN: Final = 20  # microseconds drawn before and after the command
 _ENOUGH: Final = 60_000_000  # microseconds
 
 
@@ -41,9 +41,9 @@ class Demonstration:
     log: list[AnyBusEvent] = field(default_factory=list)
     diagrams: list[Diagram] = field(default_factory=list)
     command: bytes = b""
-    misread: list[FrameTaken] = field(default_factory=list)  # frames that were not sent so
-    strangers: list[FrameTaken] = field(default_factory=list)  # frames for others that one acted on
-    deaf: bool = False  # the microcomputer that the command is for does not act on it
+    misread: list[FrameTaken] = field(default_factory=list)  # frames that differ from what was sent
+    strangers: list[FrameTaken] = field(default_factory=list)  # frames for others on which one acted
+    deaf: bool = False  # True: the microcomputer to which the command is addressed does not act
     wanted: int = COUNT  # the count that the question should find
     found: int | None = None
     failed: str = ""  # why the question had no answer

@@ -23,7 +23,7 @@ from handeye.systems.sigma.bus.words import spaced
 from handeye.systems.sigma.firmware.device import PS
 from handeye.systems.sigma.protocol import NUMBERS, Timing, name_of
 
-_ALWAYS_BUSY: Final = "FORCE"  # microcomputers of these names show BUSY from power-on
+_ALWAYS_BUSY: Final = "FORCE"  # microcomputers whose names begin like this show BUSY from power-on
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +41,9 @@ class Mark:
 
     at: int
     byte: int
-    right: bool  # the byte that was on the lines for it
-    own: bool  # of a frame that its receiver acted on, or of an answer
-    first: bool  # of its frame
+    right: bool  # True: it is the byte that was on the lines
+    own: bool  # True: the receiver acted on its frame, or it belongs to an answer
+    first: bool  # True: it is the first byte of its frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class Diagram:
     title: str
     begin: int
     end: int
-    slot: int  # ps, of a byte of a command
+    slot: int  # ps: duration of a byte of a command
     data: tuple[tuple[int, int, int], ...]  # from, to, byte
     strobes: tuple[Wave, ...]
     lines: tuple[Wave, ...]  # status lines and interrupt
@@ -168,7 +168,7 @@ def _receivers(
 
 # -- as text ---------------------------------------------------------------------------------------------
 
-_NAME: Final = 15  # columns of the names
+_NAME: Final = 15  # columns that the names take
 _UNICODE: Final = ("▔", "▁", "│")
 _ASCII: Final = ("-", "_", "|")
 
@@ -242,11 +242,11 @@ def _ticks(drawn: Diagram, most: int) -> list[int]:
 
 # -- as a drawing ----------------------------------------------------------------------------------------
 
-_LEFT: Final = 118  # px of the names
-_WIDTH: Final = 900  # px of the time
-_ROW: Final = 24  # px of a line
+_LEFT: Final = 118  # px: width of the names
+_WIDTH: Final = 900  # px: width of the time axis
+_ROW: Final = 24  # px: height of a row
 _HIGH: Final = 13  # px between levels
-_SAYS: Final = 150  # px behind
+_SAYS: Final = 150  # px: width of the text after a row
 _HEAD: Final = 46
 _BELOW: Final = 14
 _SHORT: Final = {"microseconds": "µs", "milliseconds": "ms", "seconds": "s"}
@@ -301,7 +301,7 @@ def _bit(drawn: Diagram, bit: int) -> Wave:
     changes: list[tuple[int, int]] = []
     for start, end, byte in drawn.data:
         changes += [(start, byte >> bit & 1), (end, OPEN >> bit & 1)]
-    merged = dict(changes)  # a byte that begins where another ends stands
+    merged = dict(changes)  # if a byte begins where another ends, the new byte counts
     for start, _end, byte in drawn.data:
         merged[start] = byte >> bit & 1
     return _cut(f"D{bit}", 1, sorted(merged.items()), drawn.begin, drawn.end)
@@ -347,7 +347,7 @@ def _wave(drawn: Diagram, wave: Wave, kind: str, y: int) -> Markup:
 def _receiver(drawn: Diagram, receiver: Receiver, y: int) -> Markup:
     pieces = [element("text", receiver.name, x=10, y=y + 14)]
     readable = drawn.slot * _WIDTH > _READABLE * (drawn.end - drawn.begin)
-    for mark in sorted(receiver.marks, key=lambda mark: mark.own):  # what it acted on over the rest
+    for mark in sorted(receiver.marks, key=lambda mark: mark.own):  # its own frames over the others
         if not drawn.begin <= mark.at < drawn.end or not (readable or mark.first or not mark.right):
             continue
         x = _x(drawn, mark.at)

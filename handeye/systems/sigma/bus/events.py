@@ -13,7 +13,7 @@ class CommandSent(BusEvent, frozen=True, kw_only=True, tag="sent"):
     """The central computer began to send a command."""
 
     frame: bytes
-    falls: int  # ps, of /DATA READY
+    falls: int  # ps: falling edge of /DATA READY
     rises: int
 
 
@@ -22,8 +22,8 @@ class FrameTaken(BusEvent, frozen=True, kw_only=True, tag="taken"):
 
     number: int
     frame: bytes
-    sampled: tuple[int, ...]  # ps, of each byte
-    noticed: int  # ps, of the strobe
+    sampled: tuple[int, ...]  # ps: time at which each byte was sampled
+    noticed: int  # ps: time at which the strobe was noticed
     own: bool
 
 
@@ -33,13 +33,13 @@ class ByteSpoken(BusEvent, frozen=True, kw_only=True, tag="spoken"):
     number: int
     byte: int
     until: int
-    turned: tuple[int, ...]  # segments whose regenerators turn round for it
+    turned: tuple[int, ...]  # segments whose regenerators change direction for the answer
 
 
 class ByteHeard(BusEvent, frozen=True, kw_only=True, tag="heard"):
     """The central computer took a byte of an answer."""
 
-    number: int  # the one that was asked
+    number: int  # the microcomputer that was asked
     byte: int
 
 
@@ -55,7 +55,7 @@ class StatusLines(BusEvent, frozen=True, kw_only=True, tag="status"):
     """The status lines of a microcomputer changed."""
 
     number: int
-    status: int  # A is the upper bit, B the lower
+    status: int  # the levels of lines A (upper bit) and B (lower bit)
 
 
 class InterruptLine(BusEvent, frozen=True, kw_only=True, tag="interrupt"):

@@ -23,8 +23,8 @@ class Defects(Record, frozen=True, kw_only=True):
     help: str
     where: str = ""  # `segment` or `microcomputer`; empty: the whole bus
     default: int = 0  # place
-    value: str = ""  # what its number is; empty: it has none
-    amount: int = 0  # that number, where none is given
+    value: str = ""  # meaning of the number of the fault; empty: it has no number
+    amount: int = 0  # the number if none is given
     least: int = 0
     most: int = 1
 

@@ -11,7 +11,7 @@ from handeye.systems.sigma.protocol import COMPONENTS, NUMBERS, name_of
 
 FAN_OUT: Final = 10  # microcomputers on a segment
 PAGE_BITS: Final = 4  # output bits of the central computer that choose a page
-MORE_PAGE_BITS: Final = 2  # those that 256 microcomputers need besides
+MORE_PAGE_BITS: Final = 2  # output bits that 256 microcomputers need in addition
 
 Kind = Literal["motor", "force", "hand", "sensor"]
 
@@ -22,7 +22,7 @@ class Place(Record, frozen=True, kw_only=True):
     number: int
     kind: Kind
     segment: int = 0
-    length: int = 0  # bytes of the answer of a sensor
+    length: int = 0  # number of bytes in the answer of a sensor
 
 
 class Layout(Record, frozen=True, kw_only=True):

@@ -20,10 +20,10 @@ class NodeMemory(MutableRecord, kw_only=True):
     """The state of a microcomputer. Times are in ps."""
 
     device: MotorMemory | ForceMemory | HandMemory | SensorMemory
-    listens: int | None = None  # since when it polls the strobe
-    noticed: int | None = None  # when it saw the strobe of the command that it is taking
-    working: int | None = None  # until when it carries out a command
-    speech: Speech | None = None  # its answer, from when it is known
+    listens: int | None = None  # time since which it polls the strobe
+    noticed: int | None = None  # time at which it saw the strobe of the command that it is taking
+    working: int | None = None  # time until which it executes a command
+    speech: Speech | None = None  # its answer, as soon as the answer is known
 
 
 class Taken(NamedTuple):
@@ -136,7 +136,7 @@ class Microcomputer:
         return self.device.by_interrupt or self.device.status is not Status.BUSY
 
     def _sees(self, listens: int, falls: int, rises: int) -> int | None:
-        if self.device.by_interrupt:  # an edge
+        if self.device.by_interrupt:  # the interrupt is triggered by an edge
             return falls + self.crystal.micros(self.timing.interrupt) if falls >= listens else None
         seen = self.crystal.after(listens, self.timing.poll, max(falls, listens))
         return seen if seen < rises else None

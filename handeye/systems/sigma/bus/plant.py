@@ -19,7 +19,7 @@ Kept = TypeVar("Kept", bound=MutableRecord)
 class Level(NamedTuple):
     """A change, made by the machine, in the level of a microcomputer's pin."""
 
-    number: int  # of a motor, or of the force microcomputer that has to scan its wrist
+    number: int  # number of a motor, or of the force microcomputer that has to scan its wrist
     pin: Pin = "force"
     level: bool = True
 
@@ -84,7 +84,7 @@ class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
         default_factory=dict
     )  # steps of each motor past its low switch at power-on
     lengths: dict[int, int] = field(default_factory=dict)  # steps from switch to switch
-    forces: dict[int, tuple[float, ...]] = field(default_factory=dict)  # N, of wrists that feel some
+    forces: dict[int, tuple[float, ...]] = field(default_factory=dict)  # N: forces on wrists that feel any
     cut: dict[int, bool] = field(default_factory=dict)  # beams
     devices: dict[int, tuple[int, ...]] = field(default_factory=dict)
 

@@ -19,8 +19,8 @@ class Rate(Record, frozen=True, kw_only=True):
 
     clock: float  # greatest clock error, as a fraction
     commands: int
-    whole: int  # taken as they were sent
-    missed: int  # the microcomputer became free after the strobe
+    whole: int  # commands that were taken as they were sent
+    missed: int  # commands after whose strobe the microcomputer became free
     misread: int
     fast: float | None  # least error of a fast clock with which a receiver misread a command; None: none did
     slow: float | None  # the same for a slow clock
@@ -37,7 +37,7 @@ def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None
     drawn = random_numbers(seed, f"bus errors {clock:g}")
     whole = missed = 0
     wrong: list[float] = []
-    start = timing.command  # µs, so that no moment is negative
+    start = timing.command  # microseconds, so that no time is negative
     for first in range(0, commands, _AT_ONCE):
         count = min(_AT_ONCE, commands - first)
         clocks = drawn.uniform(-clock, clock, count)
@@ -70,7 +70,7 @@ def _taken(wires: Wires, timing: Timing, sending: Sending, ppm: int, free: int) 
     none."""
     node = Microcomputer(
         _ANOTHER.places[0], timing, answers_to=256, ppm=ppm, phase=free, dead=False
-    )  # one of no number, so that it acts on nothing
+    )  # a microcomputer with an unused number, so that it acts on nothing
     passed = node.listen(free, (sending,), wires, quiet=True)
     if passed:
         return passed[0].frame

@@ -36,9 +36,9 @@ from handeye.systems.sigma.firmware.motor import Motor, Pin
 from handeye.systems.sigma.gantries.memory import GantryMemory
 from handeye.systems.sigma.protocol import Timing, name_of
 
-_REMEMBERED: Final = 400  # microseconds for which waves are kept
-_COMPUTER: Final = Crystal()  # the clock of the central computer, by which all others are fast or slow
-_HALF_STEP: Final = CONVERTER_N / 2 + 1e-9  # N that a reading may differ from a force
+_REMEMBERED: Final = 400  # microseconds for which old waves are kept
+_COMPUTER: Final = Crystal()  # the clock of the central computer; the errors of all others refer to it
+_HALF_STEP: Final = CONVERTER_N / 2 + 1e-9  # N by which a reading may differ from a force
 _PER_MILLE: Final = 1_000  # ppm
 
 
@@ -49,7 +49,7 @@ class Question(MutableRecord, kw_only=True):
     wanted: int
     got: bytes = b""
     phase: Literal["low", "sample", "high", "guard", "over"] = "low"
-    since: int = 0  # when the phase began
+    since: int = 0  # time at which the phase began
     failed: Literal["", "no answer", "stray byte"] = ""
 
 
@@ -57,8 +57,8 @@ class BusMemory(MutableRecord, kw_only=True):
     """The complete state of a bus and its machine."""
 
     now: int = 0  # microseconds
-    taken_until: int = 0  # microseconds, by a command
-    sent: tuple[Sending, ...] = ()  # the last ones
+    taken_until: int = 0  # microseconds: time until which a command takes the lines
+    sent: tuple[Sending, ...] = ()  # the last commands that were sent
     question: Question | None = None
     nodes: dict[int, NodeMemory] = field(default_factory=dict)
     plant: IdealMemory | GantryMemory = field(default_factory=IdealMemory)

@@ -12,7 +12,7 @@ from handeye.systems.sigma.bus.layout import Layout
 from handeye.systems.sigma.firmware.device import PS, Crystal
 from handeye.systems.sigma.protocol import Timing
 
-OPEN: Final = 0xFF  # what data lines read that no one drives
+OPEN: Final = 0xFF  # what data lines read while nothing drives them
 
 
 class Sending(Record, frozen=True, kw_only=True):
@@ -20,18 +20,18 @@ class Sending(Record, frozen=True, kw_only=True):
 
     start: int  # microseconds
     frame: bytes
-    falls: int  # microseconds after the start, /DATA READY
+    falls: int  # microseconds from the start to the falling edge of /DATA READY
     rises: int
 
 
 class Speech(Record, frozen=True, kw_only=True):
     """An answer that a microcomputer puts on the lines."""
 
-    number: int  # its place
+    number: int  # number of the microcomputer that answers
     segment: int
     frame: bytes
     begin: int  # ps
-    ppm: int  # of its clock
+    ppm: int  # error of its clock
 
     def lows(self, timing: Timing) -> list[tuple[int, int]]:
         """Return the times between which /ANSWER READY is low and a byte is on the lines (ps): the beginning

@@ -12,14 +12,14 @@ from handeye.core.record import Record
 from handeye.systems.sigma.gantries.world import ACROSS, GantryWorld
 from handeye.systems.sigma.run.plan import MOST_PIECES
 
-LINES: Final = (50.0, 100.0, 150.0)  # mm of Y on which pieces stand
-BY_HEIGHT: Final = (250.0, 300.0, 350.0)  # mm of Y on which they are put: low, middle, high
-LIMITS: Final = (50.0, 70.0)  # mm of height between low, middle and high
-_FIRST, _LAST = 30.0, 365.0  # mm of X between which pieces stand
-_GAP: Final = 30.0  # mm between two pieces, at least: for an open hand
-_SPREAD: Final = 1.5  # mm by which a height differs from that of its kind, at most
+LINES: Final = (50.0, 100.0, 150.0)  # mm: Y of the lines on which pieces stand at first
+BY_HEIGHT: Final = (250.0, 300.0, 350.0)  # mm: Y of the lines for low, middle and high pieces
+LIMITS: Final = (50.0, 70.0)  # mm: heights that separate low, middle and high pieces
+_FIRST, _LAST = 30.0, 365.0  # mm: X of the first and the last possible piece
+_GAP: Final = 30.0  # mm: least distance between two pieces, for an open hand
+_SPREAD: Final = 1.5  # mm by which a height differs at most from that of the kind
 _FOOT: Final = 4.0  # mm, half the height of a foot
-_STEM: Final = (0.70, 0.56, 0.42)  # of the radius, of the three rings of a stem from below
+_STEM: Final = (0.70, 0.56, 0.42)  # radii of the rings of a stem, from below; the foot has 1
 _HEAD: Final = 8.5  # mm, the largest radius of a head
 
 
@@ -28,7 +28,7 @@ class Kind(NamedTuple):
 
     name: str
     height: float
-    radius: float  # of the foot
+    radius: float  # mm: radius of the foot
 
 
 KINDS: Final = (
@@ -44,7 +44,7 @@ KINDS: Final = (
 class Piece(Record, frozen=True, kw_only=True):
     """A piece at its initial position (mm)."""
 
-    name: str  # of its body
+    name: str  # name of the piece's body
     kind: str
     height: float
     radius: float

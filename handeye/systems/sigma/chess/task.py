@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
 
 LEAN: Final = 3.0  # deg
-PLACED: Final = 5.0  # mm across from its line
+PLACED: Final = 5.0  # mm: greatest distance of a piece from its line
 HEIGHT: Final = 0.6  # mm
-STANDS: Final = 1.0  # mm of a foot over the board
-_NEAR: Final = 10.0  # mm along X from a piece to where the program says that it has measured it
+STANDS: Final = 1.0  # mm: greatest height of a foot over the board
+_NEAR: Final = 10.0  # mm along X from a piece to the place at which the program reports it
 
 
 class Chess(JobTask):

@@ -90,7 +90,7 @@ def run(
     if not reported(source):
         return 2
     sound(plan)
-    judged = arm != "gantries"  # what any program does to the gantries is neither right nor wrong
+    judged = arm != "gantries"  # whatever a program does to the gantries is neither right nor wrong
     setup = Setup(system="sigma", plan=plan, world=WorldSpec(seed=seed), camera="auto", judged=judged)
     return carry_out_run(setup, options, (Printer(note if options.json else say),), judged=judged)
 

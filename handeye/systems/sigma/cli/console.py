@@ -64,7 +64,7 @@ class Console:
         self._lines: dict[int, str] = {}
         self._machine, self._vm = PerfectMotors(), None
         self._stop: int | None = None
-        self._paused = False  # the program stands before the line of BREAK
+        self._paused = False  # True: the program has stopped before the line of BREAK
         self.over = False
 
     _vm: VirtualMachine | None

@@ -20,28 +20,28 @@ from handeye.systems.sigma.firmware.motor import Motor, Pin
 from handeye.systems.sigma.motors.rotor import MASSES, POLE, STEP, Drive, by_balance
 from handeye.systems.sigma.protocol import AXES, COMPONENTS, DEVICES, NUMBERS
 
-BLOCK_N: Final = 6.0  # push of the fingers on the wrist, sideways, as they close on a block off the middle
-HARD_STOP: Final = 853  # steps beyond a switch
+BLOCK_N: Final = 6.0  # N: sideways push on the wrist when the fingers close on a block off the middle
+HARD_STOP: Final = 853  # steps from a switch to the end stop
 _HAND_KG: Final = 1.2
 _WRIST: Final = 20_000.0  # N/m
-_LEFT: Final = 0.05  # share of the inertial force that a sound accelerometer leaves
+_LEFT: Final = 0.05  # fraction of the inertial force that a sound accelerometer does not correct
 SWAPPED: Final[tuple[MachineKind, ...]] = (
     "pulses",
     "multiplexer",
     "converter",
-)  # they are on the card of one
+)  # these faults are on the card of a microcomputer
 _SCAN: Final = 1000 * PS
 _CLOSES: Final = 100_000 * PS  # ps after which fingers touch a block; a sound hand is done after 150 ms
-_SLOW: Final = 4  # times as long
-DIM: Final = 0.6  # of the light of a sound lamp
-CUT: Final = 0.5  # of it, below which the photodiode sees none
+_SLOW: Final = 4  # factor by which slow fingers take longer
+DIM: Final = 0.6  # light of a dim lamp, as a fraction of that of a sound lamp
+CUT: Final = 0.5  # fraction of the light below which the photodiode sees none
 _SPRING: Final = 1000.0  # N/m of the spring balance
-HALF: Final = 0.5  # of the pull-out force, with one phase
-SAG: Final = 0.4  # of the pull-out force that a sagging supply leaves
-MANY: Final = 3  # motors at once that make it sag
+HALF: Final = 0.5  # fraction of the pull-out force that is left with one phase
+SAG: Final = 0.4  # fraction of the pull-out force that a sagging supply leaves
+MANY: Final = 3  # number of moving motors at which the supply sags
 _START_N: Final = Drive(mass=1.0).start_force
 _TOP_N: Final = Drive(mass=1.0).top_force
-_CLOCKS: Final = 0.005  # by which clocks are off at most, as a share
+_CLOCKS: Final = 0.005  # greatest clock error, as a fraction
 _AXIS: Final = {NUMBERS[axis]: axis for axis in AXES}
 _SIDEWAYS: Final = COMPONENTS.index("Y")
 
@@ -54,16 +54,16 @@ class Machine(IdealMachine):
     def __init__(self, faults: Sequence[MachineFault] = ()) -> None:
         super().__init__()
         self.faults = {(fault.kind, fault.number): fault for fault in faults}
-        self.loads: dict[tuple[int, int], float] = {}  # N on a component of a wrist
+        self.loads: dict[tuple[int, int], float] = {}  # N: loads on the components of the wrists
         self.pulls: dict[int, float] = {}  # N against the motion of an axis, from a spring balance
-        self.light: dict[int, float] = {}  # share that passes what is in a beam
+        self.light: dict[int, float] = {}  # fraction of the light that passes the object in a beam
         self.blocks: set[int] = set()  # hands that have a block between the fingers
-        self._swings: dict[int, float] = {}  # N of the hand on its wrist, by motor
+        self._swings: dict[int, float] = {}  # N: force of the swinging hand on its wrist, by motor
         self._pushed: set[int] = set()  # hands whose fingers press on a block
         self._trains: dict[
             int, tuple[Any, int, int, int]
-        ] = {}  # of motors that move: train, began, pulses, sense
-        self._most: dict[int, int] = {}  # motors that moved at once during each train
+        ] = {}  # for each moving motor: train, began, pulses, sense
+        self._most: dict[int, int] = {}  # greatest number of motors that moved at once during each train
         self._due: list[tuple[int, int, bool | None]] = []  # ps, number, whether fingers press from then on
         self.now = 0  # ps
 

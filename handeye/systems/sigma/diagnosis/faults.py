@@ -24,7 +24,7 @@ BENCH: Final = Layout(
     behind=(-1, 0),
 )
 """SUPERSIGMA, and a feeder of four motors behind a regenerator."""
-OFFSET_N: Final = 1.5  # of a gauge
+OFFSET_N: Final = 1.5  # N: offset of a faulty gauge
 ARMS: Final = (1, 2)
 Option = TypeVar("Option")
 _NAMES: Final = (*NUMBERS,)
@@ -34,9 +34,9 @@ class MachineFault(Record, frozen=True, kw_only=True):
     """A fault of the machine, not of the bus."""
 
     kind: MachineKind
-    number: int = 0  # of the microcomputer that it hangs on
+    number: int = 0  # number of the microcomputer to which the faulty part is connected
     which: int = 0  # component of a wrist, bit of a converter, or switch: 0 is the low one
-    level: int = 0  # 1: stuck on, or an offset
+    level: int = 0  # 1: the part is stuck on, or has an offset
 
 
 class Planted(Record, frozen=True, kw_only=True):

@@ -33,7 +33,7 @@ class Means(NamedTuple):
 
     usage: str
     help: str
-    counts: bool = True  # as a test
+    counts: bool = True  # True: the action counts as a test
 
 
 MEANS: Final = {

@@ -16,17 +16,17 @@ from handeye.systems.sigma.bus.layout import Layout
 from handeye.systems.sigma.diagnosis.power_on import SelfTest, power_on, told
 from handeye.systems.sigma.protocol import ANSWERS, COMPONENTS, FORCE_STEP_N, NUMBERS, Op, name_of, signed
 
-TRAVEL: Final = {"X": 16_000, "Y": 10_667, "Z": 5_333}  # steps, as the machine's drawing has it
+TRAVEL: Final = {"X": 16_000, "Y": 10_667, "Z": 5_333}  # steps: the travels in the machine's drawing
 FREE_MOVE: Final = {"X": 6_000, "Y": 5_000, "Z": 3_500}  # steps at full speed
 LOADS: Final = (0.0, 17.05, 34.1)  # N: between them, each bit of the converter is 0 and 1
-GREY: Final = 0.7  # of the light passes a grey filter
-PULL_N: Final = 120.0  # of the spring balance; a sound motor holds 200 N at low speed
-OFF_PERCENT: Final = 3.5  # of a clock, from which it is wrong
-SIDEWAYS_N: Final = 3.0  # with which fingers that close on the block push at least
+GREY: Final = 0.7  # fraction of the light that passes a grey filter
+PULL_N: Final = 120.0  # force of the spring balance; a sound motor holds 200 N at low speed
+OFF_PERCENT: Final = 3.5  # the least error of a wrong clock
+SIDEWAYS_N: Final = 3.0  # least push of fingers that close on the block
 _SLOW: Final = 10.0  # mm/s
-_TOO_FAR: Final = 1.25  # times the travel
+_TOO_FAR: Final = 1.25  # length of the move, as a multiple of the travel
 _CREEP: Final = 800  # steps
-_OFF_STEPS: Final = 40  # by which a switch may be elsewhere than in the drawing
+_OFF_STEPS: Final = 40  # greatest distance of a switch from its place in the drawing
 _LONG: Final = 200_000_000  # microseconds
 _OWN: Final = 355.0  # microseconds of a question for three bytes that pass by the clock of the microcomputer
 _REPEATS: Final = 5
@@ -110,7 +110,7 @@ def _answer_time(bus: MicrobusPort, number: int) -> float | None:
         except BusFault:
             return None
         taken += bus.now - begun
-        pause(bus, 997)  # so that it begins in another phase of its polls
+        pause(bus, 997)  # the next try begins in another phase of the polls
     return taken / _REPEATS
 
 
@@ -160,13 +160,13 @@ class Motion:
     """A motion, as the status lines and the count show it."""
 
     axis: str
-    steps: int  # asked for; 0: ORIGIN
-    busy: bool  # its status was 0-1 on the way
-    deaf: bool  # it did not answer afterwards, though its status was not 0-1
-    status: Status  # at the end
+    steps: int  # steps that the command asked for; 0: ORIGIN
+    busy: bool  # True: its status was 0-1 on the way
+    deaf: bool  # True: it did not answer afterwards, though its status was not 0-1
+    status: Status  # status at the end
     interrupt: bool
     count: int | None
-    at_abort: int | None = None  # the count as a switch or a force stopped it
+    at_abort: int | None = None  # the count at which a switch or a force stopped the motor
 
     @property
     def astray(self) -> bool:

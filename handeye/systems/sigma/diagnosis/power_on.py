@@ -28,8 +28,8 @@ class SelfTest(Record, frozen=True, kw_only=True):
     """The result of one test."""
 
     part: Part
-    number: int  # of the segment or microcomputer
-    fault: str = ""  # what is the matter; empty: it is well
+    number: int  # number of the segment or microcomputer
+    fault: str = ""  # what is wrong; empty: nothing
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,7 @@ def _heard(bus: MicrobusPort, number: int, numbers: Sequence[int]) -> _Heard:
 
 
 def _segment(segment: int, heard: Mapping[int, _Heard]) -> SelfTest:
-    if len(heard) < 2 or any(one.right for one in heard.values()):  # one alone says nothing of its segment
+    if len(heard) < 2 or any(one.right for one in heard.values()):  # one alone cannot blame its segment
         return SelfTest(part="segment", number=segment)
     if all(one.silent for one in heard.values()):
         return SelfTest(part="segment", number=segment, fault=DEAD)
@@ -129,7 +129,7 @@ def _stuck(heard: Sequence[_Heard]) -> str:
         if echoed and low >> bit & 1:
             return f"data line {bit} is stuck low"
     if not echoed:
-        return "data line 7 is stuck low"  # which ECHO alone needs
+        return "data line 7 is stuck low"  # only ECHO needs this line
     return "its data lines are faulty: some bytes arrive and others do not"
 
 

@@ -17,7 +17,7 @@ class Diagnosed(Record, frozen=True, kw_only=True):
 
     fault: str
     told: str
-    part: str  # that has the fault
+    part: str  # the part that has the fault
     verdict: Verdict
 
     @property

@@ -22,8 +22,8 @@ UNDECIDED: Final = (
     "line B of a wrist stuck high, because a wrist is always busy; and one of the two lowest bits of a converter, "
     "because they change a reading by .1 N at most"
 )
-_NEAR_N: Final = 0.15  # that a sound wrist reads wrong at most, its load known to .1 N
-_OFFSET_SPREAD_N: Final = 0.11  # over all loads, of a gauge that only has an offset
+_NEAR_N: Final = 0.15  # greatest error of a sound wrist, if its load is known to .1 N
+_OFFSET_SPREAD_N: Final = 0.11  # greatest spread of the errors of a gauge that only has an offset
 
 
 class Outcome(Protocol):
@@ -39,7 +39,7 @@ Result = TypeVar("Result", bound=Outcome)
 class Verdict(Record, frozen=True, kw_only=True):
     """The part to which a diagnosis leads, with the reason."""
 
-    part: str  # empty: none
+    part: str  # the faulty part; empty: none is named
     why: str
     tests: int  # used
 

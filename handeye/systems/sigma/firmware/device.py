@@ -11,15 +11,15 @@ from handeye.core.mutable_records import MutableRecord
 from handeye.ports.microbus import Command, Status
 from handeye.systems.sigma.protocol import Op
 
-PS: Final = 1_000_000  # in a microsecond
-_TICKS: Final = 2  # of the clock of 2 MHz in a microsecond
+PS: Final = 1_000_000  # picoseconds in a microsecond
+_TICKS: Final = 2  # ticks of the 2 MHz clock in a microsecond
 
 
 class Crystal:
     """The clock of a microcomputer."""
 
     def __init__(self, ppm: int = 0) -> None:
-        self.ppm = ppm  # by how much its intervals are too long; a fast clock has a negative one
+        self.ppm = ppm  # by how much the intervals are too long; negative for a fast clock
 
     def micros(self, micros: int) -> int:
         """Return the duration of `micros` microseconds on the microcomputer's clock (ps)."""
@@ -44,8 +44,8 @@ class Device(ABC):
     """The firmware of one kind of microcomputer, and its state."""
 
     memory: MutableRecord
-    by_interrupt = False  # always busy, yet it takes commands: the strobe interrupts it
-    tied = False  # its line A is tied to the interrupting input of the central computer
+    by_interrupt = False  # True: it is always busy, but takes commands, because the strobe interrupts it
+    tied = False  # True: its line A is tied to the interrupt input of the central computer
 
     def __init__(self, crystal: Crystal) -> None:
         self.crystal = crystal

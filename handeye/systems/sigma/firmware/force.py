@@ -13,11 +13,11 @@ from handeye.systems.sigma.firmware.device import Crystal, Device
 from handeye.systems.sigma.protocol import COMPONENTS, FORCE_STEP_N, STANDARD, Op
 
 STANDARD_N: Final = 4.0
-CONVERTER_N: Final = 0.05  # step of the converter
+CONVERTER_N: Final = 0.05  # N: step of the converter
 RELEASED: Final = (
     0.8  # share of a threshold below which it is released: a wrist that swings does not trip twice
 )
-_LARGEST: Final = 0x7FFF  # of an answer
+_LARGEST: Final = 0x7FFF  # greatest value of an answer
 
 
 class ForceMemory(MutableRecord, kw_only=True, tag="force"):

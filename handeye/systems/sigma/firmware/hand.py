@@ -16,8 +16,8 @@ class HandMemory(MutableRecord, kw_only=True, tag="hand"):
     """The state of a hand microcomputer."""
 
     devices: list[int] = field(default_factory=lambda: [0] * len(DEVICES))
-    until: int | None = None  # ps, when the fingers have moved
-    cut: bool = False  # the beam, by its pin
+    until: int | None = None  # ps: time at which the fingers have finished moving
+    cut: bool = False  # True: the beam is broken, according to its pin
 
 
 class Hand(Device):

@@ -41,16 +41,16 @@ class MotorMemory(MutableRecord, kw_only=True, tag="motor"):
     status: Status = Status.FREE
     train: Train | None = None
     began: int = 0  # ps
-    sense: int = 1  # of the train, 1 or -1
-    ended: int = -REST * PS  # ps, when the last train ended
-    pulses: int = 0  # sent to the driver before the train, forward minus backward
-    zero: int = 0  # of them where the count is 0
+    sense: int = 1  # direction of the train, 1 or -1
+    ended: int = -REST * PS  # ps: time at which the last train ended
+    pulses: int = 0  # pulses sent to the driver before the train, forward minus backward
+    zero: int = 0  # the number of these pulses at which the count is 0
     at_abort: int = 0  # count when the last abort began, or where ORIGIN ended, before it became 0
-    cause: Status = Status.FREE  # of the stop under way
-    pressed: int = 0  # the sense of the motion that met the present force
+    cause: Status = Status.FREE  # cause of the stop that is under way
+    pressed: int = 0  # direction of the motion that met the present force
     curve: int = 0
     limit: int = 0  # steps/s; 0: none
-    low: bool = False  # levels of its pins
+    low: bool = False  # levels of the motor's pins
     high: bool = False
     force: bool = False
 
@@ -192,7 +192,7 @@ class Motor(Device):
                 memory.status = memory.cause
             case "turning":
                 self._release(at + self.crystal.micros(REST))
-            case "seeking" | "releasing":  # as far as can be counted, and no switch has acted
+            case "seeking" | "releasing":  # the train has ended, but no switch has acted
                 self._refuse(Status.RAIL, at)
 
     def pin(self, pin: Pin, level: bool, at: int) -> None:

@@ -19,11 +19,11 @@ from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 from handeye.systems.sigma.protocol import AXES, NUMBERS, STEP_MM
 
 ARMS: Final = ("X1", "X2")  # the axes that meet
-GOAL: Final = 200.0  # mm, where X1 is sent
-STANDS: Final = 400.0  # mm, where X2 stands: the hands meet at X1 = 160
-SLOWEST, FASTEST = 2.0, 254.0  # mm/s, of a move at constant speed
+GOAL: Final = 200.0  # mm: place to which X1 is sent
+STANDS: Final = 400.0  # mm: place of X2; the hands meet at X1 = 160
+SLOWEST, FASTEST = 2.0, 254.0  # mm/s: limits of a constant speed
 _LONGEST: Final = 120_000_000  # microseconds
-_REST: Final = 300_000  # microseconds until all stands still
+_REST: Final = 300_000  # microseconds until everything is at rest
 LOWERED: Final = 100.0  # mm: the fingers of the other arm are then at the height of this arm's column
 _PROGRAM: Final = """10 REM ARM 1 RUNS INTO ARM 2, WHICH STANDS
 20 ORIGIN X1, X2
@@ -40,13 +40,13 @@ class CrashedAxis(Record, frozen=True, kw_only=True):
     """An axis after the collision. Positions are in mm."""
 
     axis: str
-    force: float  # the greatest on its wrist, N
-    status: str  # lines A and B as its motor stopped
-    believed: float  # the count of the program
-    counted: float  # that of the microcomputer
+    force: float  # N: greatest force on the wrist
+    status: str  # status lines A and B when the motor stopped
+    believed: float  # place according to the count of the program
+    counted: float  # place according to the count of the microcomputer
     true: float
     lost: int  # steps by which the microcomputer's count is wrong
-    doubted: bool  # by the run time of the program
+    doubted: bool  # True: the interpreter marked the count as doubtful
 
 
 class Crash(Record, frozen=True, kw_only=True):

@@ -22,7 +22,7 @@ from handeye.systems.sigma.gantries.machine import SUPERSIGMA as SUPERSIGMA_RIG
 from handeye.systems.sigma.gantries.world import GantryWorld
 from handeye.systems.sigma.protocol import COMPONENTS, NUMBERS
 
-_SLOW_MS: Final = 400.0  # in which slow fingers close or open
+_SLOW_MS: Final = 400.0  # ms in which slow fingers close or open
 
 
 @cache
@@ -76,7 +76,7 @@ class FaultyGantries(Gantries):
         rig: Rig = SUPERSIGMA_RIG,
     ) -> None:
         self._faults = {(fault.kind, fault.number): fault for fault in faults}
-        self._every = [0] * len(rig.axes)  # each n-th pulse is left out; 0: none
+        self._every = [0] * len(rig.axes)  # every n-th pulse is left out; 0: none is
         self._stuck: dict[int, float] = {}  # limit of a switch that is stuck, by its row
         self._bits = [*self._of("converter")]
         self._sags = any(fault.kind == "supply" for fault in faults)

@@ -19,15 +19,15 @@ MOVES: Final = (
 )  # fmt: skip
 """The moves, each with its axis and its number of steps: long, medium and short ones."""
 _REST: Final = 100_000  # microseconds between two moves, until the wrists are still
-_LONGEST: Final = 10_000_000  # microseconds of a move
+_LONGEST: Final = 10_000_000  # microseconds: longest duration of a move
 
 
 class FreeMoves(Record, frozen=True, kw_only=True):
     """Fast moves in one world."""
 
     seed: Seed
-    compensated: bool  # the accelerometers are on
-    force: float  # the greatest on any wrist, N
+    compensated: bool  # True: the accelerometers are on
+    force: float  # N: greatest force on any wrist
     tripped: int  # moves that a reflex stopped
     moves: int = len(MOVES)
 
@@ -50,7 +50,7 @@ def free_moves(seed: int, *, compensated: bool) -> FreeMoves:
         bus.send(protocol.move(axis, steps))
         if bus.wait_free(NUMBERS[axis], _LONGEST).aborted:
             tripped += 1
-            bus.ask(protocol.position(axis), 2)  # which clears line A
+            bus.ask(protocol.position(axis), 2)  # this question clears line A
     return FreeMoves(
         seed=seed, compensated=compensated, force=round(float(greatest.max()), 2), tripped=tripped
     )

@@ -45,9 +45,9 @@ CAMERA: Final = "people"
 SWITCHED_ON_AT: Final = 400  # steps of each axis from its low switch at power-on
 DIFFERENTIAL: Final = 2e-4  # m by which a switch is released later than it acts
 OPEN: Final = 0.044  # m between the fingers
-TICK: Final = 1000 * PS  # of the physics, ps
-_HAND_KG: Final = 1.2  # as the accelerometers are set
-_STIFFNESS: Final = 20_000.0  # N/m of a wrist, as the strain gauges are set
+TICK: Final = 1000 * PS  # ps: step of the physics
+_HAND_KG: Final = 1.2  # kg: mass of a hand for which the accelerometers are set
+_STIFFNESS: Final = 20_000.0  # N/m: stiffness of a wrist for which the strain gauges are set
 _DAMPING: Final = 92.95  # N s/m
 _GRAVITY: Final = 9.81
 _SUNK: Final = 1e-3  # m by which the lamp lies in its finger, so that an object in the grip is before it
@@ -57,7 +57,7 @@ _SENSE: Final = np.array(
 )  # of each axis of two arms along x, y or z of the scene
 _HIGH: Final = 2  # rows of axes: forces one way and the other, high ends, low ends, rotors ahead, and behind
 ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
-_AHEAD: Final = 256  # steps that are planned at once
+_AHEAD: Final = 256  # physics steps that are planned at once
 Table = NDArray[np.float64]
 
 
@@ -139,13 +139,13 @@ class Gantries(Plant[GantryMemory]):
         """Called with the number and the outputs of a hand microcomputer when the outputs have changed."""
         assert self.bench.tick * 10**6 * PS == TICK
         model, data = self.bench.model, self.bench.data
-        self._low = world.axes(SWITCHES, rig.axes)  # m, where the low switch of each axis is, of its joint
+        self._low = world.axes(SWITCHES, rig.axes)  # m: position of the joint of each axis at its low switch
         self._high = self._low + [TRAVEL[axis[0]] * STEP for axis in rig.axes]
         self._begin = self._low + SWITCHED_ON_AT * STEP
         self._pull = 1.0 + world.axes(PULL_OUT, rig.axes)
         servos = [model.actuator(axis).id for axis in rig.axes]
         self._stiff = model.actuator_gainprm[servos, 0].copy()
-        self._lead = -model.actuator_biasprm[servos, 2] / self._stiff  # s by which speed leads the place
+        self._lead = -model.actuator_biasprm[servos, 2] / self._stiff  # s by which speed leads position
         gain = 1.0 + world.axes(GAIN, rig.wrists)
         gauges, still = _gauges(model, rig, gain, world.value(LEFT) if compensated else 1.0)
         accelerometers = _sensors(
@@ -197,7 +197,7 @@ class Gantries(Plant[GantryMemory]):
         if hand in self.rig.arms:
             way = -data.body(f"left_{hand}").xmat.reshape(3, 3)[:, 1]  # from the left finger to the right one
             body, sunk = model.body(f"left_{hand}").id, _SUNK
-        else:  # beside the feeder or the belt
+        else:  # the beam is beside the feeder or the belt
             way, body, sunk = (photodiode - lamp) / np.linalg.norm(photodiode - lamp), -1, 0.0
         length, met = float((photodiode - lamp) @ way) + sunk, np.zeros(1, dtype=np.int32)
         far = mujoco.mj_ray(model, data, lamp - sunk * way, way, None, True, body, met)
@@ -305,7 +305,7 @@ class Gantries(Plant[GantryMemory]):
         self._ctrl[:, self._n :] = [0.0 if closed else OPEN for closed in self.memory.grips]
         self._ranges = np.empty((rows, self._n, 2))
         self._ranges[:, :, 0], self._ranges[:, :, 1] = -pull, pull
-        strains = np.maximum(STEP, pull / self._stiff)  # m of lag from which on a pole holds less
+        strains = np.maximum(STEP, pull / self._stiff)  # m: lag above which a pole holds less
         over, under, high, low = np.frombuffer(self.memory.levels, bool).reshape(
             self._levels // self._n, self._n
         )
@@ -364,7 +364,7 @@ class Gantries(Plant[GantryMemory]):
         if levels[: self._levels] != self.memory.levels:
             self.memory.levels = levels[: self._levels]
             self._known = self.memory.levels + bytes(self._all - self._levels)
-            self._plan()  # what acts is released elsewhere
+            self._plan()  # a switch that has acted is released at another place
         if self._seen:
             self.bench.end_early()
 

@@ -15,12 +15,12 @@ class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
     """Fraction of the pull-out force with which the pole of each rotor holds the rotor."""
     peaks: list[float] = field(default_factory=lambda: [0.0] * len(AXES))
     """The greatest forces on the wrists since they were last read (N)."""
-    levels: bytes = b""  # of comparators and switches at the last step
+    levels: bytes = b""  # levels of comparators and switches at the last step
     missed: list[int] = field(default_factory=lambda: [0] * len(AXES))
     """Pulses that a faulty microcomputer has counted, but not sent to its driver; forward minus backward."""
     gaps: list[float] = field(default_factory=lambda: [1.0, 1.0])
     """How far the fingers of each hand may be open, as a fraction, if a fault makes them slow."""
-    grips: list[bool] = field(default_factory=lambda: [False, False])  # hands are closed, or close
+    grips: list[bool] = field(default_factory=lambda: [False, False])  # closed or closing hands
 
     @classmethod
     def of(cls, axes: int, hands: int) -> "GantryMemory":

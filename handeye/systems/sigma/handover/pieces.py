@@ -9,14 +9,14 @@ from handeye.core.record import Record
 from handeye.systems.sigma.gantries.world import ACROSS, GantryWorld
 
 MOST: Final = 4
-BEGIN_X: Final = 50.0  # mm of X at which the pieces stand at the beginning
-END_X: Final = 500.0  # mm of X at which the finished pieces stand
-APART: Final = 60.0  # mm of Y between two pieces; the first stands at this Y
+BEGIN_X: Final = 50.0  # mm: X of the pieces at the beginning
+END_X: Final = 500.0  # mm: X of the finished pieces
+APART: Final = 60.0  # mm: distance of two pieces along Y, and the Y of the first piece
 HEIGHT: Final = 40.0  # mm, without the pin
 RADIUS: Final = 14.0  # mm
-PIN: Final = 5.0  # mm by which a pin stands out
-_SPREAD: Final = 0.5  # mm by which a height differs from the nominal one, at most
-_FRICTION: Final = (6.0, 12.0)  # N that hold a pin
+PIN: Final = 5.0  # mm by which a pin stands out at first
+_SPREAD: Final = 0.5  # mm by which a height differs at most from the nominal one
+_FRICTION: Final = (6.0, 12.0)  # N: range of the friction that holds a pin
 _PIN_RADIUS: Final = 3.0  # mm
 _PIN_LENGTH: Final = 20.0  # mm
 _PIN_MASS: Final = 0.004  # kg
@@ -26,11 +26,11 @@ _PIN_ARMATURE: Final = 0.2  # kg, so that friction holds a pin to less than .01 
 class Piece(Record, frozen=True, kw_only=True):
     """A piece at its initial position (mm)."""
 
-    name: str  # of its body
+    name: str  # name of the piece's body
     x: float
     y: float
     height: float
-    friction: float  # N that hold its pin
+    friction: float  # N: friction that holds the pin
 
 
 def pin(name: str) -> str:

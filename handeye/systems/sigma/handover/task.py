@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from handeye.systems.sigma.gantries.world import GantryWorld
 
 LEAN: Final = 3.0  # deg
-PLACED: Final = 3.0  # mm from the place of a finished piece
-STANDS: Final = 1.0  # mm of a foot over the board
+PLACED: Final = 3.0  # mm: greatest distance of a finished piece from its place
+STANDS: Final = 1.0  # mm: greatest height of a foot over the board
 PRESSED: Final = 0.5  # mm by which a pin may still stand out
 
 

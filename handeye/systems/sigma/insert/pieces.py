@@ -14,15 +14,15 @@ from handeye.core.record import Record
 from handeye.systems.sigma.gantries.world import ACROSS, GantryWorld
 
 MOST: Final = 4
-OFF: Final = 3.0  # mm from its drawn place to where a plate lies, at most
-TURNED: Final = 20.0  # deg by which a peg is turned, at most
-SIDE: Final = 20.0  # mm, of the square section of a peg
-HIGH: Final = 50.0  # mm, of a peg
+OFF: Final = 3.0  # mm by which a plate lies at most beside its place in the drawing
+TURNED: Final = 20.0  # deg by which a peg is rotated at most
+SIDE: Final = 20.0  # mm: side of the square section of a peg
+HIGH: Final = 50.0  # mm: height of a peg
 HOLE: Final = 21.0  # mm, the side of a hole
-THICK: Final = 18.0  # mm, of a plate; its hole goes through
-RACK_X: Final = 300.0  # mm, the middle of a peg that touches wall and tooth of the rack
-_BEFORE: Final = 8.0  # mm along X and Y from there to where a peg stands at the beginning
-_PLATES_X: Final = (100.0, 500.0)  # mm, as drawn, of arm 1 and arm 2
+THICK: Final = 18.0  # mm: thickness of a plate; its hole goes through
+RACK_X: Final = 300.0  # mm: X of the middle of a peg that touches wall and tooth of the rack
+_BEFORE: Final = 8.0  # mm along X and Y from that place to the place of a peg at the beginning
+_PLATES_X: Final = (100.0, 500.0)  # mm: X of the plates of arm 1 and of arm 2 in the drawing
 _PLATE: Final = 70.0  # mm, the side of a plate
 _WALL: Final = (6.0, 10.0)  # mm, thickness and height of the rack
 _PEG_DENSITY: Final = 2700.0  # kg/m3, aluminium
@@ -32,7 +32,7 @@ _PLATE_DENSITY: Final = 7850.0  # kg/m3, steel
 class Peg(Record, frozen=True, kw_only=True):
     """A peg where it stands at the beginning, and the plate with the hole for it (mm)."""
 
-    name: str  # of its body; of its plate's, behind a prefix
+    name: str  # name of the peg's body; with a prefix, of the plate's body
     x: float
     y: float
     turned: float  # deg
@@ -57,7 +57,7 @@ def drawn(world: GantryWorld, count: int) -> tuple[Peg, ...]:
     numbers, pegs = world.numbers("insert"), list[Peg]()
     for number in range(1, count + 1):
         name = f"peg_{number}"
-        way, far = numbers.uniform(0, 2 * np.pi), OFF * np.sqrt(numbers.uniform())  # evenly over a disc
+        way, far = numbers.uniform(0, 2 * np.pi), OFF * np.sqrt(numbers.uniform())  # uniform over a disc
         pegs.append(
             Peg(
                 name=name,
@@ -75,7 +75,7 @@ def stand(spec: mujoco.MjSpec, pegs: tuple[Peg, ...]) -> None:
     """Add the rack, the pegs and their plates to the board."""
     _rack(spec)
     style, box = spec.find_default("piece"), mujoco.mjtGeom.mjGEOM_BOX
-    rim, inner = (_PLATE - HOLE) / 4000, (_PLATE + HOLE) / 4000  # half the width of a rim, and its middle
+    rim, inner = (_PLATE - HOLE) / 4000, (_PLATE + HOLE) / 4000  # m: half the width of a rim, and its middle
     for peg in pegs:
         half = np.radians(peg.turned) / 2
         body = spec.worldbody.add_body(

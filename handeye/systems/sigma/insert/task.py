@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
     from handeye.systems.sigma.gantries.world import GantryWorld
 
-PROUD: Final = 1.0  # mm by which a peg may stand over the floor of its hole
+PROUD: Final = 1.0  # mm: greatest height of a peg over the floor of its hole
 MOVED: Final = 1.0  # mm by which a plate may have moved
-FORCE: Final = 25.0  # N in a wrist along an axis
-_IN_HOLE: Final = (HOLE - SIDE) / 2 + 0.5  # mm from the middle of a hole to that of a peg inside it
+FORCE: Final = 25.0  # N: greatest force in a wrist along an axis
+_IN_HOLE: Final = (HOLE - SIDE) / 2 + 0.5  # mm from the middle of a hole within which a peg is inside it
 
 
 class Insertion(JobTask):

@@ -24,7 +24,7 @@ class WatchedInsertion(HeardTouches, frozen=True, kw_only=True):
     pegs: tuple[Peg, ...]
     most_n: float = 0.0  # N, the greatest force in a wrist along any axis
     slipped: tuple[int, ...] = (0,) * len(AXES)  # poles that each rotor has slipped since the power came on
-    lost: int = 0  # poles of them that make counts wrong, in all
+    lost: int = 0  # sum of the slipped poles that make counts wrong
 
     @property
     def counted(self) -> int | None:

@@ -16,14 +16,14 @@ from handeye.systems.sigma.motors.rotor import STEP
 MOST: Final = 4
 HEIGHT: Final = 40.0  # mm, without the pins
 RADIUS: Final = 14.0  # mm
-PIN: Final = 5.0  # mm by which a pin stands out
+PIN: Final = 5.0  # mm by which a pin stands out at first
 PIN_X: Final = 7.0  # mm along X from the middle of a piece to each of its pins
-BELT_X, BELT_Y = 1150.0, 80.0  # mm, where arm 4 puts finished pieces on the belt
+BELT_X, BELT_Y = 1150.0, 80.0  # mm: place at which arm 4 puts finished pieces on the belt
 PITCH: Final = 70.0  # mm by which the belt advances
 _PUT: Final = 4  # stops of the belt from where a piece is loaded to where it is put back
-_STOPS: Final = 8  # that the belt advances
-_SPREAD: Final = 0.5  # mm by which a height differs from the nominal one, at most
-_FRICTION: Final = (6.0, 12.0)  # N that hold a pin
+_STOPS: Final = 8  # number of times that the belt advances
+_SPREAD: Final = 0.5  # mm by which a height differs at most from the nominal one
+_FRICTION: Final = (6.0, 12.0)  # N: range of the friction that holds a pin
 _PIN_RADIUS: Final = 2.5  # mm
 _PIN_LENGTH: Final = 20.0  # mm
 _PIN_MASS: Final = 0.003  # kg
@@ -34,11 +34,11 @@ PINS: Final = ("a", "b")  # pressed in by the first SUPERSIGMA, and by the secon
 class LinePiece(Record, frozen=True, kw_only=True):
     """A piece on the feeder's tray, as it lies when the power is switched on. Lengths are in mm."""
 
-    name: str  # of its body
+    name: str  # name of the piece's body
     x: float
     y: float
     height: float
-    friction: tuple[float, ...]  # N that hold its pins
+    friction: tuple[float, ...]  # N: friction that holds each pin
 
     @property
     def number(self) -> int:

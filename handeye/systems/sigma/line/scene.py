@@ -17,12 +17,12 @@ FURTHER: Final = 0.75  # m along x from the first SUPERSIGMA to the second one
 TRAY_X, TRAY_Y = (
     0.050,
     0.200,
-)  # m, where arm 1 takes pieces from the feeder, by its first cell with X5 = Y5 = 0
+)  # m: place at which arm 1 takes pieces: that of the first cell with X5 = Y5 = 0
 CELL: Final = 0.060  # m from cell to cell of the tray
 TOP: Final = 0.012  # m, height of the tray and of the belt over the board
 _DEVICES: Final = "supersigma/line.xml"
 _MIDDLE: Final = '<statistic center=".3 .2 .1" extent="1"/>'
-_FURTHER_MIDDLE: Final = '<statistic center=".67 .2 .1" extent="1.7"/>'  # which videos show
+_FURTHER_MIDDLE: Final = '<statistic center=".67 .2 .1" extent="1.7"/>'  # shown by videos
 _NUMBERED: Final = re.compile(r'"([A-Za-z_]+)([12])"')
 _CARRIAGE: Final = re.compile(r'(name="carriage_X[34]" pos=")(\S+)')
 

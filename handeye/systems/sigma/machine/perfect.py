@@ -12,15 +12,15 @@ from handeye.ports.microbus import COMMAND_BYTES, PAGE, Command, MicrobusPort, N
 from handeye.systems.sigma.machine.profiles import move_us, slow_us
 from handeye.systems.sigma.protocol import ANSWERS, AXES, NUMBERS, SLOW_STEP_MM, STEP_MM, Op
 
-BYTE_US: Final = 20  # a slot of the bus
-ANSWER_US: Final = 100  # a byte of an answer
+BYTE_US: Final = 20  # microseconds: a slot of the bus
+ANSWER_US: Final = 100  # microseconds: a byte of an answer
 TIMEOUT_US: Final = 5000
-HAND_US: Final = 150_000  # a hand closes or opens
+HAND_US: Final = 150_000  # microseconds in which a hand closes or opens
 TRAVEL: Final = {"X": 16_000, "Y": 10_667, "Z": 5_333}  # steps
-SWITCHED_ON_AT: Final = 400  # steps from the end of the rail, where axes are found as the power comes on
-BACK: Final = 3000  # steps/s, on the way to the end of the rail
-FORWARD: Final = 500  # steps/s, off its switch again
-RELEASE: Final = 20  # steps that its switch takes
+SWITCHED_ON_AT: Final = 400  # steps from the end of the rail to the axis when the power comes on
+BACK: Final = 3000  # steps/s on the way to the end of the rail
+FORWARD: Final = 500  # steps/s on the way off its switch
+RELEASE: Final = 20  # steps after which the switch is released
 _AXIS: Final = {NUMBERS[axis]: axis for axis in AXES}
 _FORCES: Final = (NUMBERS["FORCE1"], NUMBERS["FORCE2"])
 _HANDS: Final = (NUMBERS["HAND1"], NUMBERS["HAND2"])
@@ -29,14 +29,14 @@ _HANDS: Final = (NUMBERS["HAND1"], NUMBERS["HAND2"])
 class MotorMemory(MutableRecord, kw_only=True):
     """The state of a motor: its count, and the command in progress."""
 
-    count: int = 0  # steps, as it counts
-    place: int = SWITCHED_ON_AT  # steps from the end of its rail, as it is
+    count: int = 0  # steps: the count of the motor
+    place: int = SWITCHED_ON_AT  # steps: the true distance from the end of the rail
     limit: int = 0  # steps/s; 0: none
     status: int = Status.FREE
-    until: int = 0  # microseconds when the command ends
-    begun: int = 0  # microseconds when it began
-    steps: int = 0  # of the command, signed
-    ends: int = Status.FREE  # its status then
+    until: int = 0  # microseconds: time at which the command ends
+    begun: int = 0  # microseconds: time at which the command began
+    steps: int = 0  # signed steps of the command
+    ends: int = Status.FREE  # status at the end of the command
     aborted_at: int = 0  # count at the last abort, or where ORIGIN ended, before it became 0
 
 
@@ -44,14 +44,14 @@ class PerfectMemory(MutableRecord, kw_only=True):
     """The complete state of the machine."""
 
     now: int = 0
-    free_at: int = 0  # when the bus is free
+    free_at: int = 0  # time at which the bus is free
     motors: dict[int, MotorMemory] = field(
         default_factory=lambda: {number: MotorMemory() for number in _AXIS}
     )
-    hands: dict[int, int] = field(default_factory=lambda: dict.fromkeys(_HANDS, 0))  # when each is free
+    hands: dict[int, int] = field(default_factory=lambda: dict.fromkeys(_HANDS, 0))  # when each hand is free
     devices: dict[int, dict[int, int]] = field(default_factory=lambda: {number: {} for number in _HANDS})
     answer: bytes | None = None
-    asked: tuple[int, int, int] = (0, 0, 0)  # number, bytes that come, bytes that are wanted
+    asked: tuple[int, int, int] = (0, 0, 0)  # number, bytes of the answer, bytes that are wanted
 
 
 class PerfectMotors(MicrobusPort):
@@ -138,7 +138,7 @@ class PerfectMotors(MicrobusPort):
     def _accept(self, command: Command) -> bytes | None:
         """Let a microcomputer take a command if it is listening. Returns its answer, or None."""
         number, busy = command.number, self._status(command.number) == Status.BUSY
-        if number in _FORCES:  # its force is 0: nothing is in the way
+        if number in _FORCES:  # the answer is a force of 0, because nothing is in the way
             return bytes(ANSWERS[Op.FORCE]) if command.op == Op.FORCE else None
         if busy:
             return None
@@ -174,7 +174,7 @@ class PerfectMotors(MicrobusPort):
             time = motor.place * 1_000_000 // BACK + RELEASE * 1_000_000 // FORWARD
             self._begin(motor, -motor.place, time)
             motor.aborted_at = motor.count - motor.place
-            motor.count = motor.place  # it counts from the end of the rail
+            motor.count = motor.place  # the motor counts from the end of the rail
         elif op in (Op.MOVE, Op.MOVE_SLOW):
             self._move(motor, axis, command, steps, Status(was))
         return None

@@ -15,8 +15,8 @@ from handeye.systems.sigma.mal.memory import MalMemory, Motors, Outgoing, Owner,
 from handeye.systems.sigma.mal.words import MAL_DEVICES
 from handeye.systems.sigma.protocol import AXES, LINE_AXES, STEP_MM, Op
 
-_LARGEST_STEPS: Final = 0x7FFF  # of a count, which has 16 bits with its sign
-ORIGIN_STEPS: Final = 2  # by which the same switch may be found elsewhere; a rotor slips by four
+_LARGEST_STEPS: Final = 0x7FFF  # the greatest count, which has 16 bits with its sign
+ORIGIN_STEPS: Final = 2  # greatest difference between two finds of the same switch; a rotor slips by four
 
 
 class BusOperations:

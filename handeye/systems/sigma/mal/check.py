@@ -350,7 +350,7 @@ _RANGES: Final = {
     "SPEED": (0.0, 2400.0, "a speed limit (mm/s)"),
     "LIMIT": (0.0, 655.0, "a force limit (N)"),
     "DELAY": (0.0, 86400.0, "a delay (s)"),
-}  # least and most that each takes
+}  # least and greatest value of each
 
 
 def constant(expression: Expression) -> float | None:

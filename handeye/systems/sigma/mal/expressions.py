@@ -40,7 +40,7 @@ class ExpressionReader(TokenReader):
         return self._relation()
 
     def _relation(self) -> Expression:
-        if self._is("("):  # of a condition, unless an expression is what it encloses
+        if self._is("("):  # it encloses a condition, or else an expression
             mark, depth = self._at, self._depth
             self._take()
             try:

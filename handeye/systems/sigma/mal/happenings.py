@@ -31,7 +31,7 @@ class CommandSent(SystemEvent, frozen=True, kw_only=True):
 
     importance: ClassVar[Importance] = "debug"
     task: str
-    to: str  # its name
+    to: str  # name of the microcomputer
     frame: str  # the bytes, hexadecimal
     means: str
 
@@ -78,7 +78,7 @@ class MotorAborted(SystemEvent, frozen=True, kw_only=True):
     position."""
 
     importance: ClassVar[Importance] = "warning"
-    task: str  # that had sent it on its way
+    task: str  # the task that had started the motion
     axis: str
     cause: str  # RAIL or FORCE
     at: float  # mm

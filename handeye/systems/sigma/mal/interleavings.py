@@ -58,15 +58,15 @@ class OrderFinding(Record, frozen=True, kw_only=True):
     kind: FindingKind
     told: str
     lines: tuple[int, ...]
-    schedule: tuple[Act, ...]  # the shortest that leads there
+    schedule: tuple[Act, ...]  # the shortest schedule that leads to the problem
 
 
 class Interleavings(Record, frozen=True, kw_only=True):
     """The result of trying all orders of the tasks."""
 
     states: int
-    complete: bool  # all orders were tried
-    ends: int  # different memories with which the program ends
+    complete: bool  # True: all orders were tried
+    ends: int  # number of different states in which the program ends
     findings: tuple[OrderFinding, ...]
     unreached: tuple[int, ...] = ()  # lines that no order executes; empty unless all orders were tried
 
@@ -272,7 +272,7 @@ class _Search:
         memory = state.memory
         if memory.fault is not None:
             line = self.program.line_of(memory.fault.address).number
-            if memory.fault.kind != "fail":  # which the program wants
+            if memory.fault.kind != "fail":  # such a stop is what the program wants
                 self._find("stops", memory.fault.told, [line], key)
             return
         if not memory.tasks:

@@ -10,7 +10,7 @@ from handeye.systems.sigma.mal.memory import Outgoing
 from handeye.systems.sigma.protocol import SLOW_STEP_MM, STEP_MM
 
 FASTEST_CODE: Final = 18  # 36 mm/s, below start/stop speed, so that no axis has a ramp
-_STRAIGHT_MM: Final = 0.4  # by how much the path of a part may be off
+_STRAIGHT_MM: Final = 0.4  # greatest deviation of the path of a part from the straight line
 
 
 def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> list[Outgoing]:

@@ -65,14 +65,14 @@ class TaskMemory(MutableRecord, kw_only=True):
     """The state of a task."""
 
     pc: Address
-    amid: bool = False  # in the middle of a statement, which waits
+    amid: bool = False  # True: the task waits in the middle of a statement
     stack: list[float] = field(default_factory=list)
-    returns: list[int] = field(default_factory=list)  # addresses behind each GOSUB under way
+    returns: list[int] = field(default_factory=list)  # for each GOSUB under way, the address after it
     loops: list[Loop] = field(default_factory=list)
     waits: Waiting | None = None
     outgoing: list[Outgoing] = field(default_factory=list)
     handlers: dict[str, int] = field(default_factory=dict)  # addresses, by axis; empty: for all axes
-    resume: int | None = None  # address behind the statement that was aborted last
+    resume: int | None = None  # the address after the statement that was aborted last
 
 
 class Fault(Record, frozen=True, kw_only=True):
@@ -80,7 +80,7 @@ class Fault(Record, frozen=True, kw_only=True):
 
     kind: Literal["trap", "abort", "deadlock", "input", "break", "fail"]
     task: str
-    address: Address  # of the statement
+    address: Address  # address of the statement
     told: str
 
 
@@ -94,10 +94,10 @@ class Owner(Record, frozen=True, kw_only=True):
 class MalMemory(MutableRecord, kw_only=True):
     """The state of a running program."""
 
-    tasks: dict[str, TaskMemory] = field(default_factory=dict)  # those not ended, in the order of their start
+    tasks: dict[str, TaskMemory] = field(default_factory=dict)  # unfinished tasks, in order of start
     turn: str = ""  # the task that goes on next; empty: none
     last: str = ""  # the task that had its turn last
-    flags: tuple[str, ...] = ()  # those set, in order of names
+    flags: tuple[str, ...] = ()  # the flags that are set, in the order of their names
     variables: dict[str, float] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=dict)  # steps, by axis
     originated: tuple[str, ...] = ()
@@ -110,7 +110,7 @@ class MalMemory(MutableRecord, kw_only=True):
     doubtful: tuple[str, ...] = ()  # axes whose counts may be wrong, until ORIGIN
     printed: str = ""  # the line of the console that is not ended
     fault: Fault | None = None
-    began: int = 0  # microseconds of the machine as the program began
+    began: int = 0  # microseconds: time of the machine when the program began
     worked: int = 0  # microseconds in which the central computer had something to do
     commands: int = 0
-    questions: int = 0  # counted among the commands, too
+    questions: int = 0  # questions; `commands` includes them

@@ -27,9 +27,9 @@ from handeye.systems.sigma.mal.memory import (
 from handeye.systems.sigma.protocol import name_of
 
 DEEPEST_GOSUB: Final = 1000
-LONGEST_PRINTED: Final = 2000  # characters of a line
-ZONE: Final = 14  # columns of PRINT
-_MOST_INSTRUCTIONS: Final = 100_000  # of a statement: none has a loop
+LONGEST_PRINTED: Final = 2000  # greatest number of characters in a printed line
+ZONE: Final = 14  # columns in a zone of PRINT
+_MOST_INSTRUCTIONS: Final = 100_000  # greatest number of instructions in a statement; none has a loop
 
 
 class Operations(BusOperations):

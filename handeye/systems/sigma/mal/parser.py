@@ -22,7 +22,7 @@ from handeye.systems.sigma.mal.syntax import (
 from handeye.systems.sigma.mal.token_reader import Mistaken
 from handeye.systems.sigma.mal.words import MAL_DEVICES, RESERVED, STATEMENTS
 
-LARGEST_NUMBER: Final = 99_999  # of a line
+LARGEST_NUMBER: Final = 99_999  # greatest number of a line
 MOST_LINES: Final = 5000
 
 

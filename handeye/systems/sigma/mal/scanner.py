@@ -58,6 +58,6 @@ def tokens(line: str, start: int) -> tuple[list[Token], Diagnostic | None]:
         if kind != "blank":
             upper = text.upper() if kind == "name" else text
             found.append(Token(kind, upper, start + match.start(), start + at))  # type: ignore[arg-type]  # a group's name
-            if upper == "REM" and len(found) <= 2:  # behind its line number, if it has one
+            if upper == "REM" and len(found) <= 2:  # at the beginning, or after a line number
                 break
     return found, None

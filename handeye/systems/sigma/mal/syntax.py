@@ -74,8 +74,8 @@ class Statement:
     goals: tuple[AxisGoal, ...] = ()
     slow: Expression | None = None
     straight: bool = False  # LINE
-    waits: bool = True  # not NOWAIT
-    items: tuple["Text | Expression | str", ...] = ()  # of PRINT and STOP; a separator as it is
+    waits: bool = True  # False with NOWAIT
+    items: tuple["Text | Expression | str", ...] = ()  # of PRINT and STOP; separators as they are
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,6 +85,6 @@ class Line:
     number: int
     task: str
     statement: Statement
-    row: int  # of the text, from 1
+    row: int  # row in the text, from 1
     text: str  # the statement as it is written
-    span: Span  # of its number
+    span: Span  # span of the line number

@@ -29,8 +29,8 @@ from handeye.systems.sigma.mal.operations import Operations
 from handeye.systems.sigma.mal.syntax import MAIN
 from handeye.systems.sigma.protocol import STEP_MM
 
-STATEMENT_US: Final = 2000  # the central computer needs this for a statement
-ARITHMETIC_SHARE: Final = 4  # an instruction that calculates takes this part of it
+STATEMENT_US: Final = 2000  # time that the central computer needs for a statement
+ARITHMETIC_SHARE: Final = 4  # a calculation takes 1 / this number of that time
 DOUBT_N: Final = 20.0  # force on a wrist above which the count of its axis is doubted
 NEIGHBOURS: Final = {1: 2, 2: 1, 3: 4, 4: 3}  # arms with wrists, and the arm on the same rail
 NEAR_MM: Final = 500.0  # X1 + X2 from which on an arm may have hit the other arm; their hands meet at 560

@@ -10,7 +10,7 @@ from handeye.core.plain_text import counted
 from handeye.systems.sigma.motors.study import AxisStudy, series, verdict
 
 _HEIGHT: Final = 8  # lines of a plot as text
-_NAME: Final = 10  # columns before it
+_NAME: Final = 10  # columns before the plot
 _WIDTH, _TALL, _LEFT, _TOP, _GAP = 720, 170, 70, 56, 46  # px
 _STYLE: Final = (
     "text{font:11px ui-monospace,'DejaVu Sans Mono',Menlo,Consolas,monospace;fill:#222}"

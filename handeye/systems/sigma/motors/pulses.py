@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from handeye.core.record import Record
 
-CLOCK_HZ: Final = 2_000_000  # of the 8253
-LARGEST_DIVIDER: Final = 0xFFFF  # its counters have 16 bits
-SHORT: Final = 8  # steps that are made at start/stop speed throughout
+CLOCK_HZ: Final = 2_000_000  # clock of the 8253
+LARGEST_DIVIDER: Final = 0xFFFF  # the counters of the 8253 have 16 bits
+SHORT: Final = 8  # a move of at most this many steps is made at start/stop speed
 EMERGENCY: Final = 140_000.0  # steps/s2, the steepest ramp
 SEEK: Final = 3_000.0  # steps/s towards the end of the rail
-RELEASE: Final = 500.0  # steps/s away from it
-_GRID: Final = 512  # points of a ramp between which its inverse begins
+RELEASE: Final = 500.0  # steps/s away from the end of the rail
+_GRID: Final = 512  # points of a ramp, between which its inverse is interpolated at first
 _NEWTON: Final = 3
 
-Ticks = NDArray[np.int64]  # of the clock of 2 MHz
+Ticks = NDArray[np.int64]  # ticks of the 2 MHz clock
 
 
 class Curve(Record, frozen=True, kw_only=True):
@@ -31,7 +31,7 @@ class Curve(Record, frozen=True, kw_only=True):
 
     start: float = 1_000.0  # steps/s at which a motor may start and stop at once
     top: float = 13_333.0  # steps/s
-    acceleration: float = 56_000.0  # mean of a ramp, steps/s2
+    acceleration: float = 56_000.0  # steps/s2: mean acceleration in a ramp
 
 
 CURVES: Final = (
@@ -50,7 +50,7 @@ class Train(Record, frozen=True, kw_only=True):
     """
 
     kind: Literal["profile", "stop"] = "profile"
-    steps: int  # of a stop: at most
+    steps: int  # for a stop: the greatest number of steps
     start: float  # steps/s
     top: float
     acceleration: float = 0.0  # steps/s2
@@ -72,7 +72,7 @@ class Pulses:
     """The pulses of a train."""
 
     def __init__(self, ticks: Ticks) -> None:
-        self.ticks = ticks  # of each pulse after the command, rising
+        self.ticks = ticks  # time of each pulse after the command, in ascending order
         ticks.setflags(write=False)
 
     def __len__(self) -> int:

@@ -21,13 +21,13 @@ STEP: Final = STEP_MM / 1000  # m
 POLE: Final = 4  # steps
 MASSES: Final = {"X": 12.0, "Y": 8.0, "Z": 2.5}  # kg that each axis moves
 FRICTION: Final = 0.5  # N s/m for each kg
-_FINE: Final = 1e-4  # s, steps of the sine
-_COARSE: Final = 1e-3  # s, steps of the balance
-_JUMP: Final = 1.1 * CURVES[0].start  # steps/s within a millisecond that no one needs to ask for
+_FINE: Final = 1e-4  # s: step of the sine model
+_COARSE: Final = 1e-3  # s: step of the balance model
+_JUMP: Final = 1.1 * CURVES[0].start  # steps/s: a jump of speed within a millisecond that is always allowed
 _SMOOTH: Final = 5  # ms
 _NOTHING: Final = 1e-9  # N
-_SETTLE: Final = 0.1  # s after the last pulse
-_FULL: Final = 2 * math.pi / POLE  # rad of the sine for a step of lag
+_SETTLE: Final = 0.1  # s that are simulated after the last pulse
+_FULL: Final = 2 * math.pi / POLE  # rad in the sine for each step of lag
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,8 +38,8 @@ class Drive:
     friction: float = FRICTION  # N s/m for each kg
     load: float = 0.0  # N against the motion
     start_force: float = 200.0  # pull-out force at start/stop speed, N
-    top_force: float = 20.0  # at the greatest speed
-    damping: float = 0.1  # of the rotor about its field, as a share of critical, at start/stop speed
+    top_force: float = 20.0  # pull-out force at the greatest speed, N
+    damping: float = 0.1  # damping ratio of the rotor in its field at start/stop speed
 
     def pull_out(self, speed: float) -> float:
         """Return the greatest force (N) at a speed (steps/s)."""
@@ -63,11 +63,11 @@ class Drive:
 class Followed:
     """How well a rotor followed its pulses."""
 
-    lost: int  # poles by which it is behind at the end; negative: ahead
-    lag: float  # the greatest, steps
+    lost: int  # poles by which the rotor is behind at the end; negative: ahead
+    lag: float  # greatest lag, steps
     margin: float  # least ratio of the pull-out force to the required force; below 1 the rotor cannot follow
-    tightest: float  # s, when
-    rotor: NDArray[np.float64]  # steps it has made, each `period`
+    tightest: float  # time of the least ratio, s
+    rotor: NDArray[np.float64]  # steps that the rotor has made after each `period`
     period: float  # s
 
     @property
@@ -118,7 +118,7 @@ class Balance:
         self.drive = drive
         self.state: Literal["caught", "strained", "slipping"] = "caught"
         self.place = 0.0  # steps
-        self.off = 0  # steps, whole poles, between its pole and the one it should follow
+        self.off = 0  # steps (whole poles) between its pole and the pole that it should follow
         self._lag = self._growing = 0.0  # steps behind its pole, steps/s
         self._speed = self._before = 0.0  # steps/s of the rotor, and of the field a millisecond ago
 

@@ -22,7 +22,7 @@ from handeye.systems.sigma.motors.pulses import (
 from handeye.systems.sigma.motors.rotor import POLE, Drive, by_balance, by_sine, wanted
 from handeye.systems.sigma.protocol import LONGEST_MOVE, STEP_MM
 
-_ROWS: Final = 12  # of the table
+_ROWS: Final = 12  # rows of the table
 _HEAVIEST: Final = 1000.0  # kg
 
 
@@ -31,8 +31,8 @@ class Moment(Record, frozen=True, kw_only=True):
 
     time: float  # s
     speed: float  # steps/s
-    force: float  # N, required
-    pull_out: float  # N, available: the pull-out force
+    force: float  # N: required force
+    pull_out: float  # N: available force (pull-out force)
 
 
 class AxisStudy(Record, frozen=True, kw_only=True):
@@ -48,11 +48,11 @@ class AxisStudy(Record, frozen=True, kw_only=True):
     top: float  # steps/s
     moments: tuple[Moment, ...]
     margin: float  # least ratio of the pull-out force to the required force
-    tightest: float  # s, when
+    tightest: float  # time of the least ratio, s
     starts: bool  # the rotor can follow the jump to start/stop speed by itself
-    lag: float  # the greatest by the sine, steps; the rotor slips at 2
-    lost: int  # poles by the sine
-    kept: bool  # it never left its pole
+    lag: float  # steps: greatest lag in the sine model; the rotor slips at 2
+    lost: int  # poles lost in the sine model
+    kept: bool  # True: the rotor never left its pole
     lost_by_balance: int
 
 

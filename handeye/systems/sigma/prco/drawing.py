@@ -19,7 +19,7 @@ NEST: Final = Place(300, 200)
 STAND: Final = Place(100, 290)
 BASE: Final = (158.0, 80.0, 40.0)
 PLATE: Final = (154.0, 76.0, 8.0)
-HUB: Final = (20.0, 20.0, 25.0)  # on the middle of the plate, where a hand holds it
+HUB: Final = (20.0, 20.0, 25.0)  # on the middle of the plate; a hand holds the plate by the hub
 STAND_HEIGHT: Final = 20.0
 PLAY: Final = 0.3  # between the base and each stop of its nest
 
@@ -48,10 +48,10 @@ DISPENSER_PITCH: Final = 20.0
 DISPENSER_HEIGHT: Final = 30.0
 
 # The screwdriver of arm 2
-BIT: Final = 5.0  # of its face over the tips of the fingers: a screw on it breaks the light beam
+BIT: Final = 5.0  # height of its face over the fingertips; a screw on the bit breaks the light beam
 
-_HOLE: Final = 0.03  # by which a hole is off its place in x and in y, at most
-_FRICTION: Final = (0.87, 1.13)  # of a thread, over its nominal friction
+_HOLE: Final = 0.03  # greatest error of the place of a hole in x and in y
+_FRICTION: Final = (0.87, 1.13)  # friction of a thread, as a multiple of its nominal friction
 
 
 class Pump(Record, frozen=True, kw_only=True):
@@ -67,7 +67,7 @@ class Pump(Record, frozen=True, kw_only=True):
     base_taps: tuple[Place, ...]
     plate_pins: tuple[Place, ...]
     plate_bores: tuple[Place, ...]
-    phases: tuple[float, ...]  # where each thread begins, rad
+    phases: tuple[float, ...]  # rad: angle at which each thread begins
     friction: float  # coefficient of the threads
 
     @property

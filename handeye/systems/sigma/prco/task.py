@@ -31,13 +31,13 @@ if TYPE_CHECKING:
     from handeye.systems.sigma.gantries.world import GantryWorld
 
 # The limits of screws are those of the pump (handeye/tasks/water_pump/referee/limits.py).
-HEAD_GAP: Final = 0.2  # mm under a head
-LEAN: Final = 1.0  # deg of a screw or pin
-CLAMP: Final = 40.0  # N, at least
-STRAIN: Final = 420.0  # N, at most
-SEATED: Final = 0.3  # mm of the plate over the base
-PIN_SEATED: Final = 0.5  # mm of a pin over the floor of its hole
-PIN_PLACE: Final = 0.3  # mm of a pin from the axis of its hole
+HEAD_GAP: Final = 0.2  # mm: greatest gap under a head
+LEAN: Final = 1.0  # deg: greatest tilt of a screw or pin
+CLAMP: Final = 40.0  # N: least clamping force
+STRAIN: Final = 420.0  # N: greatest clamping force
+SEATED: Final = 0.3  # mm: greatest height of the plate over the base
+PIN_SEATED: Final = 0.5  # mm: greatest height of a pin over the floor of its hole
+PIN_PLACE: Final = 0.3  # mm: greatest distance of a pin from the axis of its hole
 
 
 class Plate(JobTask):

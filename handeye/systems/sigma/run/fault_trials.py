@@ -27,9 +27,9 @@ _LONGEST: Final = 600.0  # s of simulated time after which a program counts as e
 class MalFaultRow(TrialRow, frozen=True, kw_only=True):
     """The trial of one fault. The row's `condition` names the fault."""
 
-    result: str = ""  # of the job: right, stopped, endless or silent
+    result: str = ""  # result of the job: right, stopped, endless or silent
     message: str = ""  # why the program stopped, or what the referee found
-    part: str = ""  # that has the fault
+    part: str = ""  # the part that has the fault
     named: str = ""  # the part that DIAGNOSE names; empty: it cannot decide
 
     @property

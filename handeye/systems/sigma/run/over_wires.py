@@ -13,7 +13,7 @@ from handeye.systems.sigma.mal.compiler import MalProgram
 from handeye.systems.sigma.mal.virtual_machine import VirtualMachine
 
 _MICROSECONDS: Final = 1_000_000
-_LONGEST: Final = 3_600  # s by the clock of the machine
+_LONGEST: Final = 3_600  # s: longest run, by the clock of the machine
 ENDED: Final = "all tasks have ended"
 
 
@@ -23,7 +23,7 @@ class BusRun(Record, frozen=True, kw_only=True):
     completed: bool
     message: str  # why the program did not finish; empty if it did
     seconds: float
-    commands: int  # questions among them
+    commands: int  # number of commands, including questions
     per_second: float
     saturation: float  # fraction of the greatest number of commands that the bus can carry
     idle: float  # fraction of the time in which no statement could be executed

@@ -33,8 +33,8 @@ class MalPlan(Record, frozen=True, kw_only=True):
     """
     statement_us: Annotated[int, msgspec.Meta(ge=0, le=LONGEST_STATEMENT_US)] = STATEMENT_US
 
-    pieces: Annotated[int, msgspec.Meta(ge=0, le=MOST_PIECES)] = 0  # on the board, with gantries
-    job: JobName = "chess"  # whose pieces they are
+    pieces: Annotated[int, msgspec.Meta(ge=0, le=MOST_PIECES)] = 0  # pieces on the board of the gantries
+    job: JobName = "chess"  # the job to which the pieces belong
 
     @property
     def task(self) -> TaskName:

@@ -37,8 +37,8 @@ if TYPE_CHECKING:  # programs run on perfect motors without a simulator
     from handeye.systems.sigma.gantries.machine import Gantries
     from handeye.systems.sigma.gantries.witness import Witness
 
-COMMANDS_PER_SECOND: Final = 10_000  # that the bus carries at most
-WATCHED: Final = 50  # periods in a second that a trace keeps of the gantries
+COMMANDS_PER_SECOND: Final = 10_000  # greatest number of commands that the bus can carry
+WATCHED: Final = 50  # states of the gantries that a trace keeps per second
 
 
 class RunningMal(NumberedRun):

@@ -14,8 +14,8 @@ class MalState(SystemState, kw_only=True):
     """The complete state of a run, except the program."""
 
     memory: MalMemory = field(default_factory=MalMemory)
-    machine: PerfectMemory | None = None  # of perfect motors
-    bus: BusMemory | None = None  # of a bus with wires
+    machine: PerfectMemory | None = None  # state of perfect motors
+    bus: BusMemory | None = None  # state of a bus with wires
     standing: list[TaskPlace] = field(default_factory=list)
     """The place of each unfinished task; the task whose turn it is comes first."""
 
