@@ -17,8 +17,8 @@ def blocks(
     """Stack three toy blocks by touch.
 
     `plans/blocks.ml` grasps each block along x and then along y, so that it lies in the middle of the hand, and puts it
-    down with a guarded move. A referee then checks that each block is centred on the one below to within 2 mm, and that
-    no block leans by more than 2 degrees.
+    down with a guarded move, which stops at a contact. A referee then checks that each block is centred on the block
+    below to within 2 mm, and that no block leans by more than 2 degrees.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
