@@ -21,7 +21,7 @@ Pair = tuple[int | None, int | None]  # numbers of a step before and after; None
 
 
 def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
-    """Pair the steps of two programs. Each step occurs in one pair, in the order of the text.
+    """Pair the steps of two programs. Each step occurs in exactly one pair. The pairs are in the order of the text.
 
     Identical steps are matched first. Between two matches, steps are paired by their statements, and then by the
     kinds of their operations, so that a changed step does not count as one removed step and one added step.
@@ -80,7 +80,7 @@ def does(step: Step) -> dict[str, Any]:
     return found
 
 
-_TOLERANCE_M: Final = 1e-9  # m; smaller shifts are rounding
+_TOLERANCE_M: Final = 1e-9  # m; smaller shifts are rounding errors
 _LEAST_TURN: Final = 1e-6  # rad; the precision of an arc cosine near 1
 
 
@@ -137,7 +137,7 @@ def _pose(place: Position | Part) -> Pose:
     return planar(*place.at) if isinstance(place, Part) else hand(*place.at)
 
 
-_ALIKE = 1e-9  # m, rad or s; smaller differences of motions are rounding
+_ALIKE = 1e-9  # m, rad or s; smaller differences between motions are rounding errors
 
 
 class MotionChange(Record, frozen=True, kw_only=True):
@@ -146,16 +146,16 @@ class MotionChange(Record, frozen=True, kw_only=True):
     before: float | None  # planned duration, s; None if there was no motion
     after: float | None
     joint: int | None = None
-    """The joint, from 1, whose end position changed most, measured in travel time; None if the end positions agree
-    or the arms differ.
+    """Number (from 1) of the joint whose end position changed most. A change is measured by the time in which the joint
+    travels that far. None if the end positions agree or the arms differ.
     """
     name: str = ""
     kind: Literal["revolute", "prismatic"] | None = None
-    moved: float = 0.0  # displacement of that joint's end, rad or m
+    moved: float = 0.0  # change of that joint's end position, rad or m
 
 
 class StepChange(Record, frozen=True, kw_only=True):
-    """A step that was added, removed or changed, or a step whose motion alone changed (`replanned`)."""
+    """A step that was added, removed or changed, or a step of which only the motion changed (`replanned`)."""
 
     kind: Literal["added", "removed", "changed", "replanned"]
     before: int | None

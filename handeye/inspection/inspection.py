@@ -1,9 +1,9 @@
 """The contents of a plan as data and as text: stages and steps, durations, guards, and the measurements on which
 each step depends.
 
-A step may depend on measurements made during the run: seen parts, saved positions and differences, a search. The
-newest measurements that can be valid at a step are computed over all paths through the graph, including loops and
-error edges.
+A step may depend on measurements made during the run: the places of parts that vision located, saved positions and
+differences, and the place that a search has reached. The newest measurements that can be valid at a step are computed
+over all paths through the graph, including loops and error edges.
 """
 
 from typing import Final, Literal, get_args
@@ -54,8 +54,8 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """Return the measured values that a motion or look needs. The flag is True if only the horizontal part of the
-    value is needed. `kept` holds the positions that `HERE` defines.
+    """Return the measured values that a motion or look needs. Each comes with a flag, which is True if only the
+    horizontal part of the value is needed. `kept` holds the positions that `HERE` defines.
     """
     found: list[tuple[Key, bool]] = []
     for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():

@@ -36,8 +36,8 @@ def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[s
     """Find the bodies of `model` that differ from the original model `drawn`, each with the kinds of properties
     that differ.
 
-    The mask `parts`, shape (nbody,), selects the bodies to compare. Any difference counts, however small,
-    because a scene is the same, byte for byte, each time that it is built.
+    The mask `parts`, shape (nbody,), selects the bodies to compare. Any difference counts, however small, because
+    building a scene again gives the same bytes.
     """
     if any(getattr(model, count) != getattr(drawn, count) for count in (*_COUNTS.values(), "nmeshvert")):
         return {"the scene": ["number of elements"]}

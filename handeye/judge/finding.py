@@ -41,7 +41,7 @@ class Finding:
         return self.value - self.limit if self.relation == "at most" else self.limit - self.value
 
 
-Findings = Mapping[str, Finding]  # by the names of the points
+Findings = Mapping[str, Finding]  # by the name of the point that was checked
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:

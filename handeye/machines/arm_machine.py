@@ -14,7 +14,7 @@ from handeye.core.pose import Array
 from handeye.core.resources import scenes
 from handeye.ports.axes import AxisSpec, Channel
 
-if TYPE_CHECKING:  # machines stand on a bench of the cell; their limits are read where there is no simulator
+if TYPE_CHECKING:  # for types only: the limits of a machine are also read where there is no simulator
     import mujoco
 
     from handeye.cell.bench import Bench
@@ -30,7 +30,7 @@ class HandlingLimits:
     settling: float  # s to wait after a move, until the servos have settled
     standing: tuple[float, ...]  # m and rad that an axis at rest may be from its goal
     lag: float  # s that an axis may lag behind its goal while it moves
-    open: float  # goal of an open hand, m between the fingers, as `closed`
+    open: float  # goal that opens the hand, m between the fingers; `closed` likewise
     closed: float
     grasping: float  # s to wait after a goal of the hand
     carried: float  # N upwards on the finger, beyond which something else carries the held object
@@ -43,7 +43,7 @@ class ArmMachine:
 
     name: str
     scene_file: str  # below the folder of scenes, or an absolute path
-    period: float  # s between two goals that its controller accepts
+    period: float  # least time between two goals that its controller accepts, s
     axes: tuple[AxisSpec, ...]
     hand: AxisSpec
     force: Channel  # force that the finger exerts, N, shape (3,)

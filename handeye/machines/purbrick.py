@@ -16,7 +16,7 @@ PURBRICK: Final = ArmMachine(
     name="purbrick",
     scene_file="purbrick_arm/purbrick.xml",
     period=0.01,
-    axes=(  # values of X and Y are those of the hand over the platter
+    axes=(  # x and y: place of the hand over the platter
         AxisSpec(name="x", kind="prismatic", lower=-0.2, upper=0.2, speed=0.2),
         AxisSpec(name="y", kind="prismatic", lower=-0.2, upper=0.2, speed=0.2),
         AxisSpec(name="z", kind="prismatic", lower=0.0, upper=0.3, speed=0.2),
@@ -24,7 +24,7 @@ PURBRICK: Final = ArmMachine(
         AxisSpec(name="pitch", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
         AxisSpec(name="yaw", kind="revolute", lower=-_TURN, upper=_TURN, speed=1.0),
     ),
-    # fingers that are given their goal at once strike a block at .8 m/s
+    # if the goal did not move at this speed but jumped, the fingers would strike a block at .8 m/s
     hand=AxisSpec(name="hand", kind="prismatic", lower=0.0, upper=0.048, speed=0.2, force=30.0),
     force=Channel(name="force", unit="N", width=3),
     force_sensor="strain",
@@ -35,7 +35,7 @@ PURBRICK: Final = ArmMachine(
         standing=(*3 * (1e-3,), *3 * (1e-2,)),  # 100 N push the platter's servo this far
         lag=0.03,  # the servos lag by .02 s
         open=0.048,
-        closed=-0.020,  # the hand never gets there, and so presses with all its force
+        closed=-0.020,  # the hand cannot reach this goal, so it presses with all its force
         grasping=0.2,
         carried=0.28,  # an ounce, the weight of a block
         # Measured: at most 1.8 N on the way back from a stack of four blocks, where closed fingers return to the

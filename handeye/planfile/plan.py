@@ -24,7 +24,7 @@ class PlannedMotion(Record, frozen=True, kw_only=True):
 
 
 class Plan(Record, frozen=True, kw_only=True):
-    """A program, and the motions of one arm for it."""
+    """A program, together with the motions that one arm makes to execute it."""
 
     format: str = "handeye plan"
     version: int = VERSION
@@ -37,5 +37,5 @@ class Plan(Record, frozen=True, kw_only=True):
 
     @property
     def joint_counts(self) -> tuple[int, ...]:
-        """The numbers of joints that occur in the motions. A valid plan has exactly one number."""
+        """The numbers of joints that occur in the motions. In a valid plan, there is exactly one such number."""
         return tuple(sorted({len(knot) for motion in self.motions.values() for knot in motion.knots}))

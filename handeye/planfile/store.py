@@ -105,7 +105,7 @@ def plan_digest(plan: Plan) -> str:
     The digits are the same on every processor. To compare the computed numbers as well, use `alike`.
     """
     program = plan.program
-    here = program.written("position")  # planned, or taught and then moved
+    here = program.written("position")  # positions that a `HERE` defines or moves: not only taught
     taught = {name: place for name, place in program.positions.items() if name not in here}
     texts = (program.name, program.language, program.source, program.required)
     cell = (taught, program.parts, program.fixtures, program.held)
@@ -117,8 +117,7 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """Remove all floating-point numbers from a value made of dictionaries and lists, because they may have been
-    computed.
+    """Remove all floating-point numbers, which may have been computed, from a value made of dictionaries and lists.
     """
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}

@@ -1,4 +1,4 @@
-"""The gap of the hand and the object in it, as far as the program determines them."""
+"""The gap of the hand and the object in the hand, as far as the program determines them."""
 
 from dataclasses import dataclass, field
 

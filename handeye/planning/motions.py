@@ -17,8 +17,8 @@ from handeye.core.units import DEGREE, INCH
 from handeye.program.motion_operations import Change, Move, Turn
 
 CLEARANCE: Final = 3.0 * INCH
-"""Height (m) of departure and approach points. "A few inches" in 1972; three inches by recollection (reference
-D10).
+"""Height (m) of departure and approach points. The account of 1972 says "a few inches"; three inches is a recollection
+(decision D10).
 """
 LEAST_CLEARANCE: Final = 0.5 * INCH  # least height, even of a motion between near places
 GUARDED_SPEED: Final = 1.0 * INCH

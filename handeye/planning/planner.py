@@ -38,7 +38,7 @@ Fitted: with the assumed acceleration limits, the whole job takes about four min
 section 5). One fitted number is no evidence of the speed of the real arm.
 """
 HOME = "PARK"  # the position a program starts from
-_COLLISION_STRIDE = 2  # servo periods between checks of a free motion: under .6 in at the pump's speeds
+_COLLISION_STRIDE = 2  # servo periods between checks of a free motion: under .6 in of motion at the pump's speeds
 
 
 def make_plan(
@@ -46,8 +46,9 @@ def make_plan(
 ) -> tuple[Plan | None, list[PlanFinding]]:
     """Plan a program for an arm. Returns the plan, or None if there are errors, and the findings.
 
-    A position that only a `HERE` defines has the pose that is planned for it. The arm begins at `start`, shape
-    (n,), rad and m. By default it begins at the position `HOME`, or if there is none, at the first goal.
+    A position that only a `HERE` defines gets the pose that the arm is planned to have at that `HERE`. The arm begins
+    at `start`, shape (n,), rad and m. By default it begins at the position `HOME`, or if there is none, at the first
+    goal.
     """
     findings = FindingList()
     walk = _Walk(
@@ -146,7 +147,7 @@ class _Walk:
             return
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = PlannedMotion(knots=knots, times=tuple(float(t) for t in trajectory.times))
-        begin = 0.0 if self.known else float(trajectory.times[:-1].sum())  # the approach is always that one
+        begin = 0.0 if self.known else float(trajectory.times[:-1].sum())  # the approach is known in any case
         count = 2 + int((trajectory.duration - begin) / (_COLLISION_STRIDE * self.arm.servo.period))
         q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
         if not operation.guards:

@@ -19,7 +19,7 @@ LENSES: Final = (WIDE, CLOSE_UP)
 FIRST_LENS: Final = CLOSE_UP
 """The lens in place when the cell is switched on. It is also the lens of the last picture of a run."""
 
-DIGITISE: Final = 0.5  # s for a picture: the layout study, 6
+DIGITISE: Final = 0.5  # s to digitise a picture: layout study, section 6
 
 Picture = NDArray[np.uint8]  # a digitised television picture: ROWS by COLUMNS of intensities 0..15
 

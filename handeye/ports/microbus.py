@@ -72,7 +72,7 @@ class NoAnswer(BusFault):
 
 
 class StrayAnswer(BusFault):
-    """Raised if a byte arrived for which no question asked, because an answer was longer than expected."""
+    """Raised if a byte arrived that no question had asked for, because an answer was longer than expected."""
 
     def __init__(self, number: int) -> None:
         super().__init__(f"STRAY {number}: a byte arrived that no question asked for")

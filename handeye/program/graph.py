@@ -72,8 +72,8 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Return the reachable steps of these kinds that can be the last of their kinds before a step. Returns none
-        if some path has no such step, or if the search takes too long.
+        """Return the reachable steps of these kinds that can be the last of their kinds before a step. The list is
+        empty if some path has no such step, or if the search takes too long.
         """
         found: list[int] = []
         seen: set[int] = set()
@@ -143,7 +143,7 @@ class Graph:
         return set(range(len(self.steps))) - reachable(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
-        """Return the steps that can be reached from `start`, or none if they lead into `known`. Adds them to
+        """Return the steps that can be reached from `start`, or an empty set if they lead into `known`. Adds them to
         `known`.
         """
         found = reachable([start], self.onward, known)

@@ -190,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check the height (m) at which the last motion ended, above the place at which a difference was saved. Raises
-    error 9 if the height is outside the range.
+    """Check how far (m) above the place of a saved difference the last motion ended. Raises error 9 if this height is
+    outside the range.
     """
 
     family: ClassVar = "test"

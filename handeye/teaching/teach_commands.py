@@ -130,7 +130,9 @@ def _here(teacher: Teacher, words: list[str]) -> Answer:
         raise BadArgument("name a position with `here NAME`, `here NAME of PART` or `here NAME again`")
     name, part = words[0], words[2] if len(words) == 3 else None
     if not NAME.fullmatch(name):
-        raise BadArgument(f"{quoted(name)} is not a name: letters, digits and _, no digit first")
+        raise BadArgument(
+            f"{quoted(name)} is not a name: a name consists of letters, digits and _, and does not start with a digit"
+        )
     if again and part is None and name in teacher.workplace.taught.positions:
         part = teacher.workplace.taught.positions[name].of
     return answer(teacher.workplace, said=f"{name} is {_written(teacher.name(name, part, again=again))}")
@@ -209,7 +211,7 @@ _HAND_HELP: Final = (
     "an axis: `hand turn y 5`"
 )
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
-    Command(usage="j3 +1", act=_joint, help="move a joint by an amount; without a sign, to a value"),
+    Command(usage="j3 +1", act=_joint, help="move a joint by an amount; without a sign, to a position: `j3 20`"),
     Command(usage="table x +.5", act=_table, help=_TABLE_HELP),
     Command(usage="hand z -.2", act=_hand, help=_HAND_HELP),
     Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),

@@ -24,16 +24,16 @@ GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force sensed in free air: 12.5 N.
 
-By calculation, the errors of link masses, mass centres, drive gains and joint friction, which may act upwards or
-downwards, are sensed as at most 6.1 N in 400 nominal worlds, at 15 places on the table, and as at most 8.9 N at the
-high level. At the high level, the weight of the base beyond its declared load adds 2 N.
+The errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
+downwards. We calculated this force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and at most
+8.9 N in worlds of the high level. At the high level, the weight of the base beyond its declared load adds 2 N.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
 
-The switches close at 2 ounces. The limit is 4.4 ounces: three times the doubled stated spread of .4 is added. One
-finger may carry 3 ounces less than the other, because the arm holds the difference, and the gap is known only to
-one step of its converter.
+The switches close at 2 ounces, with a stated spread of .4 ounces. Three times the doubled spread is added, so that each
+finger must press with at least 4.4 ounces. One finger may carry 3 ounces less than the other, because the arm holds the
+difference, and the gap is known only to one step of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
@@ -41,20 +41,22 @@ GAP_OFFSET: Final = (
 GAP_SCALE: Final = 0.03  # of the gap
 STARTING_TORQUE: Final = 0.05
 """Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
-STALLED_TORQUE: Final = 0.37  # N m, at most: that of the clutch, and of the spindle beside it
+STALLED_TORQUE: Final = 0.37  # N m, greatest torque of the motor: that of the slipping clutch, plus that of the spindle
 STARTING_PERIODS: Final = (
     4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
 )
 FAST_PERIODS: Final = 6
-"""Servo periods after which a motor that runs free has certainly started. If it turns at 1.4 times its speed, it
-has not.
+"""Servo periods after which a motor that runs free has certainly started. A motor that turns at 1.4 times the usual
+speed has not started by then.
 """
 WIND_UP: Final = 0.2
-"""Time (s) for which the torque rises, at most, when the head of a screw meets the top. Measured: .1. Chosen."""
+"""Time (s) for which the torque rises, at most, when the head of a screw meets the top. Our choice; the measured time
+is .1 s.
+"""
 DRIVEN: Final = 0.2 * INCH
 """Advance (m) of a screw that shows its running torque: four turns."""
 PLATEAU: Final = 1.0
-"""Time (s) for which a torque must last to show that the motor is held fast: three turns at driving speed. Chosen.
+"""Time (s) for which a torque must last to show that the motor is held fast: three turns at driving speed. Our choice.
 """
 HELD_FAST: Final = 0.3
 """Fraction of the requested torque that shows that the motor is held fast, while the hand does not advance.

@@ -34,7 +34,7 @@ from handeye.trace.stages import Stage, done_steps, stages, stages_both_ways
 if TYPE_CHECKING:
     from handeye.trace.table import Table
 
-SHOWN: Final = 0.01  # s to which times are shown; what is typed is as exact as that
+SHOWN: Final = 0.01  # s, to which times are shown; a typed time is no more exact than the one shown
 Read = TypeVar("Read")
 
 

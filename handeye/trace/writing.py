@@ -33,7 +33,7 @@ from handeye.trace.sentences import level_of, measures_of, sentence
 from handeye.vision.marks import Mark
 
 MOVED: Final = 1e-6  # least change of a pose that is written: m, or of a quaternion component
-PUT_AWAY: Final = -1.0  # height (m), below the floor: parts that something else represents now lie lower
+PUT_AWAY: Final = -1.0  # height (m), below the floor; a lower part is hidden there, because another body represents it
 
 BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may be resumed
 
@@ -88,7 +88,7 @@ class TraceWriter:
         self.file.write(PICTURE, time, messages.picture(time, picture))
         self.file.write(
             ANNOTATIONS, time, annotations(time, ())
-        )  # else those of the picture before would stay on it
+        )  # otherwise the marks of the previous picture would stay
 
     def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
         """Write the marks for what vision found in a picture. The event of the finding follows."""

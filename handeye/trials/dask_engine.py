@@ -82,5 +82,5 @@ def _cluster(count: int) -> Iterator[str]:
         try:
             yield cluster.scheduler_address
         finally:
-            with suppress(TimeoutError):  # all is done; a busy computer is slow to end processes
+            with suppress(TimeoutError):  # the work is done; on a busy computer, the processes end slowly
                 cluster.close()

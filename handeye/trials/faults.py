@@ -249,7 +249,7 @@ FAULTS: Final = Sweep(
         "recovered": "right", "stopped": "right", "misnamed": "wrong",
         "unnoticed": "silent", "unbraked": "silent", "silent": "silent",
     },
-    success="recovered, or stopped and named rightly",
+    success="recovered, or stopped and named correctly",
     noun="fault",
     sentence=_sentence,
     summary=_summary,

@@ -1,4 +1,4 @@
-"""Runs of jobs with a fault, which may keep a program from ever ending."""
+"""Runs of jobs with a fault. Some faults keep a program from ever ending."""
 
 from handeye.results.finishing import finished
 from handeye.results.result import Result

@@ -26,7 +26,7 @@ from handeye.trials.workers import in_processes
 
 _VERDICTS: Final = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
 """Verdict and colour by exit code."""
-_TOLD: Final = 2  # Findings that a row tells
+_TOLD: Final = 2  # Greatest number of findings in a row
 
 
 @dataclass(frozen=True, slots=True, repr=False)

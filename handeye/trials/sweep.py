@@ -181,13 +181,15 @@ def percent(*parts: float | None) -> str:
 class Sweep(Generic[R]):
     """A kind of sweep."""
 
-    kind: str  # Its folders say so; of several words, the first is what `sweep_of` looks up
+    kind: str  # Written in the folders of its batches; `sweep_of` uses the first word
     row: type[R]
     outcomes: Mapping[str, Standing]
     success: str  # The word for a right trial
     noun: str = "trial"
     sentence: Callable[[R], str] | None = None
-    """The text printed as each trial ends, unless empty. None: failures are listed at the end."""
+    """Returns the text to print when a trial ends; an empty text is not printed. None: the failures are listed at the
+    end.
+    """
     narrated: bool = False  # Each trial is reported on standard error, with the rate so far
     summary: Callable[[Sequence[R]], Sequence[str]] = field(default=lambda _: ())
     more: Callable[[Sequence[R]], Mapping[str, object]] = field(default=lambda _: {})

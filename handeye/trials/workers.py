@@ -60,7 +60,7 @@ class Worker:
         self.given: _Assignment[Any] | None = None
         self._send(
             trial
-        )  # not with the process: the starter of one writes for ever if it is killed meanwhile
+        )  # not passed to `Process`: if the process were killed while it starts, `start` would never return
 
     def give(self, given: "_Assignment[Any]") -> None:
         """Send a trial to the process."""
@@ -74,7 +74,7 @@ class Worker:
         self.process.join()
 
     def _send(self, what: Any) -> None:
-        with suppress(OSError):  # it is gone, as the reader of its answer will see
+        with suppress(OSError):  # the process has ended; the code that waits for its answer will notice
             self.here.send(what)
 
 
@@ -115,7 +115,7 @@ def answers(
                 if worker.given is not None:  # it is lost
                     worker.end()
                     workers.remove(worker)
-    finally:  # Ctrl-C first of all: a trial under way may take minutes
+    finally:  # above all after Ctrl-C, because a trial in progress may take minutes
         for worker in workers:
             worker.end()
 
@@ -146,14 +146,14 @@ def deaf_to_interrupts() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield
         return
-    resource_tracker.ensure_running()  # where it begins by itself, it takes the mask away
+    resource_tracker.ensure_running()  # if it started by itself later, it would remove the mask
     masked = signal.pthread_sigmask(signal.SIG_BLOCK, {*ENDING} - {signal.SIGTERM})
     told: list[int] = []
-    # A thread of a library may be there that is not masked: it takes Ctrl-C to our handler all the same.
+    # A thread of a library may have no mask: it would still deliver Ctrl-C to our handler.
     with ExitStack() as hearing:
         if (
             threading.current_thread() is threading.main_thread()
-        ):  # no other thread may hear, or is interrupted
+        ):  # other threads cannot set handlers, and are not interrupted
             hearing.enter_context(heard(lambda number, _: told.append(number)))
         try:
             yield
@@ -220,7 +220,7 @@ def _limited(limit_s: float | None) -> Iterator[None]:
 def _tried(trial: Callable[[Any], Any], item: Any) -> tuple[Any, BaseException | None]:
     try:
         return trial(item), None
-    except Exception as error:  # it is for the caller
+    except Exception as error:  # passed on to the caller
         return None, error
 
 

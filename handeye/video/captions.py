@@ -22,7 +22,7 @@ _INK: Final = np.array([255, 250, 240], dtype=np.float32)
 DONE: Final = np.array([228, 164, 52], dtype=np.uint8)
 STOPPED: Final = np.array([214, 48, 40], dtype=np.uint8)
 TO_COME: Final = np.array([70, 70, 74], dtype=np.uint8)
-_INSET: Final = 0.42  # height of a picture over the frame's
+_INSET: Final = 0.42  # height of a picture, as a fraction of the frame's height
 _FINER: Final = 4
 _FONT: Final = cv2.FONT_HERSHEY_SIMPLEX
 

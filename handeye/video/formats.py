@@ -149,7 +149,7 @@ class Format:
     """A video format."""
 
     kind: Kind
-    encode: Callable[[Frames, int], bytes]  # frames, and periods to hold the last one, to a file
+    encode: Callable[[Frames, int], bytes]  # takes frames, and the number of periods to hold the last one
     largest: int | None  # limit on bytes of all frames
     even: bool  # needs even sides
 

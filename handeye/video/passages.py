@@ -17,7 +17,7 @@ from handeye.trace.trace import Trace
 MAX_WAIT_S: Final = 1.0  # What is left of a wait for the camera's mechanism
 _LOOK: Final = 0.7  # s of the video to show a picture
 _LOOKING: Final = 0.4  # fraction of a video for pictures, at most
-_LEAST: Final = 2 / 3  # Least duration of a stage, over an equal share
+_LEAST: Final = 2 / 3  # Least duration of a stage, as a fraction of an equal share
 
 Span = tuple[float, float]  # begin, end, s by the cell's clock
 
@@ -28,7 +28,7 @@ class Passage:
 
     begin: float  # s by the cell's clock
     end: float
-    stage: int  # Index among the stages as executed, either way; -1 before the first
+    stage: int  # Index in `Trace.stages_both_ways`; -1 before the first stage
     looked_at: SeenPicture | None = None  # picture shown while the run stands still
 
 

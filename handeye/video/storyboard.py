@@ -23,10 +23,10 @@ from handeye.video.passages import Passage, Span, at_speed, passage_at, passages
 from handeye.video.request import FOLLOW, LONGEST, ORBIT, SECONDS, VideoRequest
 
 View = str | Near
-_FAR: Final = 0.95  # eye distance from the cell's middle, over the cell's size
+_FAR: Final = 0.95  # distance of the camera from the cell's middle, in units of the cell's size
 _SWAY_DEG: Final = 34.0
-_CLOSE, _WIDE = 0.4, 0.6  # Distance from where the hand works: m, and m for each m of its range there
-_AROUND: Final = 0.15  # m: places as near as this to one another are one place of work
+_CLOSE, _WIDE = 0.4, 0.6  # Distance of the camera from the hand's work: least, m; per m of the hand's range
+_AROUND: Final = 0.15  # m; points closer together than this belong to one place of work
 _AMID: Final = np.array([0.5, 0.5, -0.1])
 """Point at which the view is aimed, as fractions of the hand's range from its lower corner: in the middle of
 the range, and slightly below it, because the hand works near the table.
@@ -57,7 +57,7 @@ def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list
 
 def _orbit(scene: Any, side: str, frames: int) -> list[View]:
     (x, y, z), distance = scene.stat.center.tolist(), _FAR * float(scene.stat.extent)
-    turns = _SWAY_DEG * (1 - np.cos(np.linspace(0, 2 * np.pi, frames))) / 2  # and back to where it was
+    turns = _SWAY_DEG * (1 - np.cos(np.linspace(0, 2 * np.pi, frames))) / 2  # to the other side and back
     return [Near(camera=side, place=(x, y, z), distance=distance, turned=turned) for turned in turns.tolist()]
 
 

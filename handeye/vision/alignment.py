@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 from handeye.ports.camera import Picture
 
-MAX_SHIFT: Final = 4  # points, along lines and across
-CHANGED: Final = 3.0  # levels: a greater difference of two points is a change, and counts no more than this
+MAX_SHIFT: Final = 4  # points, both along and across the lines
+CHANGED: Final = 3.0  # levels; two points with a greater difference have changed; the difference is capped at this
 AREA: Final = 11  # side of a square, points
-QUIET: Final = 1.2  # mean difference in it, levels, up to which nothing has changed
-CLEAR: Final = 15  # side of a square, points, clear of changes and of soft shadow edges
+QUIET: Final = 1.2  # levels; a square with a smaller mean difference has not changed
+CLEAR: Final = 15  # side, points, of a square that must be free of changes and of soft shadow edges
 BLUR: Final = 1.0  # sigma, points: against noise, and to give edges a slope that shows a shift
 STEPS: Final = 5
 MARGIN: Final = MAX_SHIFT + 2  # points at the border, which one picture may lack
@@ -82,7 +82,7 @@ def _step(a: Levels, b: Levels, counts: Points) -> Array:
     same = ((near == 0) & counts)[inside]
     slope = np.stack([np.gradient(mean, axis=axis)[inside][same] for axis in (1, 0)])
     off = (a - b)[inside][same]
-    step, *_ = np.linalg.lstsq(slope @ slope.T, slope @ off, rcond=None)  # none, if nothing is the same
+    step, *_ = np.linalg.lstsq(slope @ slope.T, slope @ off, rcond=None)  # zero, if no part is unchanged
     return np.asarray(step, dtype=float)
 
 

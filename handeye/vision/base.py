@@ -35,7 +35,7 @@ from handeye.vision.scan import Scan
 
 TURNS: Final = np.linspace(-40, 40, 9) * DEGREE
 WIDTHS: Final = (0.8, 1.2)
-HEIGHTS: Final = (0.75, 1.25)  # accepted box size, over the range the model gives for all TURNS
+HEIGHTS: Final = (0.75, 1.25)  # accepted box sizes, relative to those that the model gives for all TURNS
 # All figures above: vision study, section 1.2.
 
 Rectangle = tuple[float, float, float, float]  # from x, y to x, y, in part coordinates, m
@@ -95,7 +95,7 @@ SHRINK: Final = (0.0, 0.6 * INCH, 1.2 * INCH)
 """Distances (m) by which the sides of the window are moved inwards, tried one after another. If the camera is off,
 neighbouring parts may reach into the window.
 """
-SCREW_HOLES: Final = 2 / 3  # fraction that must be seen where the two large holes imply them
+SCREW_HOLES: Final = 2 / 3  # fraction that must be visible at the places given by the two large holes
 
 # All figures above: vision study, sections 1.2 and 1.3.
 
@@ -262,7 +262,7 @@ class PartMatch:
 
     cause: PartAstray | None  # None: the part stands as before
     outline: tuple[tuple[float, float], ...]  # expected in the second picture, corners (u, v)
-    shift: float  # m against its surroundings, at the height of its face
+    shift: float  # m, relative to its surroundings, at the height of its face
     unlike: float  # fraction of its points that look different, after aligning
 
     @property

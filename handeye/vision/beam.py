@@ -96,7 +96,7 @@ def beams(
     )
 
 
-_BLOCKED: Final = -1e6  # the rise where a beam may not look
+_BLOCKED: Final = -1e6  # stands for the rise at places that a beam may not read
 
 
 def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) -> Array:

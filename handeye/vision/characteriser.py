@@ -57,7 +57,7 @@ def _first(line: list[float], polarity: Polarity, step: float, beyond: float) ->
     near it. Returns (end, None) if the line never rises that far.
     """
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
-    entering = [*line[2 * SPAN :], 0.0]  # none enters behind the last place
+    entering = [*line[2 * SPAN :], 0.0]  # no point enters after the last place
     for i, (left, passed, entered) in enumerate(zip(line, line[SPAN:], entering, strict=False)):
         if polarity * rise >= step:
             near = [polarity * _rise(line, k) for k in range(i, min(i + SPAN + 1, places))]

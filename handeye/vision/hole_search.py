@@ -19,8 +19,8 @@ from handeye.vision.scan import Scan
 
 SIZE_ERROR: Final = 0.22
 RATIO_ERROR: Final = 0.16
-DISTANCE_ERROR: Final = 0.16  # relative, of the distance between the two holes
-TURN: Final = 50 * DEGREE  # of the line of centres against plan, rad
+DISTANCE_ERROR: Final = 0.16  # relative error of the distance between the two holes
+TURN: Final = 50 * DEGREE  # of the line between the two holes, relative to the plan, rad
 # All figures above: vision study, section 1.3.
 
 
@@ -105,12 +105,12 @@ def wrapped(angle: float) -> float:
 
 
 ELONGATION: Final = (0.6, 1.65)
-SIZES: Final = (0.55, 1.3)  # accepted sizes, over the diameters of the smallest and the largest hole
+SIZES: Final = (0.55, 1.3)  # accepted sizes: least, over the smallest diameter; greatest, over the largest diameter
 SEED: Final = 4  # points inside the border where bouncing starts
 
 # All figures above: vision study, sections 1.2 and 1.3.
 
-INNER: Final = 0.25  # start of beams to a hole's border, over its smaller width: half-way to it
+INNER: Final = 0.25  # where beams to a hole's border start, as a fraction of its smaller width: half-way to the border
 ANGLES: Final = np.linspace(-TURN, TURN, 7)
 """Angles of the beams from the largest hole towards the second, relative to the planned direction. The beams are so
 close together that the second hole cannot lie between two of them.
@@ -126,8 +126,8 @@ class HoleSearch(NamedTuple):
 
     spacing: int  # points between beams
     wide: bool  # averages over three points across a beam
-    contrast: float  # of an edge, as a fraction of the box's
-    face: float = 0.72  # least brightness around a hole, over the machined face's
+    contrast: float  # of an edge, as a fraction of the contrast in the box
+    face: float = 0.72  # least brightness around a hole, as a fraction of the machined face's
 
 
 SEARCHES: Final = (
@@ -253,7 +253,7 @@ class HoleFinder:
                 self._scan, starts[line] + gone[line, None] * ahead[line], ahead[line],
                 DARKER, self._step, (lengths - gone)[line], wide=self._search.wide,
             )  # fmt: skip
-            face = edges.met & (edges.before >= self._bright)  # else outline, plate or shadow
+            face = edges.met & (edges.before >= self._bright)  # other edges: outline, plate, shadows
             steps += zip(line[face].tolist(), (gone[line] + edges.length + SEED)[face].tolist(), strict=True)
             gone[line] += edges.length + 2
             line = line[edges.met & (gone[line] < lengths[line] - 2 * SEED)]

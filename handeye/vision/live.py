@@ -43,4 +43,4 @@ def noise(picture: Picture) -> float:
     share = np.cumsum(np.bincount(differences)) / len(differences)
     return (
         float(np.interp(0.5, share, np.arange(len(share)) + 0.5)) / _MEDIAN
-    )  # whole levels reach half a level up
+    )  # a whole level stands for values up to half a level above it

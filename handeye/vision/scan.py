@@ -13,7 +13,7 @@ from handeye.core.pose import Array
 
 Places = NDArray[np.intp]  # indices of points, line by line
 _FARTHEST: Final = 1e6  # points
-MARGIN: Final = 1  # border points that no beam enters, so that it can be three points wide
+MARGIN: Final = 1  # border points that no beam enters, so that a beam can be three points wide
 
 
 def numbers(given: object, said: str) -> Array:

@@ -180,7 +180,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     (s.PictureBlank(picture="WIDE"), "picture WIDE has the same intensity everywhere"),
     (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
     (c.NoGeneral(), "no earlier GENERAL found the part"),
-    (c.NoOutline(), "nothing of the part's size is visible against the background where it should be"),
+    (c.NoOutline(), "nothing of the part's size stands out from the background where the part should be"),
     (c.OutsidePicture(), "the part is not in the field of the close picture: is the camera aimed at it?"),
     (c.NoHoles(blobs=0), "found no hole: is the picture in focus, and is the part in it?"),
     (
@@ -243,7 +243,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.ScrewLost(way=0.002, force=6.0),
-        "the hand does not hold the screw: the hand goes down 0.08 in without meeting 22 oz",
+        "the hand has lost the screw: it goes down 0.08 in without meeting 22 oz",
     ),
     (c.BackingOut(), "the step drove a screw out, which cannot be undone"),
     (c.UndoUnknown(), "the record for undoing this step cannot be used"),

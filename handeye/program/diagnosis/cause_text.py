@@ -132,7 +132,7 @@ def _undo_stopped(cause: c.UndoCause) -> str:
             )
         case c.ScrewLost():
             force = f"{cause.force / OUNCE_FORCE:.0f} oz"
-            return f"the hand does not hold the screw: the hand goes down {inches(cause.way)} without meeting {force}"
+            return f"the hand has lost the screw: it goes down {inches(cause.way)} without meeting {force}"
         case c.BackingOut():
             return "the step drove a screw out, which cannot be undone"
         case c.UndoUnknown():
@@ -155,7 +155,7 @@ def _met_early(cause: c.MetEarly) -> str:
 def _not_found(cause: c.SightCause) -> str:
     match cause:
         case c.NoOutline():
-            return "nothing of the part's size is visible against the background where it should be"
+            return "nothing of the part's size stands out from the background where the part should be"
         case c.OutsidePicture():
             return "the part is not in the field of the close picture: is the camera aimed at it?"
         case c.NoHoles(blobs=0):

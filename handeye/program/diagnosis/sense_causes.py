@@ -106,7 +106,7 @@ class RateScatters(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
-    """A joint takes a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
+    """A joint needs a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
     that was measured at the start; None if the joint does not move at all. `one_way` is True if the joint moved in
     only one direction, so that a weight would have the same effect.
     """
@@ -157,7 +157,7 @@ class MotorFast(CauseRecord, frozen=True, kw_only=True):
 
 
 class ScrewHard(CauseRecord, frozen=True, kw_only=True):
-    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw takes at most `limit`."""
+    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw needs at most `limit`."""
 
     torque: float
     limit: float

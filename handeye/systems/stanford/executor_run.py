@@ -140,7 +140,7 @@ class RunningPlan(RunningSystem):
         else:
             seconds = self._measure_joints()
         if self.trouble is not None:
-            with suppress(PhysicsFailed):  # broken physics has no brakes either
+            with suppress(PhysicsFailed):  # if the physics has failed, the brakes cannot be set either
                 self.context.drive.stop()
         self._set_clock()
         return [self._started(), *self._friction(seconds)]
@@ -160,7 +160,7 @@ class RunningPlan(RunningSystem):
         if self.trouble is None:
             self._set_clock()
             made = preparation_of(self.context, self._cell, self._prepared, seconds)
-            take_up(made, self.context, self._cell)  # as a later run will
+            take_up(made, self.context, self._cell)  # as a later run restores it
             if conditions is not None:
                 self._keep(kept, conditions, made)
         return seconds

@@ -70,7 +70,7 @@ class Conditions(Record, frozen=True, kw_only=True):
     driver: str  # description that OpenGL gives of itself, or ""
     feels: bool  # the arm measures its joints first
     versions: dict[str, str]
-    code: str  # digest of Handeye's code and scenes
+    code: str  # digest of handeye's code and scenes
     machine: tuple[str, ...]  # kind of processor, since rounding depends on it
 
     @property

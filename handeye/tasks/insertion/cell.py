@@ -1,4 +1,4 @@
-"""Builds the insertion bench: an arm, a pin in a holder, a face with one hole, and a witness, which records for
+"""Builds the insertion bench: an arm, a pin in a holder, a plate with one hole, and a witness, which records for
 the referee what really happened.
 """
 
@@ -73,7 +73,7 @@ def _add_room(shaper: Shaper) -> None:
 
 
 def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
-    """Add a face with the hole. As on the pump's base, the pin's nose touches wedges around the hole, and its
+    """Add the plate with the hole. As on the pump's base, the pin's nose touches wedges around the hole, and its
     shoulder touches a flat land.
     """
     d = dimensions()

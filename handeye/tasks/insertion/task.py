@@ -25,7 +25,7 @@ HOLDER_PLACE: Final = 3.0
 """Greatest distance (mm) of a returned pin from its original position: the clearance plus the chamfer of the
 holder's hole, as in the pump's cell.
 """
-HOLDER_LEAN: Final = 10.0  # deg: it stands in the holder, and does not lean out
+HOLDER_LEAN: Final = 10.0  # deg; a pin tilted by more leans out of the holder
 
 
 class Insertion(InsertionTask):

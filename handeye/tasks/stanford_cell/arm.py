@@ -35,7 +35,7 @@ def _differ(arm: mujoco.MjSpec, build: ArmBuild) -> None:
         link, joint = arm.body(f"link{i + 1}"), arm.joint(f"j{i + 1}")
         link.mass *= build.link_mass[i]
         moments: Array = link.inertia * build.link_mass[i]
-        greatest = int(np.argmax(moments))  # no more than the others together, where rounding makes it so
+        greatest = int(np.argmax(moments))  # rounding must not make it exceed the sum of the others
         moments[greatest] = min(moments[greatest], np.delete(moments, greatest).sum())
         link.inertia = moments
         link.ipos *= build.mass_centre[i]

@@ -99,8 +99,8 @@ def arm() -> Iterator[Quantity]:
             "1974."),
         group("arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
             "Noise of the tachometers, before the converter.",
-            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, 37 to 146 "
-                      "times as large, so the converter does not show the noise."),
+            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, which is 37 to "
+                      "146 times this noise, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both "
             "directions. Data sheet of 1974; we infer that the range ends at the greatest speed."),
@@ -151,9 +151,10 @@ def _friction() -> Iterator[Quantity]:
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
         f"{what} Inferred from the paper, in which a released arm stays in place. The friction of joints 2 and 3 "
-        "therefore withstands half a converter step of their torques plus the gravity that remains after the "
-        "arm has weighed its links (at the parked posture, in the worst of 200 worlds, .25 N m and .7 N); the "
-        "friction of the wrist joints withstands half a converter step of their torques.",
+        "must therefore withstand half a converter step of their torques, and in addition the gravity "
+        "that is not compensated after the arm has weighed its links (.25 N m and .7 N at the parked posture, in "
+        "the worst of 200 worlds). The friction of the wrist joints must withstand half a converter "
+        "step of their torques.",
         nominal=means[1:], least=0.0,
     )  # fmt: skip
 

@@ -23,7 +23,7 @@ LENGTH: Final = 19.05  # under the head
 PITCH: Final = 1.27  # twenty threads an inch
 HEAD: Final = 5.5  # radius
 HEAD_HEIGHT: Final = 6.0
-TAP: Final = 2.55  # radius: minor diameter of 1/4-20 and a little, as in the pump
+TAP: Final = 2.55  # radius, slightly greater than that of the core of a 1/4-20 screw, as in the pump
 TAP_DEPTH: Final = 21.0
 SCREW_BORE: Final = 3.772  # radius: a loose clearance hole of a 1/4 in screw, as in the pump
 HUNG_BORE: Final = 3.4  # radius of the holes in which screws hang by their heads
@@ -33,12 +33,12 @@ PIN_POINT: Final = 2.2  # radius of the lower end
 PIN_TAPER: Final = 4.0  # length of the taper
 CHAMFER: Final = 1.0
 LAND: Final = 9.5  # radius of the metal around a hole that fasteners can touch
-RING: Final = 1.5  # by which the ring of the bit reaches below its face
-TORQUE: Final = 0.32  # N m at which the clutch slips, as of the pump's screwdriver
+RING: Final = 1.5  # depth of the bit's ring below the bit's face
+TORQUE: Final = 0.32  # N m at which the clutch slips, as in the pump's screwdriver
 SPIN: Final = (
-    0.01  # N m on a loose screw: less than friction between bit and head, which do not slide in a slot
+    0.01  # N m on a loose screw: less than the friction between bit and head, because no slot holds the bit
 )
-LOOSENING: Final = 0.8  # N m with which it loosens
+LOOSENING: Final = 0.8  # N m, greatest torque to loosen a screw
 MAGNET: Final = 2.0  # N
 _REACH: Final = 0.001  # m from the face at which the magnet still draws a head
 _POLES: Final = 6
@@ -54,7 +54,8 @@ class Place(NamedTuple):
 
 
 # Contact bits: 1 the machine, the board and fixtures; 2 what only the arms touch; 4 bores; 8 loose parts; 16 seats of
-# heads; 32 the face of the base; 64 tapped holes. A rib stands on a face, and is solid for all that a base is.
+# heads; 32 the face of the base; 64 tapped holes. A rib stands on a face. It collides with everything
+# that collides with a base.
 _STYLES: Final[dict[str, tuple[int, int]]] = {
     "fixed": (1, 9),
     "base": (1, 1),
@@ -259,7 +260,7 @@ def add_bit(shaper: Shaper, driver: mujoco.MjsBody, at: float) -> None:
         pole = shaper.ball(bit, "pole", _POLE, (out * cos(angle), out * sin(angle), 1.1 * _POLE))
         pole.gap = _REACH
     ring = Bore(radius=(HEAD + 0.3) * MM, outer=0.0085, height=(RING + 0.5) * MM, below=1.2 * MM, sectors=8)
-    # The magnet holds by the face, not by the ring.
+    # The ring is a body of its own, so that the magnet pulls on the face and not on the ring.
     brass = bit.add_body(name="socket", gravcomp=driver.gravcomp)
     for wedge in shaper.ring(brass, "socket", ring, (0.0, 0.0, -RING * MM), lambda _: "driver"):
         wedge.group, wedge.material = SEEN, "brass"

@@ -44,7 +44,7 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     """Return the scene of a world with every object where it really is. Arguments are those of `Task.exported`."""
     model, data = truth.copy()
     spec = specification(world)
-    model.eq_data[:] = spec.compile().eq_data  # as drawn: these bonds are left out below
+    model.eq_data[:] = spec.compile().eq_data  # reset to the design, because the bonds are deleted below
     spec.copy_back(model)
     add_textures(spec)
     threaded = {

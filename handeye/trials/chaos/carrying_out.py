@@ -137,7 +137,7 @@ class ScheduleRunner:
         return runner, pause
 
     def _attended(self, runner: Runner, stops: Sequence[StopCondition]) -> Pause:
-        # `attend` does a step before a stop counts; a run interrupted at its end has none left. Any stop will do
+        # `attend` executes a step before it checks the stops, but a run interrupted at its end has no step left.
         pause = paused_before(runner, stops) or attend(runner, self._operator, stops)  # type: ignore[arg-type]
         stopped = pause.kind in ("operator", "panic", "trouble")
         if stopped and runner.system.arm_cell is not None and not brakes_hold(runner.arm_cell):
@@ -160,7 +160,7 @@ def kill_resumed(folder: Path, events: int) -> None:
     written this number of further events.
     """
     journal = folder / EVENTS
-    enough = _lines(journal) + events + 1  # and the one that tells that it was resumed
+    enough = _lines(journal) + events + 1  # and the event for the resumption
     process = subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-m", "handeye", "resume", str(folder), "--on-stop", "abort"],
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,

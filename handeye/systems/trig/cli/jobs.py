@@ -109,7 +109,8 @@ def bucket(
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
-    """Drop a block into a bucket, and put another where the first was: the paper's first example, with physics.
+    """Drop a block into a bucket, and put another block where the first one was: the paper's first example, with
+    physics.
 
     The program is taught and run in a random world, and a referee judges the result. It is not run backwards,
     because a block in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back`

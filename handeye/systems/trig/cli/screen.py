@@ -25,7 +25,7 @@ from handeye.systems.trig.language.place import SIZES
 from handeye.systems.trig.language.session import Session
 
 PROMPT: Final = ">"
-PACE: Final = 0.08  # s that a step of an arm without a clock is shown, to be seen and stopped
+PACE: Final = 0.08  # s for which a step is shown if the arm has no clock, so that a user can see and stop it
 LONG: Final = 4  # lines; longer answers get a page of their own
 _KEPT: Final = 500  # lines of history
 
@@ -103,7 +103,7 @@ class Screen(Desk):
                     hear(self.session, line)
                 except InvalidInput as error:
                     self.wrong(error)
-        except BaseException as error:  # told where the terminal is as it was
+        except BaseException as error:  # raised again when the terminal has been restored
             self._failed.append(error)
         if self.app.loop is not None:
             self.app.loop.call_soon_threadsafe(self.app.exit)

@@ -12,14 +12,14 @@ from handeye.judge.measured import tilt
 from handeye.systems.trig.jobs.table import HEIGHT
 from handeye.systems.trig.language.place import Place
 
-PLACED: Final = 2.0  # mm from a block's place; the gap is 20, and an open finger leaves 5
+PLACED: Final = 2.0  # mm from a block's place; blocks are 20 apart, and an open finger between them leaves 5
 FLAT: Final = 2.0  # deg
-ON: Final = 0.5  # mm of height; a block on another one, or on its edge, is higher
+ON: Final = 0.5  # mm in height; a block that lies on another block, or stands on its edge, is higher
 BACK: Final = 3.0  # mm from where a block was: a tenth of its length
 TURNED: Final = 1.0  # deg from a block's earlier yaw
 BUCKET: Final = 35.0  # mm along X and Y: half its inside width
 RIM: Final = 60.0  # mm, height of the bucket
-HAND: Final = 0.5  # mm between hand and place: potentiometers err by .1 along each axis
+HAND: Final = 0.5  # mm between hand and place; the potentiometers are off by up to .1 along each axis
 _MM: Final = 1e3
 
 Poses = Mapping[str, Pose]  # of blocks over the platter, by name

@@ -32,7 +32,8 @@ grasped that much too high.
 """
 AGAIN: Final = 1.5
 """Permitted force during a reversal, as a multiple of the force met in the move itself. It is the same as for the
-pump. When a hand that presses an object onto a support rises, it senses a change of force of about this size.
+pump. When a hand that has pressed an object onto a support rises, the sensed force changes by about the force met in
+the move.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 

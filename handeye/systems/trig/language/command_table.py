@@ -51,7 +51,7 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; a new one is taught: absolute or relative, like that of the last move",
+        help="move to a position; you teach a new one, which is absolute or relative like that of the last move",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),

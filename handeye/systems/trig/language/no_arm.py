@@ -19,8 +19,8 @@ TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), mat
 BLOCK: Final = 0.030  # m, along and across
 OPEN: Final = 0.048  # m between the fingers
 HEIGHT: Final = 0.012  # m, of a block
-_SAME: Final = 1e-9  # m between equal places
-_TOUCH: Final = 1.01  # force of a trip over its threshold
+_SAME: Final = 1e-9  # m; places closer together count as equal
+_TOUCH: Final = 1.01  # force at a trip, as a multiple of the threshold
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

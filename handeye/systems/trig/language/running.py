@@ -19,9 +19,9 @@ from handeye.systems.trig.language.program import NOWHERE, HaltedMove, RecordedS
 from handeye.systems.trig.language.trig_arm import Halted, HoldOff, MissingContact, Obstacle, TrigArm
 from handeye.touch.senses import as_before, at_least, least_gap
 
-AGAIN: Final = 1e-3  # m past a guarded step's contact by which it is met again; chosen: a twelfth of a block
+AGAIN: Final = 1e-3  # m beyond its old place, up to which a contact is sought again; chosen: 1/12 of a block's height
 Stop = Literal["halted"] | Obstacle
-_MIN_MOTION: Final = 1e-6  # m that give a step a direction
+_MIN_MOTION: Final = 1e-6  # m; a shorter step has no direction
 
 
 def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None:

@@ -103,8 +103,8 @@ class Session:
             target = self.program.graph[self.program.graph.step_at(active.sons[branch])]
             if target.name is None:
                 raise Refused(
-                    "a link leads from here to a step without a name; name that step with N and CN, then remove the "
-                    "link with DLINK"
+                    "a link leads from here to a step without a name; go there with N, "
+                    "name the step with CN, come back and remove the link with DLINK"
                 )
             raise Refused(
                 f"a link leads from here to {target.name}; remove the link first with `DLINK {target.name}`"

@@ -37,7 +37,7 @@ def faults(graph: Graph, positions: Positions) -> Iterator[str]:
 def _edge_faults(graph: Graph) -> Iterator[str]:
     for id, node in graph.nodes.items():
         if node.type == "none" or (node.type == "top") != (id == TOP):
-            yield f"step {id} is not a step, but {node.type}"
+            yield f"step {id} has the type {node.type}, which it cannot have"
         if len(node.sons) != (2 if node.type == "guarded" else 1):
             yield f"step {id} is {node.type} and has {len(node.sons)} sons"
         for son in node.sons:

@@ -21,7 +21,7 @@ from handeye.tasks.interface import Disturbance
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.faults.mishap import Scene
 
-TIGHT_TORQUE_NM: Final = 1.5  # five times what the driver has
+TIGHT_TORQUE_NM: Final = 1.5  # five times the screwdriver's torque
 _TIGHTENING_S: Final = 0.5
 MOVED_M: Final = 0.005  # away from a block
 THIN_RATIO: Final = 0.6  # thickness of the pin that takes the place of another
@@ -64,7 +64,7 @@ def _demagnetize(cell: SimulatedCell) -> None:
 def _thinned(pin: str, cell: SimulatedCell) -> None:
     model = cell.truth.model
     for geom in np.flatnonzero(model.geom_bodyid == model.body(pin).id):
-        thick, _, high = model.geom_size[geom]  # of a mesh: half of what encloses it
+        thick, _, high = model.geom_size[geom]  # of a mesh: half the sizes of its bounding box
         model.geom_type[geom] = mujoco.mjtGeom.mjGEOM_CYLINDER
         model.geom_size[geom] = (THIN_RATIO * thick, high, 0.0)
 

@@ -37,7 +37,7 @@ GONE: Final = {
     "pin1": (0.05, 0.1), **{f"screw{k}": (0.05 * k - 0.1, 0.05) for k in range(7)},
 }  # fmt: skip
 """Positions (m) for missing parts, on the tray below the floor, where nothing can touch them."""
-OVER_TRAY_M: Final = 0.12  # what hangs below a part's origin
+OVER_TRAY_M: Final = 0.12  # more than any part reaches below its origin
 
 _SMOOTH: Final = "bit.smooth"
 _CARD_HALF_M: Final = 0.08
@@ -79,7 +79,8 @@ def _base() -> Iterator[PartFault]:
         ExpectedDetection(errors=(PART_NOT_SEEN,), calls=(detect.UNSEEN,)),
     )  # fmt: skip
     yield _fault(
-        "base.turned", "The base lies with its line of centres in this direction.",
+        "base.turned", "The base is turned: the line from its first to its second large hole points in "
+        "this direction.",
         lambda spec, yaw: _turn(spec, "base", _plate_centre(), yaw),
         ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,),
@@ -127,7 +128,7 @@ def _gasket() -> Iterator[PartFault]:
         lambda spec, angle: _turn(spec, part, middle, _yaw(spec, part) + angle),
         ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,),
-            # Down beside the pins, it leaves bare where the hand feels how thick it is.
+            # A gasket that goes down beside the pins does not cover the place where the hand measures its thickness.
             calls=(detect.GASKET_OFF, detect.ON_PINS, detect.TOO_LOW),
             harmless="Fingers that close on the gasket turn it straight.",
         ),
@@ -213,7 +214,7 @@ def _holes(count: int) -> Iterator[PartFault]:
         hole, screw = number - 1, detect.screw_of(number)
         misfit, loose, high = detect.misfit_screw(screw), detect.loose_screw(screw), detect.high_screw(screw)
         blocked = ExpectedDetection(calls=(misfit, high))
-        full = ExpectedDetection(  # the mouth of a hole that is full still lets a point in, by less than a thread
+        full = ExpectedDetection(  # the mouth of a filled hole still takes a point, less than one thread deep
             errors=(SEARCH_EXHAUSTED,),
             calls=(misfit, loose, detect.SCREW_IN_NO_HOLE),
             stages=(detect.DRIVE_FIRST if screw <= 2 else detect.DRIVE_LAST,),

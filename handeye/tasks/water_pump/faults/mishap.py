@@ -15,7 +15,7 @@ from handeye.core.record import Record
 from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
 from handeye.tasks.water_pump.faults.declaration import PumpFault
 
-ON_BASE_M: Final = 0.15  # m along the table from the base's middle: higher parts within it stand on the base
+ON_BASE_M: Final = 0.15  # m, horizontally from the base's middle; a higher part within it stands on the base
 _STACK: Final = ("gasket", "top", "pin0", "pin1")
 
 

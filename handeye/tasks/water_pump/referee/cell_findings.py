@@ -125,12 +125,12 @@ def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
     rotor = model.joint("rotor").dofadr[0]
     for figures in ("dof_frictionloss", "dof_damping", "dof_armature"):  # `rotor`
         getattr(scene, figures)[rotor] = getattr(model, figures)[rotor]
-    drive = model.actuator("drive").id  # it turns now this screw, now that
+    drive = model.actuator("drive").id  # the drive is connected to one screw after another
     for figures in ("actuator_trnid", "actuator_gainprm", "actuator_biasprm"):
         getattr(scene, figures)[drive] = getattr(model, figures)[drive]
-    welds = [model.equality(name).id for name in WELDS]  # where they have found the layers: `bonds`
+    welds = [model.equality(name).id for name in WELDS]  # positions at which the welds closed: `bonds`
     scene.eq_data[welds, :10] = model.eq_data[welds, :10]
-    if _clamped(truth):  # the welds hold, and the lands meet nothing
+    if _clamped(truth):  # the welds hold the layers, and the contacts of the lands are switched off
         lands = lands_of(scene)
         scene.geom_contype[lands] = scene.geom_conaffinity[lands] = 0
     return scene
@@ -151,7 +151,7 @@ def _strained(left: SettledState, weld: int) -> bool:
     X_BP = left.relative(model.body(model.eq_obj2id[weld]).name, model.body(model.eq_obj1id[weld]).name)
     mujoco.mju_quat2Mat(R, figures[6:10])
     away = np.linalg.norm(X_BP[:3, :3] @ figures[:3] + X_BP[:3, 3] - figures[3:6])
-    turn = np.linalg.norm(X_BP[:3, :3] - R.reshape(3, 3)) / np.sqrt(2)  # rad, where it is small
+    turn = np.linalg.norm(X_BP[:3, :3] - R.reshape(3, 3)) / np.sqrt(2)  # rad, for small angles
     return not (1e3 * away <= limits.MERGED and np.degrees(turn) <= limits.MERGED_TURN)
 
 

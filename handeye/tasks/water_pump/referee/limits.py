@@ -4,7 +4,7 @@ from typing import Final
 
 BLOCK_GAP: Final = 1.27  # mm, .05 in: reference test 59, displacement from the standard position
 BASE_HEIGHT: Final = (
-    0.5  # mm of its reference point: contact softness; a base that hangs on a block stands 6 mm high
+    0.5  # mm, of its reference point: contacts are soft; a base that hangs on a block stands 6 mm high
 )
 BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
@@ -16,7 +16,7 @@ under the layer; assembly study.
 
 SCREW_GAP: Final = 0.2
 """Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high; assembly study."""
-SCREW_CLAMP: Final = 40.0  # N per screw: over the 19 N of a hand's pull; seated screws end at 56 to 298 N
+SCREW_CLAMP: Final = 40.0  # N per screw: more than the 19 N with which a hand pulls; seated screws end at 56 to 298 N
 SCREW_TURNED: Final = 400.0
 """Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most
 250 N. The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world;
@@ -43,7 +43,7 @@ SCREW_PLACE: Final = 0.12
 """Greatest distance (mm) between the axes of a screw and its hole: the loosest fit of a 1/4-20 thread of class 2,
 with pitch diameters of .2127 in and .2224 in; ASME B1.1.
 """
-SCREW_LEAN: Final = 1.0  # deg: a head 11 mm wide that leans farther gapes by SCREW_GAP
+SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0
 """Greatest number of scarred threads; more only give a warning. The effect of a scar on the pump is judged by other
 limits: a screw that was backed out and driven straight holds like any other if it clamps (SCREW_CLAMP), stands
@@ -57,18 +57,18 @@ farther.
 """
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
-PIN_TILT: Final = 10.0  # deg: the pin stands, it does not lean out
-RACK_TILT: Final = 5.0  # deg: what the play of the guides allows, and no more than leaning
+PIN_TILT: Final = 10.0  # deg: a pin tilted by more leans out of the holder
+RACK_TILT: Final = 5.0  # deg: the play of the guides allows this much; a screwdriver out of its guides leans more
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.1
 """Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
-which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. The check of
-the reference, 40 oz at the crank, is .35 N m, at which a rotor binds.
+which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. The check in the
+reference, 40 oz at the crank, allows .35 N m, with which a rotor would bind.
 """
 
-ROTOR_PLACE: Final = 0.1  # mm from its bearing, and of its crank: the bearing is drawn without play
-ROTOR_LEAN: Final = 0.1  # deg against the top, which it is drawn square to
+ROTOR_PLACE: Final = 0.1  # mm: rotor from its bearing, crank pin from its place; the bearing is drawn without play
+ROTOR_LEAN: Final = 0.1  # deg from the top's axis: in the design, the two axes are parallel
 
 STILL: Final = 1.0
 """Greatest speed of any point of a part or of the arm (mm/s). While contacts come to rest, parts at rest move at
@@ -89,20 +89,20 @@ its tray draw it along before they lift it: by 3.3 mm in the world of seed 0. Th
 lifted; at 6.4 mm its holes would not let the fingers of the next run in.
 """
 APART_TURN: Final = (
-    3.0  # deg: at the end of a part as long as the base, half of what the fingers have to spare
+    3.0  # deg: this moves the end of a part as long as the base by half of the fingers' clearance
 )
 
-SETTLE: Final = 0.2  # s: forces come up to date, and what hangs in the air falls
+SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0
 """Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a
 carrier represents a screw, a body elsewhere would mean that the screw exists twice.
 """
-FORCE: Final = 0.0  # N and N m from outside on a part or the arm: nothing is held by an unseen hand
+FORCE: Final = 0.0  # N and N m, external, on a part or the arm: nothing may be held by an unseen hand
 MERGED: Final = 0.1
 """Greatest distance (mm) between a clamped layer and the position in which its weld holds it. Screws that are
 tightened later press the layer away from there: by up to .030 mm in pumps that the arm has made.
 """
 MERGED_TURN: Final = 0.1  # deg, the same: up to .017
-ALTERED: Final = 0  # parts: a scene is made the same to the byte whenever it is made
-FLOOR: Final = -5.0  # mm: nothing may be lower than this under the table top
-PENETRATION: Final = 0.15  # mm of parts pressed on each other: contacts are soft; six screws make it .06 mm
+ALTERED: Final = 0  # parts; any difference counts, because building a scene again gives the same bytes
+FLOOR: Final = -5.0  # mm, height relative to the table top: no part may be lower
+PENETRATION: Final = 0.15  # mm, of parts pressed together: contacts are soft; the force of six screws gives .06 mm

@@ -16,10 +16,10 @@ from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee.limits import ROTOR_TORQUE
 
-_SWING: Final = 8.0  # s: once round one way, once the other, and back
-_BEHIND: Final = radians(2.0)  # so far behind its guide, the rotor is turned with its limit
+_SWING: Final = 8.0  # s, for a full turn one way, and back through the start to a full turn the other way, and back
+_BEHIND: Final = radians(2.0)  # lag behind the set-point at which the greatest permitted torque is applied
 _GAIN: Final = ROTOR_TORQUE / _BEHIND  # N m/rad
-_DAMPING: Final = 0.04  # N m s/rad: with the rotor's inertia it swings into place without going beyond
+_DAMPING: Final = 0.04  # N m s/rad: with the rotor's inertia, there is no overshoot
 
 BORE = 4 | 512
 FLAT = 16 | 32 | 64 | 128
@@ -155,7 +155,7 @@ def rotor_torque(measured: SettledState) -> float:
     rest, start = data.qpos.copy(), float(data.qpos[adr])
     steps, greatest = round(_SWING / model.opt.timestep), 0.0
     for i in range(1, steps + 1):
-        phase = pi * (1 - cos(pi * i / steps))  # sets off and stops gently
+        phase = pi * (1 - cos(pi * i / steps))  # starts and stops gently
         rate = pi**2 / _SWING * sin(pi * i / steps)
         behind = 2 * pi * sin(phase) - (data.qpos[adr] - start)
         slower = 2 * pi * cos(phase) * rate - data.qvel[dof]

@@ -81,7 +81,7 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
     for colour, surface in painted.items():
         shaper.look(body, f"casting_{colour}", colour, surface)
     shaper.look(body, "base_plate", "plate", solids.plate())
-    d = dimensions()  # the floor of the through hole is as oily as its wall
+    d = dimensions()  # the bottom of the through hole gets the colour of its oily wall
     x, floor = d("base.large_hole_2.x"), d("base.plate.thickness")
     radius = d("base.large_hole_2.diameter") / 2
     shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole", "floor_2")
@@ -118,7 +118,7 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "tap")
     shaper.hole(body, f"base_hole{number}", (x, y, top), tap.radius)
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
-    carrier.gravcomp = 1.0  # an empty thread has nothing that could sink: it would not let the base rest
+    carrier.gravcomp = 1.0  # without weight, an empty thread does not sink; a sinking one would keep the base moving
     body_inertia(carrier, 0.005, (0.0, 0.0, 0.0), (1e-7, 1e-7, 1e-7))
     carrier.add_joint(shaper.style("thread_slide"), name=f"thread_slide{number}")
     carrier.add_joint(shaper.style("thread_turn"), name=f"thread_turn{number}")
@@ -132,13 +132,13 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
         carrier, "threaded", d("screw.shank_radius"), (0, 0, d("screw.point_length")), (0, 0, length),
         name=f"shank{number}",
     )  # fmt: skip
-    head.rgba[3] = 0.0  # its looks are other geoms
+    head.rgba[3] = 0.0  # other geoms show what it looks like
     for geom in screw_look(shaper, carrier):
         geom.group = LATENT  # until a screw is engaged
     equality = shaper.spec.add_equality(
         name=f"thread{number}", type=mujoco.mjtEq.mjEQ_JOINT,
         name1=f"thread_slide{number}", name2=f"thread_turn{number}", solref=[0.004, 1.0],
     )  # fmt: skip
-    # measured: with MuJoCo's own impedance a screw turns twice more under load and sinks no deeper
+    # measured: with MuJoCo's default impedance, a screw under load makes two more turns without sinking deeper
     equality.solimp[:3] = [0.999, 0.9999, 0.0001]
     equality.data[:5] = [0.0, d("screw.pitch") / (2 * math.pi), 0.0, 0.0, 0.0]

@@ -20,7 +20,7 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     body = fixture.stand(
         shaper, "gasket", x + web_centre(), y, d("gasket_stand.height"), turn, world.parts["gasket"]
     )
-    # The moments are those of the mass that the contacts need, spread over the outline.
+    # The contacts need a mass greater than a sheet's; the moments are those of this mass, spread over the outline.
     body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
     hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
     lands = shaper.lands(body)

@@ -24,15 +24,15 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.vision.base import Failure
 from handeye.vision.hole_search import hole_places
 
-WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of the eye according to the paper, along x and along y
-WRONG_BEYOND_PX: Final = 5.0  # a hole found farther off is something else, whatever the camera's error
+WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of vision according to the paper, along x and along y
+WRONG_BEYOND_PX: Final = 5.0  # no error of the camera explains a greater offset: something else was taken for the hole
 
 
 class BaseAttempt(Attempt, frozen=True, kw_only=True):
     """One attempt to locate the base."""
 
     error: Vector3 | None  # error of x, y (m) and yaw (rad); None: the base was not found
-    wrong: bool = False  # something else was taken for it
+    wrong: bool = False  # something else was taken for the base
     failure: str | None = None  # why it was not found, or the camera could not be calibrated
 
     @property

@@ -31,10 +31,12 @@ SHIFTED: Final = "shifted .3"
 ABSENT: Final = "absent"
 DOUBLED: Final = "doubled"
 REJECTED: Final = (SHIFTED, ABSENT)
-"""Cases that vision must reject. Two gaskets on each other look like one; the hand detects them by their height."""
+"""Cases that vision must reject. `DOUBLED` is not one of them: two gaskets on each other look like one, and the hand
+detects them by their height.
+"""
 SHIFT: Final = 0.3 * INCH
-BASE_OFF_IN: Final = 0.03  # to either side, and .3 deg: play that the blocks leave
-GASKET_OFF_IN: Final = 0.02  # likewise, the pins
+BASE_OFF_IN: Final = 0.03  # to either side, and .3 deg: the play of the base between the blocks
+GASKET_OFF_IN: Final = 0.02  # likewise: the play of the gasket on the pins
 
 
 class GasketAttempt(Attempt, frozen=True, kw_only=True):

@@ -73,8 +73,8 @@ def _belt() -> Iterator[Quantity]:
     for name, (low, high), unit in (("x", BELT_X, "in"), ("y", BELT_Y, "in"), ("yaw", BELT_LINE, "deg")):
         yield from group(
             "base", {name: Range(low, high)}, unit,
-            "Position of the pump base on the belt: its reference point, and the direction of its line of centres. "
-            "Layout study, section 2.",
+            "Position of the pump base on the belt: its reference point, and the direction of the "
+            "line between the centres of its large holes. Layout study, section 2.",
             nominal=(low + high) / 2,
         )  # fmt: skip
 
@@ -92,7 +92,8 @@ def _camera() -> Iterator[Quantity]:
         group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
             f"Relative deviation of each lens's focal length from that of the drawing. {_VISION}", least=-50.0),
         group("camera", {"pot_noise": Noise(0.07)}, "deg",
-            "Noise of the pan and tilt readings. In the vision study, .07 to .10 deg reproduces the errors of 1973."),
+            "Noise of the pan and tilt readings. In the vision study, noise of .07 to .10 deg reproduces the "
+            "location errors of 1973."),
         *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
             "Shape of the raster. `pincushion`: inward shift of a corner, as a fraction of its distance from the "
