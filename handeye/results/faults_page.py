@@ -18,12 +18,12 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
 
     name: str
     meaning: str
-    size: Size | None  # None: it has no value
-    from_start: bool  # It can only be present from the start
+    size: Size | None  # None: the fault has no size
+    from_start: bool  # True if the fault can only be present from the start
     usual_stage: int | None
     """Number of the stage at which the fault begins by default; None: it is present from the start."""
     expected: ExpectedDetection
-    must: str  # What must happen in a run with it, a sentence
+    must: str  # Sentence that says what must happen in a run with this fault
     matrix: bool
 
 

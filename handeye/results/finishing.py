@@ -18,8 +18,8 @@ from handeye.runs.runner import Runner
 def outcome(
     runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
 ) -> Result:
-    """Make the result of a paused run. With `judged`, a run that has ended is judged by `referee`, or by the
-    task's referee if None.
+    """Make the result of a paused run. With `judged`, a run that has ended is judged by `referee`, or by the task's
+    referee if `referee` is None.
     """
     asked = judged and pause.kind != "break" and runner.system.cell is not None
     found = findings(runner, pause, referee) if asked else None

@@ -23,8 +23,8 @@ class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
     si: float
     distribution: str
     spread: float | tuple[float, ...] | None
-    """Size of the error at the level of this world (sigma, half range or magnitude); or least and greatest value of
-    a range; or the values of a choice.
+    """For an error: its size at the level of this world (sigma, half range or magnitude). For a range: the least and
+    the greatest value. For a choice: the possible values.
     """
     nominal: float
     override: Literal["off", "set"] | None

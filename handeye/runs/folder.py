@@ -92,7 +92,7 @@ class RunFolder(Observer):
         if not again:
             self.begin(start)
         self._recorder = self._recording(start.events)
-        if again:  # for a new run, this folder never held any earlier event
+        if again:  # a new run has no earlier events in this folder
             self.lost = self._recorder.lost
             self._journal.undone(len(start.events), runner.time, "resumed")
         return self

@@ -30,7 +30,7 @@ def default_script(work: Task | None = None) -> Path:
     """Return the script of a task, or of the default task. Raises InvalidInput if the task has no script."""
     work = work or tasks.task()
     if work.script is None:
-        raise BadArgument(f"the task {quoted(work.name)} has no script; name a script")
+        raise BadArgument(f"the task {quoted(work.name)} has no script; give the path of a script")
     return plans() / work.script
 
 

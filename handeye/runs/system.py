@@ -435,7 +435,7 @@ class System(ABC):
             "skip": "skip: leave the step out",
         }
 
-    # -- the way of a run -----------------------------------------------------------------------------
+    # -- the course of a run -----------------------------------------------------------------------------
 
     def carry_out(self, runner: Runner, go: Callable[[], Pause]) -> Pause:
         """Continue a run from its present state. `go` continues the run until it pauses."""

@@ -1,4 +1,4 @@
-// The cell and the messages of the server; another script gives them their meaning.
+// Shows the cell, and exchanges messages with the server. Another script handles the messages.
 const live = (() => {
   "use strict";
   const byId = (id) => document.getElementById(id);
@@ -39,7 +39,7 @@ const live = (() => {
     return button;
   }
 
-  /** A moment: figures, joints, channels, then seven numbers for each body, NaN if it is hidden. */
+  /** Show a state of the cell: figures, joints, channels, and seven numbers for each body (NaN if it is hidden). */
   function moment(buffer) {
     const numbers = new Float32Array(buffer), [time, gap, ...force] = numbers.subarray(0, facts.figures);
     let at = facts.figures + facts.joints;
@@ -63,7 +63,7 @@ const live = (() => {
     return [...told, `the hand presses with (${force.map((n) => (n / 0.27801385).toFixed(1)).join(", ")}) oz`];
   }
 
-  // -- the talk ---------------------------------------------------------------------------------------
+  // -- messages ---------------------------------------------------------------------------------------
 
   function tell(text) {
     const told = byId("told"), atEnd = told.scrollTop + told.clientHeight >= told.scrollHeight - 4;
@@ -77,7 +77,7 @@ const live = (() => {
     refused: (sentence) => tell(sentence),
     viewers: (count, { drives: mine, free }) => {
       drives = mine;
-      byId("looking").textContent = `${count === 1 ? "1 viewer" : `${count} viewers`}; ${mine ? "you have control" : free ? "control is free" : "another viewer has control"} `;
+      byId("looking").textContent = `${count === 1 ? "1 viewer" : `${count} viewers`}; ${mine ? "you have control" : free ? "nobody has control" : "another viewer has control"} `;
       byId("drive").hidden = mine;
       const driven = ".controls :is(button, select, input):not(#panic), .jogs button, #line";
       for (const each of document.querySelectorAll(driven)) each.disabled = !mine;
@@ -85,7 +85,7 @@ const live = (() => {
     left: () => { left = true; byId("state").textContent = "the run has ended"; },
   };
 
-  /** Markup of the server, which has escaped all text in it. */
+  /** Show markup from the server, which has escaped all text in it. */
   function fill(name, markup) {
     byId(name).innerHTML = markup;
     byId(name).hidden = !markup;
@@ -115,10 +115,10 @@ const live = (() => {
 
   // -- beginning --------------------------------------------------------------------------------------
 
-  /** Hear of further messages, by the names of their fields. */
+  /** Add handlers for further messages, by the names of the messages' fields. */
   const hear = (more) => Object.assign(heard, more);
 
-  /** Begin, with handlers for messages, by the names of their fields. */
+  /** Begin, with further handlers for messages, by the names of the messages' fields. */
   function begin(more) {
     hear(more);
     for (const button of document.querySelectorAll(".say")) button.addEventListener("click", () => say(button.value));

@@ -19,13 +19,13 @@
     if (stage) byId("state").textContent = `stage ${number}, ${stage}`;
   }
 
-  /** Scroll the script, and nothing else, until a row can be seen. */
+  /** Scroll the script, but not the page, until a row is visible. */
   function bring(row) {
     const box = byId("script"), top = row.getBoundingClientRect().top - box.getBoundingClientRect().top;
     if (top < 0 || top > box.clientHeight - 2 * row.clientHeight) box.scrollTop += top - box.clientHeight / 3;
   }
 
-  /** Mark the lines with breakpoints: one that was set, or all that there are. */
+  /** Mark the lines with breakpoints. `told` lists one new breakpoint (if `more`) or all breakpoints. */
   function marked(more, told) {
     if (!more) breaks.clear();
     for (const { number, stop } of told) {

@@ -1,4 +1,4 @@
-// Teaching: buttons that move the arm by a step, and the form that records its place.
+// Teaching: buttons that move the arm by a step, and the form that records the arm's place.
 (() => {
   "use strict";
   const { byId, say, tell } = live;

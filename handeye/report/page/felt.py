@@ -24,7 +24,7 @@ class How(StrEnum):
 
     RECORDED = ""
     THINNED = (
-        f" This trace is thinned: the curves differ from the recorded curves by at most {FELT[GuardKind.FORCE]:g} N "
+        f" This trace is thinned: the curves differ from the original curves by at most {FELT[GuardKind.FORCE]:g} N "
         f"and {FELT[GuardKind.MOMENT]:g} N m, and have the same maximum."
     )
 

@@ -8,9 +8,9 @@
   const bars = [...byId("stages").children];
   let now = run.show, playing = false, last = 0, lit = null, player = null;
 
-  // -- what there is at a moment --------------------------------------------------------------------
+  // -- finding what belongs to a moment --------------------------------------------------------------------
 
-  /** The number of the last of some rows that begins at a time or before; -1: none does. */
+  /** Return the number of the last row that begins at or before a time; -1 if there is none. */
   function rowAt(rows, time) {
     let first = 0, behind = rows.length;
     while (first < behind) {
@@ -42,7 +42,7 @@
     if (player) player.at(now); else photograph();
   }
 
-  /** Light the line under way, and bring it into sight in its frame; the page stays where it is. */
+  /** Highlight the current line, and scroll the script until it is visible. The page itself does not scroll. */
   function light(line) {
     if (line === lit) return;
     if (lit) lit.classList.remove("on");
@@ -60,7 +60,7 @@
     byId("caption").replaceChildren(name, said < 0 || run.told[said][0] < begin ? "" : run.told[said][1]);
   }
 
-  /** Of the photographs, the last that was taken by now. */
+  /** Show the last photograph taken up to the present moment. */
   function photograph() {
     const taken = photographs.filter((figure) => Number(figure.dataset.time) <= now + 1e-6);
     const shown = taken.at(-1) ?? photographs[0];
@@ -83,7 +83,7 @@
     if (now >= run.end) go(false); else requestAnimationFrame(advance);
   }
 
-  /** Keep the moment in the address, so that it can be shared. */
+  /** Put the moment into the address of the page, so that a copied address leads to it. */
   function keep() {
     history.replaceState(null, "", `#t=${now.toFixed(2)}`);
   }
@@ -93,7 +93,7 @@
     keep();
   }
 
-  /** Go a number of rows forwards or backwards: to the beginning of this one first, if it began a while ago. */
+  /** Go forwards or back by rows. Back leads first to the beginning of the present row, unless it has just begun. */
   function skip(rows, by) {
     const here = rowAt(rows, now);
     const next = by < 0 && here >= 0 && now > rows[here][0] + 0.2 ? here : here + by;
@@ -129,7 +129,7 @@
     return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
   }
 
-  /** Put the view in the place of the photographs, where the browser can draw it. */
+  /** Show the 3D view instead of the photographs, if the browser can draw it. */
   async function draw() {
     if (!byId("scene")) return;
     const canvas = byId("view");

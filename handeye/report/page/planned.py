@@ -162,15 +162,15 @@ def searched(searches: Sequence[Search]) -> Iterator[Markup]:
         yield note("No search had to try a second place.")
         return
     yield note(
-        "Places that each search tried, seen from above. The ring marks the first place, the dot the last."
+        "Places that each search tried, seen from above. A ring marks the first place, and a dot marks the last."
     )
     yield element("div", *map(_search, searches), class_="figures")
 
 
 def _search(search: Search) -> Markup:
     tried = counted(len(search.places), "place")
-    came = "no places left" if search.exhausted else "found at the last place"
-    told = f"{tried} tried, from {exact_clock(search.times[0]) if search.times else 'the first'}: {came}"
+    came = "no place was right" if search.exhausted else "the last place was right"
+    told = f"{tried} tried{f' since {exact_clock(search.times[0])}' if search.times else ''}; {came}"
     caption = element("figcaption", element("b", search.step.place), " ", element("span", told))
     figure = element("figure", _spiral(search, told), caption)
     if not search.times:

@@ -86,8 +86,8 @@ def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
     if then is not None:
         yield (
             f" In {then.year}, planning took {duration(then.times['planning'])} and vision "
-            f"{then.times['vision']:g} s of processor time; here both take well under a second, as the result "
-            "of the run shows."
+            f"{then.times['vision']:g} s of processor time. Here, each takes well under a second; the exact "
+            "times are in the result of the run."
         )
 
 

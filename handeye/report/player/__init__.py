@@ -14,7 +14,7 @@ browser's setting for reduced motion. `exposures`: the number of pictures that a
 | member | |
 |---|---|
 | `begin`, `end`, `duration` | the range of the tracks, s |
-| `at(seconds)`, `time` | show the run at a time; the time that is shown. The page must advance the time |
+| `at(seconds)`, `time` | show the run at a time; the time that is shown. Only the page advances the time |
 | `views`, `view(name)` | names of the views, `room` first; change to a view |
 | `names`, `pose(body, seconds)` | names of the bodies, as in `Trace.poses`; a body's position (m) and
 quaternion w, x, y, z, or null if it is hidden |

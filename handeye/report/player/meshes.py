@@ -46,7 +46,7 @@ class Meshes:
     _known: dict[tuple[bytes, ...], int] = field(default_factory=dict)
 
     def number(self, pieces: Sequence[Piece]) -> int:
-        """Return the number of a body's mesh. A new mesh is added."""
+        """Return the number of a body's mesh. If the mesh is not stored yet, it is added."""
         return self._added(pieces, _coarse(pieces))
 
     def number_of_parts(self, pieces: Sequence[Piece]) -> int:

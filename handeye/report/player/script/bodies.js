@@ -2,25 +2,25 @@ import { add, dot, length, rotated, sides, subtract } from "./geometry.js";
 import { rowsOf, summed } from "./packed.js";
 import { DEPTH } from "./shaders.js";
 
-const SMALL = 20; // points from its middle to its rim: a body that is smaller is drawn coarsely
-const STILL = 40; // pictures in which a body has not moved, so that it is taken to stand still
-const SHIFT = 2e-5, TURN = 1e-5; // what counts as a movement, m and parts of a quaternion
+const SMALL = 20; // points; a body whose radius in the picture is smaller is drawn with its coarse mesh
+const STILL = 40; // after this number of pictures without movement, a body counts as still
+const SHIFT = 2e-5, TURN = 1e-5; // greater changes count as movement: m, and components of a quaternion
 
-// The bodies of a scene: what they look like, and where they are now.
+// The bodies of a scene, with their shapes and present poses.
 export class Bodies {
   constructor(graphics, { header, array }) {
     this.graphics = graphics;
     this.list = header.bodies.map(body => ({ ...body, mesh: header.meshes[body.mesh], pose: null, since: 0 }));
     this.named = new Map(this.list.map(body => [body.name, body]));
     this.world = this.list.find(body => body.mesh.parts);
-    this.inOrder = [...this.list].sort((a, b) => !!a.mesh.parts - !!b.mesh.parts); // the world is behind the others
+    this.inOrder = [...this.list].sort((a, b) => !!a.mesh.parts - !!b.mesh.parts); // the world is drawn last
     if (this.world) this.world.pose = [0, 0, 0, 1, 0, 0, 0];
     this.pictures = 0;
     this.surfaces = graphics.surfaces(...corners(array), summed(array("triangles")));
     this.depth = graphics.program(DEPTH);
   }
 
-  // Set the pose of a body, null if it is hidden; true if that is a change.
+  // Set the pose of a body (null if it is hidden). Returns true if the pose has changed.
   put(name, pose) {
     const body = this.named.get(name);
     if (!body || !moved(body.pose, pose)) return false;
@@ -29,7 +29,7 @@ export class Bodies {
     return true;
   }
 
-  // Count a picture, and tell what stands still in it: a test of a body, and a text that changes with the answers.
+  // Count a picture. Returns tests for still and moving bodies, and a text that changes when their results change.
   count() {
     this.pictures++;
     const first = this.pictures <= STILL;
@@ -47,7 +47,7 @@ export class Bodies {
     gl.bindVertexArray(null);
   }
 
-  // Draw with a program that is in use, what is in sight only. `points`: of a metre a metre away.
+  // Draw the bodies in sight with a shader program. `points`: size in the picture of a metre at a distance of a metre.
   draw(uniforms, { eye, matrix, points }, which) {
     const planes = sides(matrix);
     this.begin(uniforms, matrix);
@@ -60,7 +60,7 @@ export class Bodies {
     }
   }
 
-  // What is drawn at one point of a picture: the displayed name of a body, or of a part of the world; or null.
+  // Return the displayed name of the body, or of the part of the world, at one point of a picture; null if none.
   pick(matrix) {
     const { graphics } = this, { gl } = graphics, names = [], ink = new Uint8Array(4);
     graphics.into(graphics.target("pick", 1, 1, [gl.RGBA8], gl.DEPTH_COMPONENT24), 1, 1);
@@ -100,7 +100,7 @@ function moved(old, now) {
   return now.some((x, i) => Math.abs(x - old[i]) > (i < 3 ? SHIFT : TURN));
 }
 
-// Points and normals as a graphics card takes them, four numbers to a corner; the third of the latter is the material.
+// Points and normals for the graphics card, with four numbers per corner. The third number of a normal is its material.
 function corners(array) {
   const [steep, materials] = [array("normals"), array("materials")], packed = rowsOf(array("points"), 3);
   const count = materials.length;

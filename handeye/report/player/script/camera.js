@@ -1,12 +1,13 @@
 import { add, axes, clamp, mixed, multiplied, perspective, seenFrom, subtract } from "./geometry.js";
 
 const NEAR = 0.03, FAR = 14; // m
-const NEAREST = 0.1, FARTHEST = 3.6; // m from the point that is looked at
-const LOWEST = -0.05, HIGHEST = 1.52; // rad above it
-const BROAD = 1.15; // as wide as high a picture has to be to be shown whole
-const GLIDE = 450; // ms from view to view
+const NEAREST = 0.1, FARTHEST = 3.6; // m from the eye to the point at which it looks
+const LOWEST = -0.05, HIGHEST = 1.52; // rad, elevation of the eye above this point
+const BROAD = 1.15; // in a picture with a smaller ratio of width to height, the angle of view is widened
+const GLIDE = 450; // ms for a change of the view
 
-// The viewpoint: at a point, from a direction and a distance; both go with a body, if the view does.
+// The viewpoint: the point at which the eye looks, and the eye's direction and distance from there. A view that belongs
+// to a body moves with the body.
 export class Camera {
   constructor(views, placeOf) {
     this.views = new Map(views.map(view => [view.name, view]));
@@ -24,16 +25,16 @@ export class Camera {
     this.glide = null;
   }
 
-  // Go to a view: at once, or from `now` (ms) on, step by step.
+  // Change to a view: at once or, with `now` (ms), gradually from that time on.
   view(name, now = null) {
     const aim = this.aimed(this.views.get(name));
     if (now === null) return this.look(aim);
     const { far, yaw, pitch, slope } = this, at = subtract(this.middle, this.base(aim.body));
-    aim.yaw = yaw + Math.atan2(Math.sin(aim.yaw - yaw), Math.cos(aim.yaw - yaw)); // the short way round
+    aim.yaw = yaw + Math.atan2(Math.sin(aim.yaw - yaw), Math.cos(aim.yaw - yaw)); // turn the shorter way
     this.glide = { since: now, from: { at, far, yaw, pitch, slope }, aim };
   }
 
-  // Go on to where a glide is now.
+  // Continue a gradual change of the view.
   move(now) {
     if (!this.glide) return;
     const { since, from, aim } = this.glide, share = clamp((now - since) / GLIDE, 0, 1);
@@ -57,15 +58,15 @@ export class Camera {
     return add(this.middle, [Math.cos(yaw) * level, Math.sin(yaw) * level, Math.sin(pitch)], far);
   }
 
-  // The eye and what it sees. `jitter`: part of a point right and up; `lens`: off the middle of the lens, m.
+  // The eye and its projection. `jitter`: shift to the right and up, in points; `lens`: shift from the lens centre, m.
   seen(width, height, jitter = [0, 0], lens = [0, 0]) {
     const { middle, eye, far } = this, around = axes(subtract(middle, eye)), aspect = width / height;
     const slope = this.slope * Math.max(1, BROAD / aspect);
     const from = add(add(eye, around.right, lens[0]), around.up, lens[1]);
-    const half = [slope * aspect * far, slope * far]; // of what is seen where it is sharp, m
+    const half = [slope * aspect * far, slope * far]; // half the width and height of the view in the plane of focus, m
     const shift = [2 * jitter[0] / width - lens[0] / half[0], 2 * jitter[1] / height - lens[1] / half[1]];
     const matrix = multiplied(perspective(slope, aspect, NEAR, FAR, shift), seenFrom(from, around));
-    return { eye: from, matrix, points: height / slope / 2 }; // points of a metre a metre away
+    return { eye: from, matrix, points: height / slope / 2 }; // points: a metre at a distance of a metre
   }
 
   orbit(right, up) {
@@ -74,7 +75,7 @@ export class Camera {
     this.pitch = clamp(this.pitch + up, LOWEST, HIGHEST);
   }
 
-  // By parts of the picture's height.
+  // Shift the view by fractions of the picture's height.
   pan(right, up) {
     this.glide = null;
     const { right: x, up: y } = axes(subtract(this.middle, this.eye)), size = 2 * this.far * this.slope;

@@ -1,4 +1,4 @@
-// Vectors are arrays of three numbers; a matrix is sixteen, column after column; a rotation a quaternion w, x, y, z.
+// A vector has three numbers. A matrix has sixteen, column by column. A rotation is a quaternion w, x, y, z.
 
 export const add = (a, b, k = 1) => [a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]];
 export const subtract = (a, b) => add(a, b, -1);
@@ -20,19 +20,19 @@ export function multiplied(a, b) {
   return c;
 }
 
-// To the right, upwards and forward of one who looks along a direction, the world's z upright.
+// Unit vectors right, up and forward for an eye that looks along a direction, with the world's z axis upright.
 export function axes(direction) {
   const forward = unit(direction), upright = Math.abs(forward[2]) > 0.999 ? [0, 1, 0] : [0, 0, 1];
   const right = unit(cross(forward, upright));
   return { right, up: cross(right, forward), forward };
 }
 
-// From the world into the frame of an eye.
+// The matrix that converts world coordinates to the frame of an eye.
 export function seenFrom(eye, { right: r, up: u, forward: f }) {
   return [r[0], u[0], -f[0], 0, r[1], u[1], -f[1], 0, r[2], u[2], -f[2], 0, -dot(r, eye), -dot(u, eye), dot(f, eye), 1];
 }
 
-// `slope`: tangent of half the upright angle of view; `shift`: of the middle of the picture, in half pictures.
+// `slope`: tangent of half the vertical angle of view; `shift`: shift of the picture's middle, in halves of a picture.
 export function perspective(slope, aspect, near, far, shift = [0, 0]) {
   const deep = near - far, middle = (far + near) / deep, end = 2 * far * near / deep;
   return [1 / slope / aspect, 0, 0, 0, 0, 1 / slope, 0, 0, shift[0], shift[1], middle, -1, 0, 0, end, 0];
@@ -43,7 +43,7 @@ export function parallel(radius, near, far) {
   return [1 / radius, 0, 0, 0, 0, 1 / radius, 0, 0, 0, 0, 2 / deep, 0, 0, 0, (far + near) / deep, 1];
 }
 
-// By Gauss and Jordan.
+// Gauss-Jordan elimination.
 export function inverse(matrix) {
   const four = [0, 1, 2, 3], rows = four.map(r => [...four.map(c => matrix[c * 4 + r]), ...four.map(c => +(c === r))]);
   for (let i = 0; i < 4; i++) {
@@ -56,7 +56,7 @@ export function inverse(matrix) {
   return new Float32Array(four.flatMap(c => rows.map(row => row[c + 4])));
 }
 
-// The left, right, lower and upper planes of what a matrix shows: normal inwards, and distance.
+// The left, right, lower and upper border planes of a view: each has its inward normal and its distance.
 export function sides(m) {
   return [[1, 0], [-1, 0], [0, 1], [0, -1]].map(([x, y]) => {
     const plane = [0, 1, 2, 3].map(k => m[k * 4 + 3] + x * m[k * 4] + y * m[k * 4 + 1]), size = length(plane);
@@ -64,7 +64,7 @@ export function sides(m) {
   });
 }
 
-// Points that fill the unit square, and the unit disc, evenly, however many are taken.
+// Sequences of points that fill the unit square and the unit disc evenly, whatever the number of points.
 export function halton(number, base) {
   let share = 1, sum = 0;
   for (let i = number; i > 0; i = Math.floor(i / base)) sum += (share /= base) * (i % base);

@@ -1,9 +1,9 @@
 import { VERSION } from "./shaders.js";
 
-// A WebGL 2 context, and what is made in it.
+// A WebGL 2 context and the objects made in it.
 export class Graphics {
   constructor(canvas) {
-    // With an alpha channel: pictures can then be copied to the canvas as they are.
+    // With an alpha channel, pictures can be copied to the canvas unchanged.
     this.gl = canvas.getContext("webgl2", { antialias: false, alpha: true, powerPreference: "high-performance" });
     if (!this.gl) throw new Error("This browser offers no WebGL 2.");
     this.floats = ["EXT_color_buffer_float", "EXT_color_buffer_half_float"].some(name => this.gl.getExtension(name));
@@ -11,7 +11,7 @@ export class Graphics {
     this.nothing = this.gl.createVertexArray();
   }
 
-  // A program with the places of its uniforms by their names.
+  // A shader program, with the locations of its uniforms by name.
   program([vertex, fragment]) {
     const { gl } = this, program = gl.createProgram();
     for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
@@ -33,7 +33,7 @@ export class Graphics {
     return uniforms;
   }
 
-  // Triangles of points (whole numbers, four to a corner) and normals (bytes, four to a corner).
+  // Triangles, given by points (four whole numbers per corner) and normals (four bytes per corner).
   surfaces(points, normals, triangles) {
     const { gl } = this, array = gl.createVertexArray();
     const filled = (kind, values) => {
@@ -60,14 +60,14 @@ export class Graphics {
     return texture;
   }
 
-  // Rows of figures that shaders look up.
+  // A table of numbers for the shaders.
   table(rows, width) {
     const { gl } = this, texture = this.texture(gl.RGBA32F, width, rows.length);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, rows.length, gl.RGBA, gl.FLOAT, new Float32Array(rows.flat()));
     return texture;
   }
 
-  // Grey square pictures, `count` of them, each to be repeated; white where there are none.
+  // `count` square grey pictures, which repeat across a surface. If there are none, the surface is white.
   grains(levels, count) {
     const { gl } = this, texture = gl.createTexture(), kind = gl.TEXTURE_2D_ARRAY;
     const side = count ? Math.sqrt(levels.length / count) : 1;
@@ -76,11 +76,11 @@ export class Graphics {
     const bytes = new Uint8Array(count ? levels : [255]);
     gl.texImage3D(kind, 0, gl.R8, side, side, Math.max(count, 1), 0, gl.RED, gl.UNSIGNED_BYTE, bytes);
     gl.generateMipmap(kind);
-    gl.texParameteri(kind, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST); // half the work of blending two
+    gl.texParameteri(kind, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST); // half the work of blending two levels
     return texture;
   }
 
-  // A map of what is nearest to a lamp.
+  // A shadow map: the distances of the surfaces nearest to a lamp.
   shadowMap(size) {
     const { gl } = this, frame = gl.createFramebuffer();
     const texture = this.texture(gl.DEPTH_COMPONENT16, size, size, gl.LINEAR);
@@ -90,7 +90,7 @@ export class Graphics {
     return { frame, texture, size };
   }
 
-  // Pictures that are drawn into and read again, made again when their size changes. `depth`: null, or its format.
+  // Pictures to draw into and to read afterwards. They are made anew when the size changes. `depth`: format, or null.
   target(name, width, height, formats, depth = null) {
     const known = this.targets.get(name);
     if (known?.width === width && known.height === height) return known;
@@ -114,7 +114,7 @@ export class Graphics {
     for (const texture of textures) this.gl.deleteTexture(texture);
   }
 
-  // Draw into a target or, without one, into the canvas.
+  // From now on, draw into a target or, if there is none, into the canvas.
   into(target, width, height) {
     this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, target?.frame ?? null);
     this.gl.viewport(0, 0, width, height);
@@ -126,13 +126,13 @@ export class Graphics {
     this.gl.uniform1i(location, unit);
   }
 
-  // One triangle over the whole picture.
+  // Draw one triangle that covers the whole picture.
   whole() {
     this.gl.bindVertexArray(this.nothing);
     this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
   }
 
-  // Wait until everything is drawn.
+  // Wait until the graphics card has drawn everything.
   finish() {
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
   }

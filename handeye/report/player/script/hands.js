@@ -1,12 +1,12 @@
-const STEP = 0.08; // of a key, rad and parts of the height
-const GRIP = 0.006; // rad to a point that a hand moves
-const SHAKE = 4; // points within which a press is a click
+const STEP = 0.08; // effect of a key: rad, or a fraction of the picture's height
+const GRIP = 0.006; // rad per point of a drag
+const SHAKE = 4; // points; a press that moves less is a click
 
 const KEYS = {
   ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
 };
 
-// Mouse, touch and keys on a canvas; `signal` ends it. `moved` is called after each change of the camera.
+// Handle mouse, touch and keys on a canvas until `signal` aborts. `moved` is called after each change of the camera.
 export function listen(canvas, camera, { moved, clicked, signal }) {
   const fingers = new Map();
   let travelled = 0;
@@ -15,7 +15,7 @@ export function listen(canvas, camera, { moved, clicked, signal }) {
   on("pointerdown", event => {
     canvas.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
-    if (fingers.size === 1) travelled = 0; else travelled = Infinity; // a pinch is no click
+    if (fingers.size === 1) travelled = 0; else travelled = Infinity; // a pinch is not a click
   });
 
   on("pointermove", event => {
@@ -45,7 +45,7 @@ export function listen(canvas, camera, { moved, clicked, signal }) {
   on("pointercancel", released);
   on("contextmenu", event => event.preventDefault());
 
-  on("wheel", event => { // scrolls the page, unless the canvas has the focus
+  on("wheel", event => { // zooms if the canvas has the focus, and otherwise scrolls the page
     if (document.activeElement !== canvas && !event.ctrlKey) return;
     event.preventDefault();
     camera.zoom(Math.exp(0.0022 * Math.max(-60, Math.min(60, event.deltaY))));

@@ -1,4 +1,4 @@
-// What `packing.py` wrote: four bytes with the length of the header, the header as JSON, then arrays.
+// Reads data from `packing.py`: four bytes with the length of the header, the header as JSON, and the arrays.
 
 const KINDS = { int8: Int8Array, uint8: Uint8Array, uint16: Uint16Array, int32: Int32Array, uint32: Uint32Array };
 
@@ -12,7 +12,7 @@ export function unpacked(buffer) {
   return { header, array };
 }
 
-// Columns of differences that wrap, one after the other, as rows of `width` whole numbers of 16 bits.
+// Convert columns of differences, stored one after another, to rows of `width` 16-bit whole numbers. Sums wrap.
 export function rowsOf(steps, width, Kind = Uint16Array) {
   const count = steps.length / width, rows = new Kind(steps.length);
   for (let c = 0; c < width; c++) {
@@ -21,7 +21,7 @@ export function rowsOf(steps, width, Kind = Uint16Array) {
   return rows;
 }
 
-// Differences with their sign in the lowest bit.
+// Sum differences whose lowest bit is their sign.
 export function summed(zigzag) {
   const values = new Uint32Array(zigzag.length);
   for (let i = 0, sum = 0; i < zigzag.length; i++) values[i] = sum += (zigzag[i] >>> 1) ^ -(zigzag[i] & 1);

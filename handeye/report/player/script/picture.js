@@ -2,10 +2,10 @@ import { disc, halton, inverse } from "./geometry.js";
 import { DRAFT, FINE, KEPT, RECALLED, WEIGHED } from "./shaders.js";
 
 const APERTURE = 0.002; // radius of the lens, m
-const HORIZON = 0.15; // sine of the height from which on there is sky: lower light would throw shadows on the walls
+const HORIZON = 0.15; // sine of the sky's least elevation; lower light would cast shadows on the walls
 const DARK = [0.13, 0.13, 0.135, 1];
 
-// Draws the bodies: a draft at once, or one exposure of many that are averaged.
+// Draws the bodies, either as a draft or as one of many exposures, which are averaged.
 export class Picture {
   constructor(graphics, bodies, shadows, materials, grain) {
     Object.assign(this, { graphics, bodies, shadows, materials, grain });
@@ -16,7 +16,7 @@ export class Picture {
     graphics.gl.depthFunc(graphics.gl.LEQUAL);
   }
 
-  // While the camera stands, what stands still is kept as a picture with its depth, and only what moves is drawn.
+  // While the camera is still, a stored picture (with depth) shows the still bodies, and only moving bodies are drawn.
   draft(camera, width, height) {
     const { graphics, shadows } = this, light = shadows.light(), seen = camera.seen(width, height);
     const { still, moving, key } = this.bodies.count();
@@ -59,10 +59,10 @@ export class Picture {
     gl.depthFunc(gl.ALWAYS);
     graphics.whole();
     gl.depthFunc(gl.LEQUAL);
-    for (let unit = 0; unit < 4; unit++) graphics.bind(unit, null, null); // what is drawn into is not read
+    for (let unit = 0; unit < 4; unit++) graphics.bind(unit, null, null); // a drawing target must not be read
   }
 
-  // One exposure of many: another point of the lamp, of the lens and of the sky above each time.
+  // Draw one of many exposures. Each uses a different point of the lamp, of the lens and of the sky.
   expose(camera, width, height, number) {
     const { graphics, shadows } = this, { gl } = graphics, i = number + 1;
     this.FINE ??= graphics.program(FINE);
@@ -99,7 +99,7 @@ export class Picture {
     gl.disable(gl.BLEND);
   }
 
-  // Show the mean of a number of exposures.
+  // Show the average of the exposures so far.
   develop(width, height, count) {
     this.graphics.into(null, width, height);
     this.weigh(this.sum.textures[0], 1 / count);

@@ -8,13 +8,13 @@ import { Picture } from "./picture.js";
 import { Shadows } from "./shadows.js";
 import { Tracks } from "./tracks.js";
 
-const DETAIL = [1, 0.75, 0.5]; // points of a draft to a point of the canvas, along a side
-const SLOW = 45, FAST = 14; // ms: longer than this a draft should not take; below that it can be finer
-const TIMED = 24; // one in this number of drafts is timed
-const REST = [150, 800]; // ms without a change until the finer pictures begin: at least, and at most
-const SHOWN = 8; // exposures after which their mean is shown
-const PATIENCE = 4000; // ms after which no more are made than these
-const MOST = 2; // points to a CSS pixel
+const DETAIL = [1, 0.75, 0.5]; // possible resolutions of a draft, as fractions of the canvas's
+const SLOW = 45, FAST = 14; // ms for a draft: a slower one is made coarser, a faster one finer
+const TIMED = 24; // one of this number of drafts is timed
+const REST = [150, 800]; // ms without change before fine pictures begin: least and greatest value
+const SHOWN = 8; // the average is shown each time this number of exposures has been added
+const PATIENCE = 4000; // ms after which the next shown average is the last
+const MOST = 2; // points per CSS pixel, at most
 
 class Player {
   constructor(canvas, scene, tracks, levels, { still, exposures = 32 }) {
@@ -38,7 +38,7 @@ class Player {
     this.at(tracks.begin);
   }
 
-  // Make everything that the graphics card holds: at first, and when it has lost it.
+  // Create everything on the graphics card, at the start and after the card has lost it.
   build() {
     const { header } = this.scene, graphics = this.graphics = new Graphics(this.canvas);
     this.lost = false;
@@ -51,7 +51,7 @@ class Player {
     if (this.camera) this.wake();
   }
 
-  // ---- what a page asks
+  // ---- the interface for pages
 
   get begin() { return this.tracks.begin; }
   get end() { return this.tracks.end; }
@@ -74,7 +74,7 @@ class Player {
     return this.tracks.pose(body, seconds);
   }
 
-  // By drawing one point of the picture, as large as a picture, in numbered colours.
+  // Draw this one point as a whole picture, with a different colour for each body, and read the colour.
   pick(x, y) {
     const { clientWidth: w, clientHeight: h } = this.canvas, { matrix } = this.camera.seen(w, h);
     const onPoint = [w, 0, 0, 0, 0, h, 0, 0, 0, 0, 1, 0, w - 2 * x - 1, 2 * y + 1 - h, 0, 1];
@@ -94,7 +94,7 @@ class Player {
     this.graphics.gl.getExtension("WEBGL_lose_context")?.loseContext();
   }
 
-  // ---- when what is drawn: a draft after each change; when nothing has changed for a while, a fine one, bit by bit
+  // ---- drawing: a draft after each change; if nothing changes for a while, a fine picture, exposure by exposure
 
   now(body) {
     return this.bodies.named.get(body)?.pose?.slice(0, 3);
@@ -114,7 +114,7 @@ class Player {
   draw(now) {
     this.request = 0;
     if (this.lost || !this.canvas.clientWidth) return;
-    this.rest = clamp(2 * (now - this.drawn), ...REST); // where drawing is slow, the next change comes late
+    this.rest = clamp(2 * (now - this.drawn), ...REST); // if drawing is slow, the next change arrives late
     this.drawn = now;
     this.camera.move(now);
     if (this.changed) this.drawDraft(now);
@@ -133,7 +133,7 @@ class Player {
     this.timer = setTimeout(() => this.next(), this.rest);
   }
 
-  // As fine as this machine can.
+  // Adjust the resolution of drafts to the speed of this machine.
   tune(begun) {
     this.graphics.finish();
     const cost = performance.now() - begun;
@@ -141,7 +141,7 @@ class Player {
     else if (cost < FAST && this.detail > 0) this.detail--;
   }
 
-  // First a draft in full size, then exposure after exposure.
+  // Draw a draft in full size first, and then one exposure after another.
   drawFine(now) {
     const [width, height] = this.size(1);
     if (this.exposed < 0) this.picture.draft(this.camera, width, height);
@@ -163,7 +163,7 @@ class Player {
   }
 }
 
-// The levels of a grey picture, row by row.
+// Return the levels of a grey picture, row by row.
 async function levelsOf(file) {
   const image = await createImageBitmap(new Blob([file])), { width, height } = image;
   const pen = new OffscreenCanvas(width, height).getContext("2d");
@@ -171,7 +171,7 @@ async function levelsOf(file) {
   return pen.getImageData(0, 0, width, height).data.filter((_, i) => i % 4 === 0);
 }
 
-// A player on a canvas; see `handeye.report.player` for what it can do. Rejected with a sentence where it cannot draw.
+// Return a player on a canvas; `handeye.report.player` describes it. Rejected with a sentence if it cannot draw.
 export async function createPlayer(canvas, sceneBuffer, tracksBuffer, options = {}) {
   const scene = unpacked(sceneBuffer), levels = scene.header.grains ? await levelsOf(scene.array("picture")) : null;
   return new Player(canvas, scene, new Tracks(tracksBuffer), levels, options);

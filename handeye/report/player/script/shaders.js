@@ -1,5 +1,5 @@
-// Shaders. Light is reckoned in linear colours; what the lamp adds can be kept apart, so that its shadows can be new
-// each time on what stands still.
+// Shaders. Light is computed in linear colours. The lamp's part can be stored separately, so that the shadows on still
+// bodies can be computed anew for each picture.
 
 export const VERSION = `#version 300 es
 precision highp float;
@@ -8,7 +8,7 @@ precision highp sampler2DShadow;
 precision mediump sampler2DArray;
 `;
 
-// A body where it is: its points are whole numbers on a grid of its own.
+// Puts a body in its place. The body's points are whole numbers on its own grid.
 const PLACED = `
 layout(location = 0) in vec3 point;
 layout(location = 1) in vec4 normal;
@@ -19,13 +19,13 @@ vec3 rotated(vec3 v) { return v + 2. * cross(turn.yzw, cross(turn.yzw, v) + turn
 vec3 local() { return scale.xyz + point * scale.w; }
 `;
 
-// One triangle over the whole picture.
+// One triangle that covers the whole picture.
 const WHOLE = `
 out vec2 at;
 void main() { at = 2. * vec2(gl_VertexID & 1, gl_VertexID >> 1); gl_Position = vec4(2. * at - 1., 0, 1); }
 `;
 
-// From light to what a screen shows: soft in the bright parts, as film is.
+// Converts light to screen values. Bright parts are compressed, as on film.
 const FILM = `
 vec4 film(vec3 light) {
   light *= 1.35;
@@ -38,7 +38,7 @@ export const DEPTH = [
   "uniform vec4 ink; out vec4 colour; void main() { colour = ink; }",
 ];
 
-// Colour, gloss and grain come from the table of materials, by the third number beside the normal.
+// Colour, gloss and grain come from the table of materials. The third number of the normal is the row of the table.
 const SURFACE = `${PLACED}
 uniform highp sampler2D materials;
 out vec3 world, facing;
@@ -65,9 +65,9 @@ void main() {
 }
 `;
 
-// A warm lamp with shadows; cool light from above and from a window; what is metallic mirrors a room that is made up.
-// KEPT: the lamp's part by itself, without shadows. FINE: light from above has shadows too, from another direction each
-// time.
+// Light: a warm lamp with shadows, and cool light from above and from a window. Metal reflects an imaginary room.
+// KEPT: the lamp's part is separate and has no shadows. FINE: light from above also casts shadows, from a different
+// direction in each exposure.
 const LIT = `${FILM}
 in vec3 world, facing;
 in vec2 grained;
@@ -144,7 +144,7 @@ export const DRAFT = [SURFACE, LIT];
 export const FINE = [SURFACE, `#define FINE\n${LIT}`];
 export const KEPT = [SURFACE, `#define KEPT\n${LIT}`];
 
-// What stands still, as it was kept, under the shadows of now; with its depth, so that what moves can go behind it.
+// The stored picture of the still bodies, with the present shadows, and with depth, which can hide moving bodies.
 export const RECALLED = [WHOLE, `${FILM}
 in vec2 at;
 out vec4 colour;

@@ -1,12 +1,12 @@
 import { add, axes, multiplied, parallel, perspective, seenFrom, subtract, unit } from "./geometry.js";
 
-const POINTS = { draft: 1024, fine: 2048, dome: 1024 }; // along a side of a map
-const SLOPE = 0.58; // tangent of half the angle that the lamp lights
+const POINTS = { draft: 1024, fine: 2048, dome: 1024 }; // points along a side of a map
+const SLOPE = 0.58; // tangent of half the angle of the lamp's cone of light
 const SIZE = 0.09; // radius of the lamp, m
-const REACH = [1.5, 0.1, 6]; // radius, nearest and farthest of what throws shadows in light from above, m
-const AWAY = 3; // m from which it comes
+const REACH = [1.5, 0.1, 6]; // m; where bodies cast shadows in light from above: radius, least and greatest distance
+const AWAY = 3; // m, distance of the source of light from above
 
-// The maps of what the lamp reaches. That of what stands still is kept, and what moves drawn into a copy of it.
+// The shadow maps. The map of still bodies is stored, and moving bodies are drawn into a copy of it.
 export class Shadows {
   constructor(graphics, lamp, bodies) {
     this.graphics = graphics;
@@ -17,7 +17,7 @@ export class Shadows {
     this.keptFor = null;
   }
 
-  // The lamp, or a point of it: `off` in parts of its radius.
+  // The light of one point of the lamp. `off`: its distance from the lamp's middle, in units of the lamp's radius.
   light(off = [0, 0]) {
     const { eye, at } = this.lamp, { right, up, forward } = axes(subtract(at, eye));
     const lamp = add(add(eye, right, off[0] * SIZE), up, off[1] * SIZE), away = Math.hypot(...subtract(at, eye));
@@ -25,7 +25,7 @@ export class Shadows {
     return { lamp, aim: forward, view };
   }
 
-  // The map of all shadows of now; `still` and `moving` say which bodies, `key` changes with the first.
+  // Draw the map of all present shadows. `still` and `moving` select bodies; `key` changes with the still bodies.
   drawDraft({ view }, still, moving, key) {
     const { gl } = this.graphics, side = POINTS.draft;
     if (key !== this.keptFor) this.fill(this.kept, view, still);
@@ -41,7 +41,7 @@ export class Shadows {
     this.fill(this.fine, view, () => true);
   }
 
-  // Light from above out of a direction, and its shadows.
+  // Draw the shadow map for light from above, from one direction.
   drawDome(direction, middle) {
     this.dome ??= this.graphics.shadowMap(POINTS.dome);
     const eye = add(middle, unit(direction), AWAY), towards = axes(subtract(middle, eye));

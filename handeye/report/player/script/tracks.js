@@ -1,9 +1,9 @@
 import { rowsOf, summed, unpacked } from "./packed.js";
 
-const UNIT = 0x1fff; // what 1 is in a quaternion
-const SAME = 1e-3; // of a servo period: the resolution of times
+const UNIT = 0x1fff; // the number that stands for 1 in a quaternion
+const SAME = 1e-3; // resolution of times, as a fraction of a servo period
 
-// How many of increasing numbers are not above a value.
+// Return how many of these increasing numbers are at most `value`.
 function countUpTo(numbers, value) {
   let low = 0, high = numbers.length;
   while (low < high) {
@@ -13,7 +13,8 @@ function countUpTo(numbers, value) {
   return low;
 }
 
-// Where a body was: spans of servo periods in which it is there, and in each some poses; others lie between these.
+// The track of a body: spans of servo periods in which the body is present, and some poses in each span. All other
+// poses are interpolated.
 class Track {
   constructor({ spans, scale }, periods, places, turns) {
     let row = 0;
@@ -46,7 +47,7 @@ class Track {
   }
 }
 
-// All bodies of a run, and its clock.
+// The tracks of all bodies in a run, and the run's clock.
 export class Tracks {
   constructor(buffer) {
     const { header, array } = unpacked(buffer), { begin, end, still, moving } = header;
@@ -65,14 +66,14 @@ export class Tracks {
     }
   }
 
-  // The servo period that ended at a time, and part of the next.
+  // Return the number of the last servo period that ended by this time, plus the elapsed fraction of the next one.
   period(seconds) {
     const { clock } = this, i = Math.max(countUpTo(clock, seconds) - 1, 0);
     const span = i + 1 < clock.length ? clock[i + 1] - clock[i] : Infinity;
     return i + Math.max(0, Math.min(1, (seconds - clock[i]) / span));
   }
 
-  // Place (m) and quaternion of a body, or null if it is hidden.
+  // Return the position (m) and quaternion of a body, or null if the body is hidden.
   pose(body, seconds) {
     return this.tracks.get(body)?.pose(this.period(seconds)) ?? null;
   }
