@@ -1,1 +1,3 @@
-"""Developers' stopwatches: what runs, languages and the eye cost. Run from a checkout, not shipped."""
+"""Benchmarks for developers: the cost of runs, of languages and of vision. They run from a checkout, and are not
+shipped.
+"""

@@ -1,4 +1,4 @@
-"""The commands of the developers' stopwatches: `python -m benchmarks NAME`, from a checkout."""
+"""The commands of the benchmarks: `python -m benchmarks NAME`, from a checkout."""
 
 import sys
 import tempfile
@@ -25,13 +25,14 @@ from handeye.cli.programs import compiled
 from handeye.cli.usage import usage_sentence
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.errors import HandeyeError, InvalidInput
+from handeye.core.plain_text import counted
 from handeye.runs.scripts import default_script
 
 BAD_INPUT, INTERRUPTED = 2, 130
 
 app = App(
     name="python -m benchmarks",
-    help="Measure what handeye costs, and what interrupting it changes.",
+    help="Measure how much time and memory handeye needs, and check that interruptions change no result.",
     suppress_keyboard_interrupt=False,
     default_parameter=Parameter(negative=""),
     console=screen,
@@ -40,7 +41,7 @@ app = App(
 
 
 def main(words: Sequence[str] | None = None) -> NoReturn:
-    """Run a benchmark; the exit code says how it went."""
+    """Run a benchmark, and exit with its exit code."""
     try:
         code = app(words, result_action="return_value", exit_on_error=False, print_error=False)
     except CycloptsError as error:
@@ -55,10 +56,11 @@ def main(words: Sequence[str] | None = None) -> NoReturn:
 
 
 @app.command
-def start(times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 15, /) -> int:
-    """Measure how soon commands begin: CPU seconds beside those of importing what all of them rest on.
+def start(times: Annotated[WholeNumber, Parameter(help="How often to measure each command.")] = 15, /) -> int:
+    """Measure how fast commands start: their CPU seconds, compared with the time to import the libraries that all
+    commands need.
 
-    Exit code 0: none takes more than 1.6 times as long; 1: one does.
+    Exit code 0: no command takes more than 1.6 times as long as this import; 1: some command does.
     """
     from benchmarks.start import MOST, starts
 
@@ -71,9 +73,9 @@ def start(times: Annotated[WholeNumber, Parameter(help="How often each is measur
 
 @app.command
 def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
-    """Assemble once and measure the cost of checkpoints and trace, as shares of that run.
+    """Assemble once, and measure how much time checkpoints and trace add to the working phase.
 
-    Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
+    Exit code 0: checkpoints add less than 2 %, and the trace less than 10 %; 1: one of them adds more.
     """
     from benchmarks.overhead import measure
     from handeye.results.progress import Progress
@@ -84,10 +86,10 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
     setup = Setup(plan=plan, world=spec, camera=camera)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan.program.stages, notes):
         cost = measure(setup, Path(folder) / "run")
-    say(f"working phase without them   {cost.run:6.2f} s of this computer's clock")
+    say(f"working phase without them   {cost.run:6.2f} s of wall-clock time")
     rows = (
-        ("checkpoints", cost.checkpoints, f"{cost.kept} of them", 0.02),
-        ("trace", cost.tracing, f"{cost.ticks} servo periods, {cost.trace_bytes / 1e6:.1f} MB", 0.10),
+        ("checkpoints", cost.checkpoints, counted(cost.kept, "checkpoint"), 0.02),
+        ("trace", cost.tracing, f"{counted(cost.ticks, 'servo period')}, {cost.trace_bytes / 1e6:.1f} MB", 0.10),
     )
     for name, seconds, what, limit in rows:
         share = seconds / cost.run
@@ -98,12 +100,12 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
 @app.command
 def language(
     *,
-    times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 15,
+    times: Annotated[WholeNumber, Parameter(help="How often to measure each delay.")] = 15,
     json: Json = False,
 ) -> int:
-    """Measure the delay of a check, a keystroke and a plan, each time on a new text.
+    """Measure how long a check, a keystroke and a plan take, each time with a new text.
 
-    Exit code 0, also where a median is over its target: that depends on the computer.
+    Exit code 0, even if a median is over its target, because times depend on the computer.
     """
     from benchmarks.language import measure
 
@@ -125,12 +127,12 @@ def language(
 @app.command
 def vision(
     *,
-    poses: Annotated[WholeNumber, Parameter(help="How often the part is laid down somewhere.")] = 24,
-    times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 9,
+    poses: Annotated[WholeNumber, Parameter(help="Number of poses in which the camera sees the part.")] = 24,
+    times: Annotated[WholeNumber, Parameter(help="How often to measure each method on each picture.")] = 9,
     camera: Camera = "auto",
     json: Json = False,
 ) -> int:
-    """Measure the eye beside OpenCV, on the same pictures of the cell.
+    """Compare handeye's vision with OpenCV on the same pictures of the cell: time, success and error.
 
     Exit code 0.
     """
@@ -146,13 +148,13 @@ def vision(
 @app.command
 def ik(
     *,
-    poses: Annotated[WholeNumber, Parameter(help="How many poses of the hand there are.")] = 200,
-    times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 9,
+    poses: Annotated[WholeNumber, Parameter(help="Number of poses of the hand.")] = 200,
+    times: Annotated[WholeNumber, Parameter(help="How often to measure each solver on each pose.")] = 9,
     json: Json = False,
 ) -> int:
-    """Measure the arm's inverse kinematics beside those of the Robotics Toolbox, on the same poses of the hand.
+    """Compare the arm's inverse kinematics with those of the Robotics Toolbox, on the same poses of the hand.
 
-    Exit code 0. The toolbox is large and no part of handeye: where it is not installed, it is not measured.
+    The toolbox is large and no part of handeye. If it is not installed, only handeye is measured. Exit code 0.
     """
     from benchmarks.inverse_kinematics import measure
     from handeye.tasks import task
@@ -166,15 +168,16 @@ def ik(
 @app.command
 def poses(
     *,
-    anywhere: Annotated[WholeNumber, Parameter(help="How many random poses there are.")] = 100_000,
-    singular: Annotated[WholeNumber, Parameter(help="How many poses each other set has.")] = 20_000,
+    anywhere: Annotated[WholeNumber, Parameter(help="Number of random poses.")] = 100_000,
+    singular: Annotated[WholeNumber, Parameter(help="Number of poses in each set of singular poses.")] = 20_000,
 ) -> int:
-    """Try the arm's inverse kinematics on poses that forward kinematics gives from joints within their limits.
+    """Test the arm's inverse kinematics on poses that forward kinematics computes from joint positions within the
+    limits.
 
-    At random, and with joints at limits, the wrist in line, the boom upright; each exact, and to .001 in and .01
-    degrees.
+    The joint positions are random, or singular: joints at their limits, two joint axes of the wrist in line, or the
+    boom upright. Each pose is tried exactly, and rounded to .001 in and .01 degrees.
 
-    Exit code 0: each is found, within limits, with the hand there; 1: one is not.
+    Exit code 0: for each pose, a solution within the joint limits puts the hand there; 1: some pose has none.
     """
     from benchmarks.reached_poses import tried
     from handeye.tasks import task
@@ -184,7 +187,7 @@ def poses(
     bad = 0
     for each in tried(task().arm, anywhere, singular):
         bad += each.missed + each.wrong
-        off = f"hand off by {each.off:.1e} m and {each.turned:.1e} rad at most"
+        off = f"hand off by at most {each.off:.1e} m and {each.turned:.1e} rad"
         say(
             f"{each.what:31} {'written' if each.written else 'exact':7} {each.poses:6} poses, {each.missed} not "
             f"found, {each.wrong} wrong, {off}"
@@ -197,27 +200,29 @@ def speed(
     *,
     world: WorldOptions = ANY_WORLD,
     worlds: Annotated[
-        WholeNumber, Parameter(help="Worlds to assemble in, one after the other, from --seed on.")
+        WholeNumber,
+        Parameter(help="Number of worlds in which to assemble, one after another. The first seed is --seed."),
     ] = 1,
     traced: Annotated[
-        bool, Parameter(help="Keep trace and checkpoints too, in a folder that is removed afterwards.")
+        bool, Parameter(help="Also write trace and checkpoints, into a folder that is removed afterwards.")
     ] = False,
     camera: Camera = "auto",
     json: Json = False,
 ) -> int:
-    """Assemble and tell where the processor time goes, by phase, component and stage, and what the physics takes alone.
+    """Assemble, and report the processor time by phase, component and stage, and the time of the physics alone.
 
-    All times are of the processor, threads included: what else this computer does at the time hardly counts. Every
-    second goes to one component, the innermost under way. The cost of measuring is reported.
+    All times are processor times, including all threads, so other work on this computer has little effect. Each moment
+    is counted for one component: the one that was called last. The cost of measuring is reported too.
 
-    The physics alone: the work is done a second time, on tape. The tape has all that the run writes into the
-    simulator: controls, forces, figures of the model such as the friction of threads, screws put into their threads,
-    the states put back between steps. It is played in a simulator of its own, with nothing between two calls but what
-    was written; each step of the program must end in the state of the run, bit for bit. The time of the working phase
-    is reported as a multiple of that: 1 would be a program that costs nothing. The tape is in no other figure.
+    To measure the physics alone, the work is repeated and recorded on a tape. The tape contains everything that the run
+    writes to the simulator: controls, forces, properties of the model such as the friction of threads, screws that
+    enter their threads, and the states restored between steps. A second simulator then replays the tape, and does
+    nothing else. After each step of the program, its state must be equal to that of the run, bit for bit. The time of
+    the working phase is reported as a multiple of the time of this replay; 1 would mean that everything except the
+    physics costs nothing. No other figure includes the time of recording and replay.
 
-    Exit code 0: accepted in every world; 1: in some world the program stopped, the referee disagreed, or the physics
-    alone ended elsewhere.
+    Exit code 0: in every world, the referee accepted the work and the replay agreed; 1: in some world, the program
+    stopped, the referee disagreed, or the replay ended in a different state.
     """
     from dataclasses import replace
 
@@ -254,20 +259,21 @@ def growth(
     *,
     most: Annotated[
         WholeNumber,
-        Parameter(help="The largest number of statements; the others are the powers of ten below it."),
+        Parameter(help="The largest number of statements. The smaller programs have the powers of ten below it."),
     ] = 10_000,
     json: Json = False,
 ) -> int:
-    """Measure how cost grows with the statements of a program, its trace, and the cells in one process.
+    """Measure how costs grow with the length of a program, and with the number of cells in one process.
 
-    A program of the given length, with a stage and six motions in each hundred, is checked, planned, carried out and
-    recorded; its trace is opened, compared and told. And one to three cells carry out such a program of a hundred in
-    one process, a step each in turn. Times are of the processor.
+    Programs of several lengths, with a stage and six motions in each hundred statements, are checked, planned, executed
+    and recorded. Their traces are opened, compared, and converted to text and arrays. Then one to three cells in one
+    process execute a program of a hundred statements; they take turns after each step. All times are processor times.
 
-    What grows by a power near 1 grows as its cause does: ten times the statements take ten times as long. The power is
-    fitted over the last two powers of ten, since most of what a short program takes is what is done once.
+    If a cost grows with a power near 1, ten times as many statements cost ten times as much. The power is fitted to the
+    longest programs, down to a hundredth of the greatest length, because a short program mainly costs what is done
+    once.
 
-    Exit code 0: all times grow linearly, or less; 1: one grows faster.
+    Exit code 0: all times grow linearly or more slowly; 1: some time grows faster.
     """
     from benchmarks.growth import measure
     from benchmarks.growth_page import page
@@ -289,26 +295,26 @@ def breaking(
     kind: Annotated[
         Literal["killed", "interrupted", "alone", "stepped"],
         Parameter(
-            help="Kill in each stage, press Ctrl-C at random moments, run each stage alone, or step through "
-            "and go back ten times."
+            help="`killed`: kill the run in each stage. `interrupted`: press Ctrl-C at random "
+            "moments. `alone`: run each stage separately. `stepped`: step through the run, and go back ten times."
         ),
     ],
     /,
     *,
     world: WorldOptions = ANY_WORLD,
-    count: Annotated[WholeNumber, Parameter(help="How often to press Ctrl-C.")] = 20,
+    count: Annotated[WholeNumber, Parameter(help="Number of runs in which Ctrl-C is pressed.")] = 20,
     dismantling: Annotated[
         bool,
         Parameter(
             negative="",
-            help="Interrupt the arm while it takes the pump apart: kill it ten times, or press Ctrl-C.",
+            help="Interrupt the run while the arm takes the pump apart: kill it at ten moments, or press Ctrl-C.",
         ),
     ] = False,
-    jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
+    jobs: Annotated[WholeNumber, Parameter(help="Number of processes that run at the same time.")] = 2,
 ) -> int:
-    """Interrupt runs, resume them, and check that the result is the same.
+    """Interrupt runs, resume them, and check that the results are the same as without an interruption.
 
-    Exit code 0: it always is; 1: it is not.
+    Exit code 0: all results are the same; 1: some result differs.
     """
     from benchmarks import breaking as broken_off
     from benchmarks import detours
@@ -316,7 +322,7 @@ def breaking(
     positive(jobs, "process")
     positive(count, "time")
     if dismantling and kind not in ("killed", "interrupted"):
-        raise InvalidInput(f"--dismantling goes with killed and interrupted, not with {kind}")
+        raise InvalidInput(f"--dismantling can be used with `killed` and `interrupted`, not with `{kind}`")
     spec = world.spec
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:
         folder = Path(name)
@@ -340,7 +346,7 @@ def breaking(
 
 
 def _tell(comparisons: Sequence[Comparison], json: bool) -> None:
-    """Say what was measured."""
+    """Print what was measured."""
     for comparison in comparisons:
         for line in comparison.lines():
             say(line, notes if json else screen, whole=True)

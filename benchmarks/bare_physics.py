@@ -1,4 +1,4 @@
-"""Bare physics: a tape of what a cell has done to its simulator, played in another one with nothing else."""
+"""Replays a tape of everything that a cell wrote to its simulator. A second simulator executes only the physics."""
 
 import copy
 from collections.abc import Callable
@@ -12,20 +12,20 @@ from benchmarks.tape import Call, Move, Place, Tape, places, state_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bare:
-    """The result of playing a tape."""
+    """The result of replaying a tape."""
 
     seconds: float
-    """By the clock that was given."""
+    """Time of the replay, by the clock that was passed."""
     physics_steps: int
     stretches: int
     same: int
-    """Stretches that ended in the state of the run, bit for bit."""
+    """Number of stretches that ended in the same state as in the run, bit for bit."""
     apart_s: float | None
-    """The cell's clock at the end of the first that did not."""
+    """The cell's clock at the end of the first stretch that ended in a different state; None if there is none."""
 
 
 def play(tape: Tape, clock: Callable[[], float]) -> Bare:
-    """Do all that is on a tape, and take the time of that."""
+    """Replay a tape, and measure the time."""
     model = copy.deepcopy(tape.model)
     data = mujoco.MjData(model)
     there = places(model, data, tape.figures)
@@ -52,7 +52,7 @@ def play(tape: Tape, clock: Callable[[], float]) -> Bare:
 
 
 def _ready(move: Move, there: dict[str, Place]) -> tuple[Call, tuple[Any, ...], list[tuple[Place, Any]]]:
-    """A move with all looked up that takes time to find."""
+    """Return a move with its function and its places already looked up, because looking them up takes time."""
     return (
         getattr(mujoco, move.call),
         move.arguments,

@@ -1,4 +1,4 @@
-"""Runs interrupted in many ways and resumed, compared with an uninterrupted run."""
+"""Interrupts runs, resumes them, and compares them with an uninterrupted run."""
 
 import random
 import signal
@@ -24,62 +24,62 @@ from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
 
 POLL: Final = 0.002
-"""s between two looks at what a run has written."""
+"""s between two checks of what a run has written."""
 LIMIT: Final = 900.0
-"""s after which a run is taken to hang."""
+"""s after which a run counts as hanging."""
 
 
 class TrialFailed(HandeyeError):
-    """A run could not be carried out, so that nothing can be said about interrupting it."""
+    """Raised if a run fails even without an interruption, so that there is nothing to compare with."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verdict:
-    """Verdict on one trial."""
+    """The verdict on one trial."""
 
     name: str
     faults: tuple[str, ...]
-    """Faults; none if all was well."""
+    """Faults in words; empty if there are none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnbrokenRun:
-    """An uninterrupted run, to compare with."""
+    """An uninterrupted run with which other runs are compared."""
 
     folder: Path
     seed: int
     world: tuple[str, ...]
-    """The options of the command line that choose its world."""
+    """The command-line options that select its world."""
     command: tuple[str, ...]
-    """Words of the command that runs it, without its folder."""
+    """The words of the command that executes it, without its folder."""
     events: tuple[AnyEvent, ...]
     stages: tuple[str, ...]
     first: int = 0
-    """How many of the events it began with: they happened in the run that it takes up."""
+    """Number of events that had already happened when it began, in the run that it continues."""
 
     @property
     def trace(self) -> bytes:
-        """The bytes of its trace."""
+        """The bytes of the run's trace."""
         return (self.folder / TRACE).read_bytes()
 
 
 def whole_run(folder: Path, seed: int, world: Sequence[str]) -> UnbrokenRun:
-    """Run the script of the task from beginning to end, without a break.
+    """Execute the script of the task from beginning to end, without an interruption.
 
     Args:
-        world: options of the command line that choose the world.
+        world: command-line options that select the world.
 
     Raises:
-        TrialFailed: the referee does not find the work done.
+        TrialFailed: the referee does not accept the work.
     """
     return _unbroken(folder, seed, world, ("assemble", *world), f"seed {seed} is not assembled")
 
 
 def whole_undo(whole: UnbrokenRun, folder: Path) -> UnbrokenRun:
-    """Have the arm undo all that it did in a run, without a break.
+    """Let the arm undo all the work of a run, without an interruption.
 
     Raises:
-        TrialFailed: the referee does not find everything where it was.
+        TrialFailed: the referee finds that not everything is back in its place.
     """
     words = ("dismantle", str(whole.folder))
     what = f"the pump of seed {whole.seed} is not taken apart"
@@ -89,7 +89,7 @@ def whole_undo(whole: UnbrokenRun, folder: Path) -> UnbrokenRun:
 def _unbroken(
     folder: Path, seed: int, world: Sequence[str], command: tuple[str, ...], failed: str, *, first: int = 0
 ) -> UnbrokenRun:
-    """Carry out a command; `failed` says what it is not, if its exit code is not 0."""
+    """Execute a command. `failed` begins the error message if its exit code is not 0."""
     done = handeye(*command, "--out", str(folder))
     if done.returncode != 0:
         raise TrialFailed(f"{failed} even without an interruption (exit {done.returncode})")
@@ -109,7 +109,7 @@ def _unbroken(
 def killed(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
     """Kill a run in the middle of each stage, resume it, and compare the traces byte for byte.
 
-    One that undoes another run is killed at ten moments instead, evenly spread over what it does.
+    A run that undoes another run is killed at ten evenly spaced moments instead.
     """
     if not whole.first:
         moments = [(stage, _middle(whole, stage)) for stage in whole.stages]
@@ -129,7 +129,7 @@ def killed(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
 
 
 def interrupted(whole: UnbrokenRun, folder: Path, count: int, jobs: int) -> Iterator[Verdict]:
-    """Press Ctrl-C at random moments of a run; compare exit code, brakes and the resumed run."""
+    """Press Ctrl-C at random moments of a run. Check the exit code, the brakes, and the resumed run."""
     moments = random.Random(whole.seed)  # noqa: S311 - moments, not secrets
     lines = range(whole.first + 1, len(whole.events) - 4)
     plans = [(n, moments.choice(lines), moments.uniform(0, 0.1)) for n in range(count)]
@@ -151,7 +151,7 @@ def interrupted(whole: UnbrokenRun, folder: Path, count: int, jobs: int) -> Iter
 
 
 def alone(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
-    """Carry out each stage by itself from its checkpoint; its end must be that within the whole run."""
+    """Execute each stage separately from its checkpoint. It must end in the same state as in the whole run."""
 
     def one(number: int) -> Verdict:
         place = folder / f"alone-{number + 1}"
@@ -162,9 +162,9 @@ def alone(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
         faults = [] if done.returncode == 0 else [f"exit code {done.returncode}"]
         mine, theirs = (_end(f, whole.stages, number) for f in (place, whole.folder))
         if mine is None or theirs is None:
-            faults.append("no checkpoint of its end")
+            faults.append("there is no checkpoint of its end")
         elif not _same(mine, theirs):
-            faults.append("it ends in another state")
+            faults.append("it ends in a different state")
         return Verdict(name=whole.stages[number], faults=tuple(faults))
 
     yield from _each(one, range(len(whole.stages)), jobs)
@@ -178,7 +178,7 @@ def _each(
         try:
             for verdict in as_completed(verdicts):
                 yield verdict.result()
-        finally:  # who was interrupted waits for what is under way, and for no more
+        finally:  # after Ctrl-C, wait only for the trials in progress
             pool.shutdown(wait=False, cancel_futures=True)
 
 
@@ -186,10 +186,10 @@ def _each(
 
 
 def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
-    """Carry out a command; `said` is its standard input.
+    """Execute a command of handeye. `said` is its standard input.
 
     Raises:
-        TrialFailed: it does not end.
+        TrialFailed: the command does not end.
     """
     try:
         return subprocess.run(  # noqa: S603 - our own program
@@ -197,7 +197,7 @@ def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
             input=said, capture_output=True, text=True, timeout=LIMIT, check=False,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
-        raise TrialFailed(f"`handeye {words[0]}` was not done after {LIMIT:.0f} s") from None
+        raise TrialFailed(f"`handeye {words[0]}` had not ended after {LIMIT:.0f} s") from None
 
 
 def _started(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
@@ -208,7 +208,7 @@ def _started(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
 
 
 def _ended(process: "subprocess.Popen[bytes]") -> int:
-    """The exit code of a run that was asked to stop."""
+    """Return the exit code of a run after Ctrl-C."""
     try:
         return process.wait(LIMIT)
     except subprocess.TimeoutExpired:
@@ -230,7 +230,7 @@ def _wait_for(journal: Path, lines: int, process: "subprocess.Popen[bytes]") -> 
 
 
 def _middle(whole: UnbrokenRun, stage: str) -> int:
-    """The number of the event in the middle of a stage."""
+    """Return the number of the event in the middle of a stage."""
     first = next(n for n, e in enumerate(whole.events) if isinstance(e, StageStarted) and e.stage == stage)
     last = next(n for n, e in enumerate(whole.events) if isinstance(e, StageFinished) and e.stage == stage)
     return (first + last) // 2
@@ -240,20 +240,20 @@ def _middle(whole: UnbrokenRun, stage: str) -> int:
 
 
 def _resumed(whole: UnbrokenRun, place: Path) -> list[str]:
-    """Resume an interrupted run; its differences from the uninterrupted one."""
+    """Resume an interrupted run, and return its differences from the uninterrupted one."""
     done = handeye("resume", str(place))
     if done.returncode != 0:
         return [f"resume ended with {done.returncode}: {done.stderr.strip().splitlines()[-1:]}"]
     faults = []
     if tuple(effective(read_events(place / EVENTS))) != whole.events:
-        faults.append("other events")
+        faults.append("different events")
     if (place / TRACE).read_bytes() != whole.trace:
-        faults.append("another trace")
+        faults.append("a different trace")
     return faults
 
 
 def _brakes(place: Path) -> list[str]:
-    """Faults in how an interrupted run stopped, by its trace."""
+    """Return faults in the way in which an interrupted run stopped, according to its trace."""
     trace = read_trace(place / TRACE)
     last = trace.events[-1]
     if not isinstance(last, PanicStopped):
@@ -265,7 +265,7 @@ def _brakes(place: Path) -> list[str]:
 
 
 def _end(folder: Path, stages: tuple[str, ...], number: int) -> Snapshot | None:
-    """The state in which a stage ended."""
+    """Return the state in which a stage ended, or None if it is not stored."""
     following = stages[number + 1] if number + 1 < len(stages) else None
     for path, head in CheckpointStore(folder / CHECKPOINTS).heads():
         if head.stage == following and (head.between_stages or following is None) and head.position > 0:
@@ -280,7 +280,7 @@ def _snapshot(path: Path) -> Snapshot | None:
 
 
 def _same(one: Snapshot, other: Snapshot) -> bool:
-    """True if cell and working phase are in equal states, to the byte."""
+    """Return True if the states of cell and working phase are equal, byte for byte."""
 
     def plain(snapshot: Snapshot) -> bytes:
         return msgspec.msgpack.encode(

@@ -1,4 +1,6 @@
-"""Account of processor time: every second goes to one place and one component of the work, the innermost under way."""
+"""Counts processor time. Each moment counts for one phase or stage of a run, and for one component: the one called
+last.
+"""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -7,26 +9,28 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 OTHER: Final = "other"
-"""The component of whatever is charged to no other."""
+"""The component for all time that counts for no other component."""
 _TRIED: Final = 5000
-"""Calls by which the account's own cost is measured."""
+"""Number of calls with which the account's own cost is measured."""
 
 Function = Callable[..., Any]
 Place = tuple[str, ...]
-"""What is under way: a phase, or a phase and its stage."""
+"""What is in progress: a phase, or a phase and its stage."""
 
 
 @dataclass(slots=True, kw_only=True)
 class CpuAccount:
-    """Adds up what a clock says, by default that of this process, from when it is made."""
+    """Adds up the time of a clock by place and component, from its creation on. The default clock is this process's CPU
+    time.
+    """
 
     clock: Callable[[], float] = time.process_time
     spent: dict[tuple[Place, str], float] = field(default_factory=dict)
     """CPU s, by place and component."""
     charges: int = 0
-    """How often the clock was read."""
+    """Number of times that the clock was read."""
     place: Place = ()
-    """Where time is charged to now."""
+    """The place for which time counts at present."""
     _components: list[str] = field(default_factory=lambda: [OTHER])
     _since: float = field(init=False)
 
@@ -34,12 +38,12 @@ class CpuAccount:
         self._since = self.clock()
 
     def at(self, place: Place) -> None:
-        """Charge what follows to another place."""
+        """From now on, count time for another place."""
         self._charge()
         self.place = place
 
     def charged(self, function: Function, component: str) -> Function:
-        """A function that does the same, and is charged to a component."""
+        """Return a function that does the same, and whose time counts for a component."""
 
         def through(*arguments: Any, **named: Any) -> Any:
             self._charge()
@@ -54,7 +58,9 @@ class CpuAccount:
 
     @contextmanager
     def charging(self, functions: Sequence[tuple[Any, str, str]]) -> Iterator[None]:
-        """While entered, functions are charged: of a module or class, the name of each, and its component."""
+        """Within this context, the time of functions counts for components. Each function is given by its module or
+        class, its name, and its component.
+        """
         with ExitStack() as put_back:
             for owner, name, component in functions:
                 own = getattr(owner, name)
@@ -63,7 +69,7 @@ class CpuAccount:
             yield
 
     def close(self) -> None:
-        """Charge what has passed until now."""
+        """Count the time until now."""
         self._charge()
 
     def _charge(self) -> None:
@@ -74,7 +80,7 @@ class CpuAccount:
         self.charges += 1
 
     def own_s(self) -> float:
-        """CPU s that the account itself has taken, by what as many charges of nothing cost now."""
+        """Return the time (CPU s) that the account itself has taken, estimated from calls of an empty function."""
         tried = CpuAccount(clock=self.clock)
         nothing = tried.charged(lambda: None, OTHER)
         begun = self.clock()

@@ -1,4 +1,4 @@
-"""Runs stepped through with detours, compared with the run without them."""
+"""Steps through a run, goes back several times, and compares the result with the run without detours."""
 
 import random
 from collections.abc import Iterator
@@ -6,18 +6,21 @@ from pathlib import Path
 from typing import Final
 
 from benchmarks.breaking import UnbrokenRun, Verdict, handeye
+from handeye.core.plain_text import counted
 from handeye.program.events import WentBack
 from handeye.runs.folder import EVENTS, TRACE
 from handeye.trace.eventlist import effective, read_events
 
 DETOURS: Final = 10
-"""Times that the run goes back."""
+"""Number of times that the run goes back."""
 ENOUGH: Final = 600
-"""Times to go on from a break: more than a run has breaks."""
+"""Number of `continue` commands at the end: more than a run has breakpoints."""
 
 
 def stepped(whole: UnbrokenRun, folder: Path) -> Iterator[Verdict]:
-    """Step through the assembly from standard input, stopping at AOJ and on error 23, and going back ten times."""
+    """Step through the assembly with commands on standard input. The run stops at AOJ and at error 23, and goes back
+    ten times.
+    """
     place = folder / "stepped"
     done = handeye(
         "run", str(whole.folder / "plan.json"), *whole.world, "--out", str(place),
@@ -28,16 +31,16 @@ def stepped(whole: UnbrokenRun, folder: Path) -> Iterator[Verdict]:
     back = sum(isinstance(event, WentBack) for event in events)
     faults = [] if done.returncode == 0 else [f"exit code {done.returncode}"]
     if back != DETOURS:
-        faults.append(f"went back {back} times instead of {DETOURS}")
+        faults.append(f"went back {counted(back, 'time')} instead of {DETOURS}")
     if tuple(effective(events)) != whole.events:
-        faults.append("other events")
+        faults.append("different events")
     if (place / TRACE).read_bytes() != whole.trace:
-        faults.append("another trace")
-    yield Verdict(name=f"going back {back} times", faults=tuple(faults))
+        faults.append("a different trace")
+    yield Verdict(name=f"going back {counted(back, 'time')}", faults=tuple(faults))
 
 
 def commands(seed: int) -> list[str]:
-    """Commands to the stepper: forward and back ten times, then on to the end."""
+    """Return the commands for the stepper: forwards and back ten times, and then on to the end."""
     choice = random.Random(seed)  # noqa: S311 - a way through a run, not a secret
     lines = []
     for _ in range(DETOURS):

@@ -1,4 +1,4 @@
-"""How cost grows: with the statements of a program, the length of its trace, and the cells in one process."""
+"""Measures how costs grow with the length of a program and with the number of cells in one process."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -10,15 +10,17 @@ from benchmarks.growth_costs import Costs, Unit, cells, statements
 from handeye.core.plain_text import counted
 
 LINEAR: Final = 1.15
-"""The power up to which growth counts as linear: what no longer fits into caches of the processor costs more."""
+"""Growth with a power up to this counts as linear. It is more than 1, because data that no longer fit into the
+processor's caches cost more.
+"""
 MOST_CELLS: Final = 3
 _DECADES: Final = 2
-"""Powers of ten, below the largest size, over which growth is fitted: most of what less takes is what is done once."""
+"""Growth is fitted over this many powers of ten below the largest size. Smaller sizes mainly cost what is done once."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Growth:
-    """Measurements at several sizes."""
+    """One cost, measured at several sizes."""
 
     what: str
     of: Literal["statements", "cells"]
@@ -29,7 +31,9 @@ class Growth:
 
     @property
     def power(self) -> float:
-        """The power of the size by which it grows: the slope of the line through logarithms of the larger sizes."""
+        """The power of the size with which the cost grows: the slope of a line through the logarithms, at the larger
+        sizes.
+        """
         least = self.sizes[-1] / 10**_DECADES
         return _slope(
             [
@@ -41,11 +45,11 @@ class Growth:
 
     @property
     def is_linear(self) -> bool:
-        """Ten times as much costs ten times as much, or less."""
+        """True if ten times the size costs about ten times as much, or less."""
         return self.power <= LINEAR
 
     def as_json(self) -> dict[str, object]:
-        """All of it; values are called by their unit."""
+        """Return the measurements for JSON. The key of the values is their unit."""
         return {
             "what": self.what,
             "of": self.of,
@@ -57,14 +61,14 @@ class Growth:
 
 
 def measure(most: int, told: Callable[[str], None] = lambda _: None) -> Iterator[Growth]:
-    """Measure all of it.
+    """Measure all costs.
 
     Args:
-        most: the largest number of statements; the others are the powers of ten below it.
+        most: the largest number of statements; the smaller ones are the powers of ten below it.
         told: called with the name of what is measured next.
     """
     numbers = range(1, MOST_CELLS + 1)
-    cells(1)  # what is made once for all cells is made here
+    cells(1)  # makes everything that is made once for all cells
     yield from _grown("cells", numbers, [_told(told, number, "cell", cells) for number in numbers])
     sizes = sorted({10**power for power in range(len(str(most)))} | {most})
     statements(1)
@@ -85,7 +89,7 @@ def _grown(
 
 
 def _slope(points: Sequence[tuple[float, float]]) -> float:
-    """Slope of the line of least squares through some points; 0 where there is no line."""
+    """Return the slope of the least-squares line through some points; 0 if there are fewer than two."""
     if len(points) < 2:
         return 0.0
     x_mean, y_mean = (fmean(values) for values in zip(*points, strict=True))

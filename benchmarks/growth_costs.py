@@ -1,4 +1,4 @@
-"""The cost of programs by length, and of several cells in one process."""
+"""Measures the cost of a program of a given length, and of several cells in one process."""
 
 import gc
 import tempfile
@@ -26,13 +26,15 @@ from handeye.trace.reading import read_trace
 
 Unit = Literal["cpu_s", "mib"]
 Costs = Mapping[tuple[str, Unit], float]
-"""By what was done."""
+"""Costs by what was done, and by unit."""
 _IN_A_CELL: Final = 100
-"""Statements that are carried out in each of several cells."""
+"""Number of statements that each of several cells executes."""
 
 
 def script(statements: int) -> str:
-    """A program of that many statements: in each hundred a stage, a free motion, five straight ones, and no picture."""
+    """Return a program with a number of statements. Each hundred have a stage, a free motion, five straight motions,
+    and no picture.
+    """
     return "".join(f"        {_statement(number)}\n" for number in range(statements))
 
 
@@ -48,7 +50,7 @@ def _statement(number: int) -> str:
 
 
 def statements(number: int) -> Costs:
-    """The cost of a program of a number of statements, from the text to its trace, read again."""
+    """Return the costs of a program with a number of statements, from checking its text to reading its trace."""
     source, taught = Source(name="growth.al", text=script(number)), _taught()
     costs: Costs = {
         ("checked", "cpu_s"): _cpu_s(lambda: compile_text(source, taught)),
@@ -69,7 +71,7 @@ def _carried(setup: Setup, folder: Path) -> Costs:
 
 
 def _recorded(folder: Path) -> Costs:
-    """Of what a run has left in a folder."""
+    """Return the costs of the files that a run has left in a folder."""
     file = folder / TRACE
     trace, other = read_trace(file), read_trace(file)
     return {
@@ -84,9 +86,9 @@ def _recorded(folder: Path) -> Costs:
 
 
 def cells(number: int) -> Costs:
-    """The cost of several cells in this process whose programs take turns, a step each."""
+    """Return the costs of several cells in this process. Their programs take turns after each step."""
     setup = _setup(_plan(Source(name="growth.al", text=script(_IN_A_CELL)), _taught()))
-    gc.collect()  # cells of before
+    gc.collect()  # removes earlier cells
     seconds = _cpu_s(lambda: _in_turn([Runner(Checkpoint(setup=setup)) for _ in range(number)]))
     peak = peak_memory_mib()
     cost: Costs = {("built, and a program executed", "cpu_s"): seconds}
@@ -108,12 +110,12 @@ def _plan(source: Source, taught: Taught) -> Plan:
 
 
 def _taught() -> Taught:
-    """Positions of the product's own script, among them that where the arm parks."""
+    """Return the taught positions of the product's script, which include the parking position."""
     return load_taught(default_script().with_suffix(".toml"))
 
 
 def _setup(plan: Plan) -> Setup:
-    return Setup(plan=plan, world=WorldSpec(seed=0), camera="ray")  # which nothing here looks with
+    return Setup(plan=plan, world=WorldSpec(seed=0), camera="ray")  # never used, because the programs take no picture
 
 
 def _cpu_s(work: Callable[[], object]) -> float:

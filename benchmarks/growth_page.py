@@ -1,4 +1,4 @@
-"""How cost grows, as a page for the terminal."""
+"""Shows how costs grow, as a page for the terminal."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -13,10 +13,15 @@ _UNITS: Final = {"cpu_s": "CPU s", "mib": "MiB"}
 
 
 def page(growths: Sequence[Growth]) -> RenderableType:
-    """A table for each kind of counted object, with the cost of one below the cost of all."""
+    """Return the page: one table for statements and one for cells. For statements, the cost of each is below the cost
+    of all.
+    """
     counted = dict.fromkeys(growth.of for growth in growths)
     tables = [_table(of, [growth for growth in growths if growth.of == of]) for of in counted]
-    rule = f"power: of the size, over the last two powers of ten; up to {LINEAR} counts as linear"
+    rule = (
+        "power: the cost grows with this power of the size, fitted over the last two powers of ten; "
+        f"up to {LINEAR} counts as linear"
+    )
     return Group(*(part for table in tables for part in (table, Text())), Text(rule, style="dim"))
 
 
@@ -36,5 +41,5 @@ def _table(of: str, growths: Sequence[Growth]) -> Table:
 
 
 def figure(value: float) -> str:
-    """A figure with as many places as it deserves."""
+    """Return a number with a suitable number of decimals."""
     return f"{value:,.0f}" if value >= 100 else f"{value:.2f}" if value >= 1 else f"{value:.4f}"

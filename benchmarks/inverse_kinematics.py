@@ -1,4 +1,4 @@
-"""The arm's inverse kinematics beside those of the Robotics Toolbox, on the same poses of the hand."""
+"""Compares the arm's inverse kinematics with those of the Robotics Toolbox, on the same poses of the hand."""
 
 from collections.abc import Callable
 from functools import partial
@@ -16,14 +16,16 @@ from handeye.core.versions import installed
 SEED: Final = 0
 TOOLBOX: Final = "roboticstoolbox-python"
 REACHED: Final = 1e-4
-"""Distance of the hand from its pose, m, within which a solution counts."""
+"""A solution counts if the hand is at most this far from its pose (m)."""
 TOLERANCE: Final = 1e-10
-"""Half the square of the error, m and rad, at which the toolbox is content; its own 1e-6 leaves a millimetre."""
+"""Half the square of the error (m and rad) at which the toolbox stops. Its default, 1e-6, leaves an error of a
+millimetre.
+"""
 _way = partial(Way.measured, unit="m")
 
 
 def measure(arm: ArmModel, poses: int, times: int) -> Comparison:
-    """Solve for reachable poses, one at a time and all at once, each a number of times."""
+    """Solve for reachable poses, one at a time and all at once, each `times` times."""
     rng = np.random.default_rng(SEED)
     X = [forward(arm, q) for q in rng.uniform(arm.lower, arm.upper, (poses, len(arm.joints)))]
     version = installed(TOOLBOX)
@@ -54,7 +56,9 @@ def _outcome(arm: ArmModel, X_WT: Pose, q: Array | None) -> Outcome:
 
 
 def _at_once(arm: ArmModel, X: Pose, times: int) -> Way:
-    """All branches of all poses in one call, limits not considered; the time of each is its share."""
+    """Compute all branches of all poses in one call, without joint limits. The time of a pose is its share of the
+    call.
+    """
     (q, exists), seconds = timed(partial(branches, arm, X), times)
     off = np.where(exists, np.linalg.norm(forward(arm, q)[..., :3, 3] - X[:, None, :3, 3], axis=-1), np.inf)
     nearest = off.min(axis=1)
@@ -66,7 +70,9 @@ def _at_once(arm: ArmModel, X: Pose, times: int) -> Way:
 
 
 def _toolbox(arm: ArmModel, X: list[Pose], times: int, version: str) -> Way:
-    """By the toolbox's search from the middle of the joints' ranges, on the same chain, within the same limits."""
+    """Solve with the toolbox's search, for the same kinematic chain and limits. The search starts in the middle of the
+    joint ranges.
+    """
     chain, X_BW = toolbox_chain(arm), inverse(arm.X_WB)
 
     def found(X_WT: Pose) -> Array | None:
@@ -77,8 +83,8 @@ def _toolbox(arm: ArmModel, X: list[Pose], times: int, version: str) -> Way:
 
 
 def toolbox_chain(arm: ArmModel) -> Any:
-    """The arm as the toolbox has it: elementary transforms."""
-    from roboticstoolbox import ET, ETS  # large, and seldom there
+    """Return the arm in the form that the toolbox uses: a chain of elementary transforms."""
+    from roboticstoolbox import ET, ETS  # large, and seldom installed
 
     parts = []
     for joint in arm.joints:

@@ -1,4 +1,4 @@
-"""An editor that types into a script, and waits each time for what the language server says about it."""
+"""Simulates an editor that types into a script, and waits after each key for the language server's diagnostics."""
 
 import subprocess
 import sys
@@ -14,9 +14,10 @@ _URI: Final = "untitled:pins.al"
 
 
 def typed(text: str, line: int, times: int) -> list[float]:
-    """Seconds from each of a number of keystrokes at the end of a line to the diagnostics of the text as it then is.
+    """Return, for each of `times` keystrokes at the end of a line, the seconds until the diagnostics of the new text
+    arrive.
 
-    The server is a process of its own, and what lies between is counted in: the pipes, and JSON at both ends.
+    The server is a separate process. The time includes the pipes to it, and JSON at both ends.
 
     Args:
         line: counted from 1.
@@ -27,7 +28,7 @@ def typed(text: str, line: int, times: int) -> list[float]:
 
 
 class _Editor:
-    """One end of the language server protocol, with one script open."""
+    """The editor's end of the language server protocol, with one open script."""
 
     def __init__(self, text: str) -> None:
         self.server = subprocess.Popen(
@@ -54,7 +55,7 @@ class _Editor:
         self.server.communicate()
 
     def type(self, line: int, column: int, key: str) -> float:
-        """Seconds that one key takes, counted from 0."""
+        """Type a key at a line and column, counted from 0, and return the seconds until the diagnostics arrive."""
         self.version += 1
         here = {"line": line, "character": column}
         begun = time.perf_counter()
@@ -69,7 +70,7 @@ class _Editor:
         return time.perf_counter() - begun
 
     def _diagnostics(self) -> None:
-        """Wait for those of the text as it is now."""
+        """Wait for the diagnostics of the present text."""
         while self._hear().get("params", {}).get("version") != self.version:
             pass
 

@@ -1,7 +1,6 @@
-"""Delays of the arm language: a check, a keystroke, a plan.
+"""Measures delays of the arm language: a check, a keystroke and a plan.
 
-Each time is taken on a new text: other numbers and other names, so that nothing can be left
-over from the time before.
+Each measurement uses a new text with different numbers and names, so that no result of an earlier one can be reused.
 """
 
 import time
@@ -56,16 +55,16 @@ L{name}: MOVE    T{name}         ;GO TO THE HOLE
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Waiting:
-    """Seconds of this computer's clock that one and the same task took, time after time."""
+    """The wall-clock times (s) of repetitions of one task."""
 
     what: str
     seconds: tuple[float, ...]
     target: float
-    """Limit of the median."""
+    """Greatest permitted median (s)."""
 
     @property
     def median(self) -> float:
-        """The middle of the times."""
+        """The median of the times (s)."""
         return median(self.seconds)
 
     @property
@@ -74,7 +73,7 @@ class Waiting:
         return self.median < self.target
 
     def as_json(self) -> dict[str, object]:
-        """The times and what they are held to, in seconds."""
+        """Return the times and their target, in seconds."""
         return {
             "what": self.what,
             "median_wall_s": self.median,
@@ -85,9 +84,9 @@ class Waiting:
 
 
 def measure(times: int) -> Iterator[Waiting]:
-    """Measure each task a number of times.
+    """Measure each task `times` times.
 
-    What is typed is a name: each key leaves a text without an error, of which everything is to be checked.
+    The keystrokes extend a name, so after each key the text has no error, and all of it must be checked.
     """
     check = [_seconds(partial(_check, script(LINES, k))) for k in range(times)]
     yield Waiting(what=f"{LINES} lines checked", seconds=tuple(check), target=0.025)
@@ -102,7 +101,9 @@ def measure(times: int) -> Iterator[Waiting]:
 
 
 def script(lines: int, number: int) -> str:
-    """A correct script of a number of lines (a multiple of 25); none is the same for two numbers."""
+    """Return a correct script with a number of lines (a multiple of 25). No line is the same for two values of
+    `number`.
+    """
     return "".join(
         _BLOCK.format(
             name=f"{number}_{k}",
@@ -132,7 +133,7 @@ def _plan(source: Source, taught: Taught) -> None:
 
 
 def _moved(taught: Taught, times: int) -> Taught:
-    """The same positions, each a thousandth of a millimetre further on for every time."""
+    """Return the same positions, each shifted by a thousandth of a millimetre for each repetition."""
 
     def moved(position: Position) -> Position:
         x, *rest = position.at

@@ -1,4 +1,4 @@
-"""The base found as one would with OpenCV today: by a threshold and what hangs together, or by its blob detector."""
+"""Finds the base with the usual methods of OpenCV: a threshold and connected components, or the blob detector."""
 
 import math
 from typing import Any, Final
@@ -16,13 +16,13 @@ from handeye.vision.characteriser import Blob
 from handeye.vision.hole_search import Candidate, classify
 
 LEVEL: Final = 17
-"""Grey of one of the picture's 16 levels."""
+"""Grey value that stands for one of the picture's 16 levels."""
 LEAST: Final = 20
-"""Points in what hangs together that may be a hole: noise makes many that are smaller."""
+"""Least number of points of a connected component that may be a hole. Noise makes many smaller ones."""
 
 
 def largest_component(picture: Picture, window: Array) -> BoundingBox | None:
-    """The box around the largest part of the window that is brighter than Otsu's threshold."""
+    """Return the box around the largest connected part of the window that is brighter than Otsu's threshold."""
     mask = np.zeros(picture.shape, np.uint8)
     cv2.fillConvexPoly(mask, np.rint(window).astype(np.int32), 255)
     threshold, _ = cv2.threshold(_grey(picture)[mask > 0], 0, 255, cv2.THRESH_OTSU)
@@ -35,7 +35,9 @@ def largest_component(picture: Picture, window: Array) -> BoundingBox | None:
 
 
 def holes_by_components(picture: Picture, view: View, part: Part, box: BoundingBox) -> Array | None:
-    """Centres (u, v) of the two large holes, shape (2, 2), by Otsu's threshold and what is dark and hangs together."""
+    """Return the centres (u, v) of the two large holes, shape (2, 2), from the connected parts darker than Otsu's
+    threshold.
+    """
     grey = _grey(picture)[box.top : box.bottom, box.left : box.right]
     _, dark = cv2.threshold(grey, 0, 1, cv2.THRESH_BINARY_INV | cv2.THRESH_OTSU)
     _, _, found, centres = cv2.connectedComponentsWithStats(dark)
@@ -45,7 +47,9 @@ def holes_by_components(picture: Picture, view: View, part: Part, box: BoundingB
 
 
 def holes_by_blob_detector(picture: Picture, view: View, part: Part, box: BoundingBox) -> Array | None:
-    """The same by SimpleBlobDetector, told how large and how round they are."""
+    """Return the same centres, found by SimpleBlobDetector, whose parameters give the size and roundness of the
+    holes.
+    """
     across, down = view.resolution(view.back_project(box.corners().mean(axis=0), part.at[2] + part.face)[0])
     areas = [math.pi / 4 * hole.diameter**2 * across * down for hole in part.holes[:2]]
     how = cv2.SimpleBlobDetector.Params()
@@ -66,7 +70,7 @@ def _grey(picture: Picture) -> NDArray[np.uint8]:
 
 
 def _pair(centres: NDArray[Any], sizes: NDArray[Any], view: View, part: Part) -> Array | None:
-    """Of what was found, sizes in points, the two that our own classifier takes for the part's holes."""
+    """Return the two candidates that handeye's own classifier accepts as the part's holes. `sizes` are in points."""
     z = part.at[2] + part.face
     found = []
     for (u, v), size in zip(centres.tolist(), sizes.tolist(), strict=True):

@@ -1,4 +1,4 @@
-"""Overhead of traces and checkpoints, as shares of one and the same run."""
+"""Measures the time that trace and checkpoints add to a run. All times are from the same run."""
 
 import time
 from collections.abc import Iterator
@@ -18,12 +18,12 @@ from handeye.runs.snapshot import Checkpoint
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Overhead:
-    """Seconds of this computer's clock, of one working phase."""
+    """Wall-clock times (s) in one working phase."""
 
     run: float
-    """All of it, without what is below."""
+    """The working phase without tracing and checkpoints."""
     tracing: float
-    """Events and servo periods written down, and the trace closed."""
+    """Time to record events and servo periods, and to close the trace."""
     checkpoints: float
     kept: int
     """Number of checkpoints."""
@@ -33,7 +33,7 @@ class Overhead:
 
 @dataclass(slots=True)
 class _Timed(Observer):
-    """Watches through a folder, and reads the clock."""
+    """Passes everything to the folder of the run, and measures the time that the folder takes."""
 
     folder: RunFolder
     tracing: float = 0.0
@@ -69,7 +69,7 @@ class _Timed(Observer):
 
 
 def measure(setup: Setup, folder: Path) -> Overhead:
-    """Carry out a plan once, traced and saved in `folder`; time it all."""
+    """Execute a plan once, with trace and checkpoints in `folder`, and measure the times."""
     start = Checkpoint(setup=setup)
     keeping = open_new(folder, start)
     runner = Runner(start, observers=lambda runner: [_Timed(keeping.watch(runner, start, again=False))])

@@ -1,4 +1,4 @@
-"""Ways to do one and the same thing, ours and those of other libraries, measured side by side in one run."""
+"""Compares handeye's method for a task with those of other libraries, measured in the same process."""
 
 import time
 from collections.abc import Callable, Iterable
@@ -11,33 +11,33 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """What one way made of one task."""
+    """The outcome of one method on one example."""
 
     error: float | None
-    """How far off; None: not found."""
+    """Error of the result, in the unit of the method; None: no result was found."""
     read: float | None = None
-    """Share of the picture that was read, if that is counted."""
+    """Fraction of the picture that was read; None if this was not counted."""
 
 
 Trial = tuple[Callable[[], T], Callable[[T], Outcome]]
-"""Work that is timed, and the check of its result, which is not."""
+"""A function whose time is measured, and a function that checks the result, whose time is not measured."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Way:
-    """One way to do something."""
+    """One method, with its results on several examples."""
 
     task: str
     name: str
     unit: str
-    """Of its errors."""
+    """Unit of the errors."""
     outcomes: tuple[Outcome, ...]
     seconds: tuple[float, ...]
-    """Of this computer's clock, for each task: the median of several times."""
+    """Wall-clock time for each example: the median of several measurements."""
 
     @classmethod
     def measured(cls, task: str, name: str, *, unit: str, trials: Iterable[Trial[T]], times: int) -> Self:
-        """One method, tried on each of several tasks a number of times."""
+        """Try a method on several examples, `times` times on each."""
         outcomes, seconds = [], []
         for work, judge in trials:
             result, spent = timed(work, times)
@@ -47,16 +47,16 @@ class Way:
 
     @property
     def errors(self) -> list[float]:
-        """Of what was found, the least first."""
+        """The errors of the results that were found, in increasing order."""
         return sorted(outcome.error for outcome in self.outcomes if outcome.error is not None)
 
     @property
     def median_s(self) -> float:
-        """The middle of its times."""
+        """The median of its times (s)."""
         return median(self.seconds)
 
     def as_json(self, ours: "Way") -> dict[str, object]:
-        """Measured values, beside our own way."""
+        """Return the measured values. `ratio` compares the time with that of handeye's own method."""
         read = [outcome.read for outcome in self.outcomes if outcome.read is not None]
         return {
             "task": self.task,
@@ -74,27 +74,27 @@ class Way:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Comparison:
-    """Ways to do the same."""
+    """Several methods for the same task."""
 
     ours: Way
     others: tuple[Way, ...] = ()
     missing: tuple[str, ...] = ()
-    """Libraries that could not be measured here."""
+    """Libraries that are not installed, and so were not measured."""
 
     @property
     def ways(self) -> tuple[Way, ...]:
-        """All of them, ours first."""
+        """All methods, handeye's own first."""
         return self.ours, *self.others
 
     def as_json(self) -> dict[str, object]:
-        """All of it."""
+        """Return the measured values of all methods."""
         return {"ways": [way.as_json(self.ours) for way in self.ways], "not_measured": list(self.missing)}
 
     def lines(self) -> list[str]:
-        """One for each way, and one for each library that was not measured."""
+        """Return one line for each method, and one for each library that was not measured."""
         told = [_line(way, self.ours) for way in self.ways]
         return told + [
-            f"{self.ours.task:12} {name}: not measured, it is not installed" for name in self.missing
+            f"{self.ours.task:12} {name}: not measured, because it is not installed" for name in self.missing
         ]
 
 
@@ -109,7 +109,7 @@ def _line(way: Way, ours: Way) -> str:
 
 
 def timed(work: Callable[[], T], times: int) -> tuple[T, float]:
-    """What comes of some work, and the median of its times, s."""
+    """Return the result of a function, and the median of its times (s)."""
     seconds = []
     for _ in range(times):
         begun = time.perf_counter()

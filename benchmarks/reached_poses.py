@@ -1,7 +1,8 @@
-"""Inverse kinematics tried on poses that forward kinematics gives from joints within their limits.
+"""Tests inverse kinematics on poses that forward kinematics computes from joint positions within the limits.
 
-At random, and where closed forms are weakest: joints at limits, joints in line, the boom upright. Each pose is tried to
-the last digit, and as a taught file has it: to .001 in and .01 degrees.
+Some poses are random. The others are those at which closed-form solutions are least accurate: joints at limits, joint
+axes in line, or the boom upright. Each pose is tried exactly, and rounded as in a taught file: to .001 in and .01
+degrees.
 """
 
 import math
@@ -20,28 +21,28 @@ from handeye.core.units import DEGREE, INCH
 
 SEED: Final = 0
 EXACT: Final = 2e-9
-"""How far (m or rad) the hand may be off an exact pose."""
-_CLOSENESS: Final = (-17.0, -2.0)  # powers of ten between which joints are off a singular position, rad
-_AT_LIMIT: Final = 0.3  # share of joints
+"""Greatest permitted deviation (m or rad) of the hand from an exact pose."""
+_CLOSENESS: Final = (-17.0, -2.0)  # powers of ten between which a joint deviates from its singular position, rad
+_AT_LIMIT: Final = 0.3  # fraction of the joints
 
 Set = Callable[[ArmModel, Array, np.random.Generator], None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tried:
-    """What became of poses of a set."""
+    """The results for one set of poses."""
 
     what: str
     written: bool  # rounded as in a taught file
     poses: int
-    missed: int = 0  # not found, though the arm was there
-    wrong: int = 0  # found beyond limits, or with the hand elsewhere
-    off: float = 0.0  # distance of the hand from its pose, m
-    turned: float = 0.0  # and its turn, rad
+    missed: int = 0  # no solution found, although the arm can reach the pose
+    wrong: int = 0  # solution beyond the limits, or with the hand at a different pose
+    off: float = 0.0  # greatest distance of the hand from its pose, m
+    turned: float = 0.0  # greatest rotation of the hand from its pose, rad
 
 
 def tried(arm: ArmModel, anywhere: int, singular: int) -> Iterator[Tried]:
-    """Try a number of poses anywhere, and one of each singular set, exact and written."""
+    """Try `anywhere` random poses, and `singular` poses of each singular set, both exact and rounded."""
     rng = np.random.default_rng(SEED)
     for what, change in _sets(arm).items():
         q = rng.uniform(arm.lower, arm.upper, (singular if change else anywhere, len(arm.joints)))
@@ -83,13 +84,13 @@ def _upright(arm: ArmModel, q: Array, rng: np.random.Generator) -> None:
 
 
 def _nearly_zero(count: int, rng: np.random.Generator) -> Array:
-    """A third of them 0."""
+    """Return numbers near zero; a third of them are exactly 0."""
     sign = rng.integers(-1, 2, count)
     return np.asarray(sign * 10 ** rng.uniform(*_CLOSENESS, count))
 
 
 def _as_written(X: Pose) -> Pose:
-    """A pose rounded as a taught file has it."""
+    """Return a pose, rounded as in a taught file."""
     across = math.hypot(X[0, 2], X[1, 2])
     o = math.atan2(X[0, 2], -X[1, 2]) if across > 1e-12 else 0.0
     along = np.array([math.cos(o), math.sin(o), 0.0])

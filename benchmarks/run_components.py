@@ -1,7 +1,7 @@
-"""Components of a run, between which its processor time is divided, and the functions that each begins with.
+"""Defines the components of a run for which processor time is counted, and the functions with which each begins.
 
-What a function calls belongs to it, unless that is one of these itself. There is no other way in: ports see neither the
-simulator behind them nor the planner before them. So these are replaced, by their names, for as long as is measured.
+Everything that such a function calls counts for the same component, except calls of other functions listed here. The
+functions are replaced by name during the measurement, because ports give access to neither simulator nor planner.
 """
 
 from collections.abc import Iterator
@@ -21,16 +21,16 @@ from handeye.runs.runner import Runner
 
 PHYSICS: Final = "physics"
 PICTURES: Final = ("rendering", "vision")
-"""Components that are there only where the arm has an eye."""
+"""Components that exist only if the cell has a camera."""
 COMPONENTS: Final = {
-    PHYSICS: "MuJoCo: steps, and forward dynamics where something was put elsewhere",
+    PHYSICS: "MuJoCo: steps, and forward dynamics after a part was moved",
     "devices": "simulated devices and threads, before and after each step of the physics",
     "servo": "the servo loop: sensors, set-points, torques, guards",
     "motions": "motions made or adjusted before they begin: inverse kinematics, trajectories",
     "rendering": "pictures made",
-    "vision": "pictures looked at",
-    "snapshots": "the state after each step, kept and put back",
-    "records": "events, progress, and trace and checkpoints if they are kept",
+    "vision": "pictures analysed",
+    "snapshots": "the state after each step, captured and restored",
+    "records": "events, progress, and, if they are written, trace and checkpoints",
     OTHER: "all else: instructions, world model",
 }
 """The meaning of each, in the order of the report."""
@@ -53,7 +53,7 @@ _FUNCTIONS: Final[dict[str, tuple[tuple[Any, tuple[str, ...]], ...]]] = {
 
 @contextmanager
 def charged_to(account: CpuAccount) -> Iterator[None]:
-    """While entered, what any run in this process takes is charged to its components."""
+    """Within this context, the time of any run in this process counts for its components."""
     functions = [
         (owner, name, component)
         for component, owners in _FUNCTIONS.items()

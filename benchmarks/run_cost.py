@@ -1,4 +1,4 @@
-"""What runs have cost: processor time by phase, stage and component, and beside their physics alone."""
+"""The cost of runs: processor time by phase, stage and component, and in comparison with the physics alone."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from handeye.results.result import Result
 PREPARATION: Final[Place] = ("preparation",)
 REFEREE: Final[Place] = ("referee",)
 STAGE: Final = "stage"
-"""A place is this, and the name of the stage."""
+"""First word of a place; the second is the name of the stage."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,7 +23,7 @@ class Spent:
 
     @classmethod
     def summed(cls, several: Iterable["Spent"]) -> "Spent":
-        """Of several runs together."""
+        """Return the sum over several runs."""
         each: dict[tuple[Place, str], float] = {}
         for spent in several:
             for what, seconds in spent.each.items():
@@ -32,35 +32,35 @@ class Spent:
 
     @property
     def preparation_cpu_s(self) -> float:
-        """The cell built, joints and camera measured."""
+        """Time of the preparation: building the cell, measuring the joints, and calibrating the camera."""
         return self._of(PREPARATION)
 
     @property
     def referee_cpu_s(self) -> float:
-        """The referee, and the result."""
+        """Time of the referee, and of making the result."""
         return self._of(REFEREE)
 
     @property
     def work_cpu_s(self) -> float:
-        """The working phase."""
+        """Time of the working phase."""
         return sum(self.components().values())
 
     @property
     def pictures_cpu_s(self) -> float:
-        """The share of the working phase that pictures take, made and looked at."""
+        """Part of the working phase in which pictures are made and analysed."""
         return sum(self.components()[component] for component in PICTURES)
 
     @property
     def cpu_s(self) -> float:
-        """All of it."""
+        """All processor time of the run."""
         return sum(self.each.values())
 
     def components(self, *stages: str) -> dict[str, float]:
-        """CPU s of the components in the working phase, or in some stages of it."""
+        """Return the CPU s of each component in the working phase, or in some of its stages."""
         return self._by_component(lambda place: place[:1] == (STAGE,) and (not stages or place[1] in stages))
 
     def of_preparation(self) -> dict[str, float]:
-        """CPU s of the components in the preparation."""
+        """Return the CPU s of each component in the preparation."""
         return self._by_component(lambda place: place == PREPARATION)
 
     def _by_component(self, counts: Callable[[Place], bool]) -> dict[str, float]:
@@ -76,65 +76,67 @@ class Spent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunCost:
-    """What one run has cost."""
+    """The cost of one run."""
 
     result: Result
     spent: Spent
     account_cpu_s: float
-    """What measuring took of that."""
+    """Part of `spent` that the measuring itself took."""
     bare: Bare | None = None
-    """The physics of its working phase, alone."""
+    """The replay of the physics of its working phase."""
 
     @property
     def simulated_s(self) -> float:
-        """Of the working phase, by the cell's clock."""
+        """Simulated duration of the working phase."""
         return self.result.timing.working_s
 
     @property
     def ratio(self) -> float | None:
-        """Working phase to its physics alone."""
+        """Time of the working phase, divided by the time of its physics alone."""
         return None if self.bare is None else self.spent.work_cpu_s / self.bare.seconds
 
     @property
     def ratio_without_pictures(self) -> float | None:
-        """The same, what pictures take left out."""
+        """The same ratio, without the time for pictures."""
         spent = self.spent
         return None if self.bare is None else (spent.work_cpu_s - spent.pictures_cpu_s) / self.bare.seconds
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Speed:
-    """What a process has cost that planned once and carried the plan out in some worlds."""
+    """The cost of a process that planned once, and executed the plan in some worlds."""
 
     start_cpu_s: float
-    """The interpreter, and everything imported."""
+    """Start of the interpreter, and imports."""
     planning_cpu_s: float
     stages: tuple[str, ...]
     runs: tuple[RunCost, ...]
     peak_memory_mib: float | None
-    """Of the process when the last world was judged; None: this system does not tell."""
+    """Greatest memory of the process until the last world was judged; None if the operating system does not report
+    it.
+    """
 
     @property
     def spent(self) -> Spent:
-        """Of all worlds."""
+        """The processor time in all worlds together."""
         return Spent.summed(run.spent for run in self.runs)
 
     @property
     def cpu_s(self) -> float:
-        """The whole process, without the tapes."""
+        """Processor time of the whole process, without recording and replaying tapes."""
         return self.start_cpu_s + self.planning_cpu_s + self.spent.cpu_s
 
     @property
     def accepted(self) -> int:
-        """Worlds in which the referee found everything right."""
+        """Number of worlds in which the referee accepted the work."""
         return sum(run.result.assembled is True for run in self.runs)
 
     @property
     def accepted_per_core_hour(self) -> float:
-        """As many would be accepted in an hour of one processor."""
+        """Number of accepted pumps per hour of processor time."""
         return self.accepted / self.cpu_s * 3600
 
     @property
     def simulated_s_per_cpu_s(self) -> float:
-        """Of the working phases."""
+        """Simulated seconds of the working phases per CPU second."""
         return sum(run.simulated_s for run in self.runs) / self.spent.work_cpu_s

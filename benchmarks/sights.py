@@ -1,4 +1,4 @@
-"""Sights of the pump base on the belt, for measuring the eye alone."""
+"""Makes pictures of the pump base on the belt, for benchmarks of vision alone."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -13,25 +13,26 @@ from handeye.vision.camera_model import View
 from handeye.vision.hole_search import hole_places
 
 WORLD_POSES: Final = 4
-"""Of one world, and of one light."""
+"""Number of poses in each world; all have the same light."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sight:
-    """A part seen from far and from near by a camera that is known exactly."""
+    """A part in a distant and in a close picture, taken by a camera whose model is exact."""
 
     part: Part
     pose: tuple[float, float, float]
-    """Where it really is: x, y (m) and yaw (rad) in W."""
+    """True pose of the part: x, y (m) and yaw (rad) in W."""
     far: tuple[Picture, View]
     near: tuple[Picture, View]
 
 
 def sights(number: int, camera: str) -> Iterator[Sight]:
-    """A number of worlds from 0 on, their cameras as in the drawing: what is found wrong, the eye has found wrong.
+    """Yield `number` sights, in the worlds from seed 0 on. Their cameras have no errors, so that all errors are those
+    of vision.
 
     Raises:
-        InvalidInput: pictures cannot be made so here.
+        InvalidInput: this renderer does not work here.
     """
     for seed in range(-(-number // WORLD_POSES)):
         spec = WorldSpec(seed=seed, overrides=Overrides(without=("camera",)))

@@ -1,7 +1,8 @@
-"""Where the processor time of whole runs goes, and what the same physics takes alone.
+"""Measures the processor time of whole runs by component, and the time of the same physics alone.
 
-Every world is carried out with an account of its time. Then the work is done again from where it began, on tape and
-without an account, and the tape is played: so neither recording nor playing is in the figures of the run.
+Each world is first run with an account of its time. Then the work is repeated from its beginning without an account,
+and
+recorded on a tape, and the tape is replayed. The figures of the run therefore include neither recording nor replay.
 """
 
 import sys
@@ -30,7 +31,7 @@ from handeye.runs.snapshot import Checkpoint
 
 @dataclass(slots=True)
 class _Stages(Observer):
-    """Charges each stage to itself; what is between two, to the one before."""
+    """Counts time for the present stage. The time between two stages counts for the earlier one."""
 
     account: CpuAccount
 
@@ -41,11 +42,11 @@ class _Stages(Observer):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Watching:
-    """The observer of all this."""
+    """Observers of the measured runs."""
 
     observers: Sequence[Observer] = ()
     viewed: Callable[[int, int], None] = lambda *_: None
-    """Told of each view in which the camera is calibrated: its number, of how many."""
+    """Called for each view of a camera calibration, with the number of the view and the total number of views."""
 
 
 NOBODY: Final = Watching()
@@ -54,14 +55,14 @@ NOBODY: Final = Watching()
 def carry_out(
     setup: Setup, watching: Watching = NOBODY, *, folder: Path | None = None, calibrate: bool = True
 ) -> tuple[RunCost, Checkpoint]:
-    """Run with an account of the time; what it has cost, and the state in which its work began.
+    """Execute a run with an account of its time. Returns its cost, and the state in which its work began.
 
     Args:
-        folder: trace and checkpoints are kept there.
-        calibrate: the camera is calibrated again, whatever is kept.
+        folder: folder for trace and checkpoints; None: they are not written.
+        calibrate: calibrate the camera even if an earlier run stored its calibration.
 
     Raises:
-        InvalidInput: the run cannot be had.
+        InvalidInput: the run is impossible.
     """
     account, start = CpuAccount(place=PREPARATION), Checkpoint(setup=setup)
 
@@ -90,7 +91,7 @@ def carry_out(
 
 
 def bare(begun: Checkpoint, watching: Watching = NOBODY) -> Bare:
-    """Do the work of a run again from where it began, and then its physics alone."""
+    """Repeat and record the work of a run from the state in which it began, and then replay its physics alone."""
     runner = Runner(begun, observers=lambda _: watching.observers)
     tape = Tape(runner.arm_cell)
     with tape.recording():
@@ -107,13 +108,13 @@ def measure(
     traced: bool = False,
     watching: Watching = NOBODY,
 ) -> Speed:
-    """Carry out some runs, and then the physics of each alone.
+    """Execute some runs, and then replay the physics of each alone.
 
     Args:
-        traced: trace and checkpoints are kept, in a folder that is removed afterwards.
+        traced: write trace and checkpoints, into a folder that is removed afterwards.
 
     Raises:
-        InvalidInput: one of them cannot be had.
+        InvalidInput: one of the runs is impossible.
     """
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:
         folders = [Path(name) / str(number) if traced else None for number in range(len(setups))]
@@ -131,7 +132,7 @@ def measure(
 
 
 def peak_memory_mib() -> float | None:
-    """The most memory that this process has had, MiB; None in Windows, which is not asked."""
+    """Return the greatest memory of this process so far (MiB); None on Windows, where it is not measured."""
     if sys.platform == "win32":
         return None
     import resource

@@ -1,4 +1,4 @@
-"""What runs have cost, as a page for the terminal and as a record for programs."""
+"""Shows the cost of runs, as a page for the terminal and as JSON."""
 
 from collections.abc import Iterable, Mapping
 from typing import Final
@@ -19,11 +19,11 @@ _COLUMNS: Final = {
     "pictures": PICTURES,
     "motions": ("motions",),
 }
-"""Components with a column of their own; `rest` has the others."""
+"""Components of each column. The column `rest` contains the other components."""
 
 
 def page(speed: Speed) -> RenderableType:
-    """All of it, as text."""
+    """Return the page for the terminal."""
     return Group(
         _phases(speed),
         Text(),
@@ -41,7 +41,7 @@ def _phases(speed: Speed) -> Table:
     rows = (
         ("start of the process", speed.start_cpu_s),
         ("planning", speed.planning_cpu_s),
-        ("preparation: cell built, arm and camera measured", spent.preparation_cpu_s),
+        ("preparation: building the cell, measuring the arm, calibrating the camera", spent.preparation_cpu_s),
         ("work", spent.work_cpu_s),
         ("referee", spent.referee_cpu_s),
         ("all", speed.cpu_s),
@@ -90,12 +90,12 @@ def _sentences(speed: Speed) -> Iterable[str]:
     for run in speed.runs:
         yield f"world {run.result.seed}: {_verdict(run)}, {clock(run.simulated_s)} simulated; {_beside_physics(run)}"
     own = sum(run.account_cpu_s for run in speed.runs)
-    yield f"measuring took some {own:.2f} CPU s of these"
+    yield f"these times include about {own:.2f} CPU s for the measuring itself"
     hourly, simulated = speed.accepted_per_core_hour, speed.simulated_s_per_cpu_s
-    yield f"{speed.accepted} of {len(speed.runs)} accepted: {hourly:.0f} in an hour of one processor"
-    yield f"{simulated:.1f} s simulated in a CPU s of work"
+    yield f"{speed.accepted} of {len(speed.runs)} accepted: {hourly:.0f} per hour of processor time"
+    yield f"{simulated:.1f} s simulated per CPU s of work"
     memory = speed.peak_memory_mib
-    yield "memory: not measured on this system" if memory is None else f"memory: {memory:.0f} MiB at most"
+    yield "greatest memory: not measured on this system" if memory is None else f"greatest memory: {memory:.0f} MiB"
 
 
 def _verdict(run: RunCost) -> str:
@@ -104,20 +104,20 @@ def _verdict(run: RunCost) -> str:
 
 def _beside_physics(run: RunCost) -> str:
     if run.bare is None:
-        return "its physics were not carried out alone"
-    alone = f"{run.ratio:.2f} times its physics alone ({run.bare.seconds:.2f} CPU s)"
+        return "its physics was not replayed alone"
+    alone = f"work took {run.ratio:.2f} times its physics alone ({run.bare.seconds:.2f} CPU s)"
     without = f"{run.ratio_without_pictures:.2f} without pictures"
     if run.bare.apart_s is None:
-        return f"{alone}, {without}; both ended in the same states, bit for bit"
+        return f"{alone}, {without}; the replay had the same states as the run, bit for bit"
     others = f"{run.bare.stretches - run.bare.same} of {run.bare.stretches}"
     return (
-        f"{alone}, {without}; but {others} stretches of the physics alone ended in other states, "
-        f"the first at {run.bare.apart_s:.1f} s by the cell's clock"
+        f"{alone}, {without}; but {others} stretches of the replay ended in different states, "
+        f"the first at {run.bare.apart_s:.1f} s on the cell's clock"
     )
 
 
 def as_json(speed: Speed) -> dict[str, object]:
-    """All of it, for programs."""
+    """Return all figures for JSON."""
     spent = speed.spent
     return {
         "start_cpu_s": speed.start_cpu_s,

@@ -1,4 +1,6 @@
-"""CPU seconds that commands take which move nothing, beside those of importing what every command rests on."""
+"""Measures the CPU seconds of commands that move nothing, compared with importing the libraries that every command
+needs.
+"""
 
 import os
 import resource
@@ -11,16 +13,16 @@ from typing import Final
 
 BASE: Final = "import numpy, cyclopts, rich.console, msgspec"
 SCRIPT: Final = "OPEN 1\nCLOSE\n"
-"""What is checked: planning the pump's 189 motions takes half a second, however fast the command starts."""
+"""The script for `check`. It is short, because planning the pump's 189 motions would take half a second."""
 MOST: Final = 1.6
-"""Times that a command may take of the import."""
+"""Greatest permitted time of a command, as a multiple of the time of the import."""
 COMMANDS: Final = ("--version", "--help", "explain 23", "explain label-twice", "schema", "check job.al")
 
 
 def starts(times: int) -> Iterator[tuple[str, float, float]]:
-    """Each command with the CPU seconds of its fastest run, and those as a multiple of the fastest import's.
+    """Yield each command, the CPU seconds of its fastest run, and this time divided by that of the fastest import.
 
-    Commands take turns, so that whatever else the machine does falls on all of them.
+    Commands take turns, so that other work on the computer affects all of them.
     """
     calls = {"": ["-c", BASE], **{each: ["-m", "handeye", *each.split()] for each in COMMANDS}}
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:

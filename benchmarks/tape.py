@@ -1,8 +1,9 @@
-"""Tape of all that a cell does to its simulator, and the same done again with nothing else: bare physics.
+"""Records on a tape everything that a cell writes to its simulator, so that the physics can be replayed alone.
 
-Between two calls of the simulator a cell writes controls, forces, figures of the model and, now and then, positions.
-The tape has what was written before each call, and the call. A stretch of it begins where the simulator is reset, which
-is between two steps of a program, so that each can be compared by itself with the run.
+Between two calls of the simulator, a cell writes controls, forces, properties of the model, and sometimes positions.
+The
+tape contains each call, and what was written before it. A stretch of the tape begins when the simulator is reset, which
+happens between two steps of a program. Each stretch can therefore be compared separately with the run.
 """
 
 import copy
@@ -19,27 +20,28 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.cell.snapshot_cell import INTEGRATION
 
 _CALLS: Final = ("mj_step", "mj_step1", "mj_step2", "mj_forward", "mj_resetData")
-"""All by which a cell has its simulator work out anything that lasts."""
+"""All functions of the simulator with which a cell changes the simulator's state."""
 _RESET: Final = "mj_resetData"
 _STATE: Final = (
     "qpos", "qvel", "act", "history", "qacc_warmstart", "ctrl", "qfrc_applied", "xfrc_applied", "eq_active",
     "mocap_pos", "mocap_quat", "userdata",
 )  # fmt: skip
-"""The integration state, by the names of its arrays; the clock is the rest of it."""
+"""The arrays of the integration state, by name. Apart from them, the integration state contains only the clock."""
 _FIGURES: Final = ("actuator_trnid", "geom_solimp")
-"""Figures of the model that a cell changes, beside those kept as figures in its state: kept by a mechanism, or changed
-for some steps only."""
+"""Fields of the model that a cell changes, in addition to those in the cell's own state. They belong to a mechanism, or
+are changed for a few steps only.
+"""
 
 Call = Callable[..., Any]
 Written = tuple[str, Any]
-"""Name of a place, and what was written there."""
+"""Name of a place, and the values written there."""
 
 
 @contextmanager
 def physics_through(through: Callable[[Call], Call]) -> Iterator[None]:
-    """While entered, every call of the simulator goes through what is made of it.
+    """Within this context, `through` wraps every function of the simulator that is in `_CALLS`.
 
-    The simulator is a module of functions, which cells call by name: there is nothing to hand in.
+    The functions are replaced in the module `mujoco`, because cells call them there by name.
     """
     own = {name: getattr(mujoco, name) for name in _CALLS}
     for name, call in own.items():
@@ -52,7 +54,7 @@ def physics_through(through: Callable[[Call], Call]) -> Iterator[None]:
 
 
 class Place(Protocol):
-    """Somewhere in the simulator that can be read and written as a whole."""
+    """An array or number of the simulator that can be read and written as a whole."""
 
     def __getitem__(self, whole: EllipsisType, /) -> Any: ...
     def __setitem__(self, whole: EllipsisType, values: Any, /) -> None: ...
@@ -60,7 +62,7 @@ class Place(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class _Number:
-    """A place that is a number."""
+    """A place that contains one number."""
 
     owner: Any
     name: str
@@ -83,24 +85,24 @@ class Move:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stretch:
-    """Calls from one reset on, and the state they have led to."""
+    """The calls from one reset to the next, and the state at the end."""
 
     moves: Sequence[Move]
     left: tuple[Written, ...]
-    """Written after the last call: the clock, if everything sleeps then."""
+    """Values written after the last call, such as the clock if all bodies sleep."""
     end: bytes
     end_s: float
-    """The cell's clock then."""
+    """The cell's clock at the end (s)."""
 
 
 class Tape:
-    """What is done to the simulator of one cell."""
+    """Everything that is written to the simulator of one cell."""
 
     def __init__(self, cell: SimulatedCell) -> None:
-        """An empty tape; the cell is at the beginning of what will be recorded."""
+        """Make an empty tape. The cell must be in the state in which the recording will begin."""
         truth = cell.truth
         self.model = copy.deepcopy(truth.model)
-        """The model at the beginning."""
+        """The model at the beginning of the recording."""
         self.figures = (*cell.capture().figures, *_FIGURES)
         """Fields of the model that are watched."""
         self.stretches: list[Stretch] = []
@@ -109,12 +111,14 @@ class Tape:
         self._before: dict[str, bytes] = {}
         self._figured: dict[
             bytes, Any
-        ] = {}  # figures of shapes: they are many, and return to the same values
+        ] = {}  # values of shapes, each stored once: they are large, and often repeat
         self._moves: list[Move] = []
 
     @contextmanager
     def recording(self) -> Iterator[None]:
-        """Record while entered. The cell is put into its own state first, as it is between two steps of a program."""
+        """Record within this context. First the state of the cell is captured and restored, as between two steps of a
+        program.
+        """
         with physics_through(self._recorded):
             self._cell.restore(self._cell.capture())
             yield
@@ -150,7 +154,7 @@ class Tape:
 
 
 def places(model: mujoco.MjModel, data: mujoco.MjData, figures: Sequence[str]) -> dict[str, Place]:
-    """All places that are watched, by their names."""
+    """Return all places that are watched, by name."""
     return {
         "data.time": _Number(data, "time"),
         "model.opt.timestep": _Number(model.opt, "timestep"),
@@ -160,7 +164,7 @@ def places(model: mujoco.MjModel, data: mujoco.MjData, figures: Sequence[str]) -
 
 
 def state_of(model: mujoco.MjModel, data: mujoco.MjData) -> bytes:
-    """The integration state, bit for bit."""
+    """Return the bytes of the integration state."""
     state = np.empty(mujoco.mj_stateSize(model, INTEGRATION))
     mujoco.mj_getState(model, data, state, INTEGRATION)
     return state.tobytes()

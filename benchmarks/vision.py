@@ -1,4 +1,6 @@
-"""The eye beside OpenCV, on the same pictures: the outline of a part from far, its two large holes from near."""
+"""Compares handeye's vision with OpenCV on the same pictures: the outline of a part in distant pictures, and its two
+large holes in close ones.
+"""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -31,9 +33,9 @@ _way = partial(Way.measured, unit="points")
 
 
 def measure(sights: Iterable[Sight], times: int) -> Iterator[Comparison]:
-    """Find the outline of the part, and then its holes, in each sight, a number of times with each method.
+    """Find the outline of the part and then its holes in each sight, `times` times with each method.
 
-    Holes are looked for, in all ways, in the box that our own way has found from far.
+    All methods search for the holes in the box that handeye's own method has found in the distant picture.
     """
     seen = list(sights)
     yield _outlines(seen, times)
@@ -65,7 +67,7 @@ def _box(sight: Sight, box: BoundingBox | None) -> Outcome:
 
 
 def _off(sight: Sight, box: BoundingBox) -> float:
-    """How far the middle of a box is from that of what the part really fills, points."""
+    """Return the distance between the middle of a box and the middle of the part's true outline (points)."""
     x, y, yaw = sight.pose
     (true,) = silhouettes(sight.far[1], sight.part, (x, y), np.array([yaw - sight.part.at[3]]))
     return math.dist(box.corners().mean(axis=0), (true.min(axis=0) + true.max(axis=0)) / 2)
@@ -105,6 +107,6 @@ def _centred(sight: Sight, centres: Array | None) -> Outcome:
 
 
 def _worse(sight: Sight, centres: Array) -> float:
-    """How far the worse of two centres is from where the hole really is in the picture, points."""
+    """Return the greater of the distances of the two centres from the true centres in the picture (points)."""
     true = sight.near[1].project(hole_places(sight.part, sight.pose)[:2])
     return float(np.hypot(*(centres - true).T).max())

@@ -88,7 +88,7 @@ class TraceWriter:
         self.file.write(PICTURE, time, messages.picture(time, picture))
         self.file.write(
             ANNOTATIONS, time, annotations(time, ())
-        )  # otherwise the marks of the previous picture would stay
+        )  # without this, the marks of the previous picture would stay
 
     def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
         """Write the marks for what vision found in a picture. The event of the finding follows."""

@@ -77,7 +77,7 @@ const live = (() => {
     refused: (sentence) => tell(sentence),
     viewers: (count, { drives: mine, free }) => {
       drives = mine;
-      byId("looking").textContent = `${count === 1 ? "1 viewer" : `${count} viewers`}; ${mine ? "you have control" : free ? "nobody has control" : "another viewer has control"} `;
+      byId("looking").textContent = `${count === 1 ? "1 viewer" : `${count} viewers`}; ${mine ? "you have control" : free ? "no viewer has control" : "another viewer has control"} `;
       byId("drive").hidden = mine;
       const driven = ".controls :is(button, select, input):not(#panic), .jogs button, #line";
       for (const each of document.querySelectorAll(driven)) each.disabled = !mine;

@@ -42,7 +42,7 @@ def test_a_dismantling_that_is_to_be_broken_off_is_of_the_run_that_was_not(
 
 
 def test_only_runs_are_interrupted_while_they_are_undone(benchmark: Command) -> None:
-    said = "handeye: --dismantling goes with killed and interrupted, not with stepped\n"
+    said = "handeye: --dismantling can be used with `killed` and `interrupted`, not with `stepped`\n"
     assert benchmark("breaking", "stepped", "--dismantling") == (2, "", said)
 
 

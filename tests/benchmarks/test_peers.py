@@ -75,7 +75,7 @@ def test_a_toolbox_that_is_not_installed_is_not_measured(monkeypatch: pytest.Mon
     compared = inverse_kinematics.measure(STANFORD, 2, 1)
     assert compared.missing == ("no-such-distribution",)
     assert len(compared.ways) == 2
-    assert compared.lines()[-1] == "hand poses   no-such-distribution: not measured, it is not installed"
+    assert compared.lines()[-1] == "hand poses   no-such-distribution: not measured, because it is not installed"
 
 
 @pytest.fixture
@@ -94,7 +94,7 @@ def test_the_bench_tells_a_person_what_each_way_found_and_how_long_it_took(bench
     assert [" ".join(line.split()) for line in out.splitlines()] == [
         "holes beams 2 of 3 0.2, at worst 0.3 points 6.0% read 2.000 ms",
         "holes Otsu 1 of 1 0.2, at worst 0.2 points 4.000 ms 2.00 times ours",
-        "holes a-library: not measured, it is not installed",
+        "holes a-library: not measured, because it is not installed",
     ]
 
 

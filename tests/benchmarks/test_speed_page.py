@@ -77,16 +77,17 @@ def test_people_are_told_phases_components_and_stages(
         "planning 0.50 4.5%",
         "work 4.00 36.4%",
         "lift 2.50 2.00 0.00 0.00 0.50 0.00 0.00",
-        "2.00 times its physics alone (2.00 CPU s), 1.50 without pictures; both ended in the same states, bit for bit",
-        "1 of 1 accepted: 327 in an hour of one processor",
-        "memory: not measured on this system",
+        "work took 2.00 times its physics alone (2.00 CPU s), 1.50 without pictures; the replay had the same states as "
+        "the run, bit for bit",
+        "1 of 1 accepted: 327 per hour of processor time",
+        "greatest memory: not measured on this system",
     ):
         assert row in out
 
 
 @pytest.mark.parametrize(
     ("found", "said"),
-    [(APART, "but 1 of 4 stretches of the physics alone ended in other states, the first at 1.5 s"),
+    [(APART, "but 1 of 4 stretches of the replay ended in different states, the first at 1.5 s"),
      (REFUSED, "world 0: not right")],
 )  # fmt: skip
 def test_what_was_not_accepted_or_not_the_same_is_told_and_is_the_exit_code(

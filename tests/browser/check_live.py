@@ -136,7 +136,7 @@ def test_others_look_on_take_the_drive_and_reload(browser: Browser, tmp_path: Pa
         first.ask("Page.reload")
         first.wait(f"document.getElementById('told') && /> skip/.test({TOLD})")
         second.ask("Page.navigate", url="about:blank")
-        first.wait("/1 viewer; nobody has control/.test(document.getElementById('looking').textContent)")
+        first.wait("/1 viewer; no viewer has control/.test(document.getElementById('looking').textContent)")
         press(first, "Take control")
         first.wait("/you have control/.test(document.getElementById('looking').textContent)")
         press(first, "Run")

@@ -90,7 +90,7 @@ export class Graphics {
     return { frame, texture, size };
   }
 
-  // Pictures to draw into and to read afterwards. They are made anew when the size changes. `depth`: format, or null.
+  // Pictures to draw into and to read afterwards. They are made again when the size changes. `depth`: format, or null.
   target(name, width, height, formats, depth = null) {
     const known = this.targets.get(name);
     if (known?.width === width && known.height === height) return known;

@@ -1,5 +1,5 @@
 // Shaders. Light is computed in linear colours. The lamp's part can be stored separately, so that the shadows on still
-// bodies can be computed anew for each picture.
+// bodies can be computed for each picture.
 
 export const VERSION = `#version 300 es
 precision highp float;
