@@ -266,8 +266,9 @@ def growth(
     """Measure how costs grow with the length of a program, and with the number of cells in one process.
 
     Programs of several lengths, with a stage and six motions in each hundred statements, are checked, planned, executed
-    and recorded. Their traces are opened, compared, and converted to text and arrays. Then one to three cells in one
-    process execute a program of a hundred statements; they take turns after each step. All times are processor times.
+    and recorded. Their traces are opened, compared, and converted to text and arrays. In addition, one to three cells
+    in one process execute a program of a hundred statements; they take turns after each step. All times are processor
+    times.
 
     If a cost grows with a power near 1, ten times as many statements cost ten times as much. The power is fitted to the
     longest programs, down to a hundredth of the greatest length, because a short program mainly costs what is done

@@ -28,8 +28,8 @@ class Sight:
 
 
 def sights(number: int, camera: str) -> Iterator[Sight]:
-    """Yield `number` sights, in the worlds from seed 0 on. Their cameras have no errors, so that all errors are those
-    of vision.
+    """Yield `number` sights, in the worlds from seed 0 on. Their cameras are exactly as designed, so all errors are
+    those of vision.
 
     Raises:
         InvalidInput: this renderer does not work here.

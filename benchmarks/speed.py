@@ -1,8 +1,7 @@
 """Measures the processor time of whole runs by component, and the time of the same physics alone.
 
 Each world is first run with an account of its time. Then the work is repeated from its beginning without an account,
-and
-recorded on a tape, and the tape is replayed. The figures of the run therefore include neither recording nor replay.
+and recorded on a tape, and the tape is replayed. The figures of the run therefore include neither recording nor replay.
 """
 
 import sys

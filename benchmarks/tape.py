@@ -1,9 +1,8 @@
 """Records on a tape everything that a cell writes to its simulator, so that the physics can be replayed alone.
 
 Between two calls of the simulator, a cell writes controls, forces, properties of the model, and sometimes positions.
-The
-tape contains each call, and what was written before it. A stretch of the tape begins when the simulator is reset, which
-happens between two steps of a program. Each stretch can therefore be compared separately with the run.
+The tape contains each call, and what was written before it. A stretch of the tape begins when the simulator is reset,
+which happens between two steps of a program. Each stretch can therefore be compared separately with the run.
 """
 
 import copy

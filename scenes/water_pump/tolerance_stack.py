@@ -1,17 +1,18 @@
-"""Computes how often six screws pass gasket and top, wherever the aligning pins let those lie.
+"""Computes in how many worlds six screws pass through gasket and top, for the placements that the aligning pins allow.
 
     python scenes/water_pump/tolerance_stack.py [WORLDS]
 
-Sizes are those of dimensions.toml, errors those of the pump's table of worlds. No physics: in each world the tapped
-holes and those of both layers are drilled with errors of their own; two pins stand in tapped holes with play, and
-lean in them; the hand lays each layer down turned and displaced by the errors of its joints and the steps of their
-potentiometers, and the layer lies nearest to that where both pins are within its holes. A screw stands
-upright on the axis of its tapped hole and meets a layer if that axis is farther from the hole's than their radii
-differ.
+The sizes come from dimensions.toml, and the errors from the pump's table of quantities. There is no physics. In each
+world, the tapped holes and the holes of both layers (gasket and top) are drilled, each with its own errors. Two pins
+stand in tapped holes, with play and tilt. The hand lays each layer down, rotated and displaced by the errors of the
+joints and the steps of their potentiometers. The layer then takes the nearest placement in which both pins are within
+its holes. A screw stands upright on the axis of its tapped hole. It meets a layer if the distance between this axis and
+the axis of the layer's hole is greater than the difference of their radii.
 
-"Worst lie" asks more, in a tenth of the worlds: of all places where the pins let a layer lie, the one whose farthest
-hole is farthest off.
-"As met" adds what pins have in the simulation beyond their drawing (polygons and soft contact).
+The worst placement is computed in a tenth of the worlds: of all placements that the pins allow, the one with the
+largest error of a hole.
+
+"As met" adds to the play of a pin what the simulation adds: its pins are polygons, and its contacts are soft.
 """
 
 import sys
@@ -32,37 +33,37 @@ from handeye.tasks.stanford_cell.dimensions import PARK, dimensions, screw_holes
 from handeye.tasks.water_pump.world.variation import variation
 
 WORLDS: Final = 100_000
-SOFT: Final = 5e-5  # m more play of a pin than drawn; measured in the simulation, .03-.05 mm
+SOFT: Final = 5e-5  # m, additional play of a pin in the simulation; measured: .03 to .05 mm
 SWEEPS: Final = (
-    60  # in which a layer finds its place between two pins; after 30 nothing moves by a micrometre
+    60  # iterations to find a layer's placement between two pins; after 30, none moves by a micrometre
 )
-DIRECTIONS: Final = 12  # in which each pin pushes a layer, where the worst lie is looked for
+DIRECTIONS: Final = 12  # number of directions in which each pin pushes a layer, in the search for the worst placement
 LAYERS: Final = ("gasket", "top")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sizes:
-    """What decides whether screws pass a layer, m."""
+    """Sizes that determine whether screws pass through a layer (m)."""
 
     hole: float
-    """Radius of its screw holes."""
+    """Radius of the layer's screw holes."""
     height: float
-    """Over the base's face, of the upper end of its bores."""
+    """Height of the upper end of the layer's holes above the base's face."""
     nose: float
     body: float
-    """Radii of a pin."""
+    """Radii of a pin: `nose` is in the base, `body` in the layer."""
     tap: float
     """Radius of a tapped hole."""
     guide: float
-    """Length of a pin's nose that a tapped hole guides."""
+    """Length over which a tapped hole guides a pin's nose."""
     mouth: float
-    """Depth at which that length begins."""
+    """Depth at which this length begins."""
     shank: float
     """Radius of a screw."""
 
     @classmethod
     def drawn(cls, layer: str) -> "Sizes":
-        """The sizes of gasket or top as drawn."""
+        """Return the sizes of gasket or top, as drawn."""
         d = dimensions()
         height = d("gasket.thickness")
         if layer == "top":
@@ -77,32 +78,34 @@ class Sizes:
 
     @property
     def clearance(self) -> float:
-        """How far the axes of a screw and its hole may be apart."""
+        """Greatest distance between the axes of a screw and its hole at which the screw passes."""
         return self.hole - self.shank
 
     @property
     def play(self) -> float:
-        """How far a layer's hole may be off its tapped hole: the pin stands aside, leans, and has play in the layer."""
+        """Greatest distance that a pin allows between a layer's hole and its tapped hole: play and tilt of the pin in
+        the tapped hole, and play of the layer on the pin.
+        """
         aside = self.tap - self.nose
         return aside + 2 * aside * (self.height + self.mouth) / self.guide + self.hole - self.body
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stack:
-    """How the worlds came out; of each one figure."""
+    """The results. Arrays have one value per world."""
 
     clearance: float
     play: float
     binds: Array
-    """True where the pins are too far apart for the layer."""
+    """True if the pins do not fit into the layer's holes together."""
     laid: Array
-    """Distance of the farthest axes where the hand lays the layer, m."""
+    """Greatest distance between the axes of a screw and its hole, in the placement that the layer takes (m)."""
     worst: Array
-    """The same for the worst lie, in a tenth of them."""
+    """The same distance in the worst placement, in a tenth of the worlds."""
 
 
 def stack(sizes: Sizes, layer: str, worlds: int, seed: int = 1973) -> Stack:
-    """Draw worlds, and measure how a layer lies in each."""
+    """Draw worlds, and compute the placement of a layer in each."""
     rng = np.random.default_rng([seed, LAYERS.index(layer)])
     holes = np.array(screw_holes())
     wrong = _drilling(layer, worlds, rng) - _drilling("base", worlds, rng)
@@ -120,27 +123,29 @@ def stack(sizes: Sizes, layer: str, worlds: int, seed: int = 1973) -> Stack:
 
 
 def _drawn(name: str, worlds: int, rng: np.random.Generator) -> Array:
-    """Values of a normal quantity in many worlds at once, clipped as its distribution clips them, SI."""
+    """Draw a normally distributed quantity in many worlds at once (SI). The values are clipped in the same way as in
+    worlds.
+    """
     quantity = variation().quantities[name]
     sigma = quantity.distribution.spread * quantity.measure.size
     return np.asarray(sigma * np.clip(rng.standard_normal(worlds), -2.0, 2.0))
 
 
 def _drilling(part: str, worlds: int, rng: np.random.Generator) -> Array:
-    """Errors of the screw holes of a part, shape (worlds, 6, 2)."""
+    """Draw the errors of a part's screw holes, shape (worlds, 6, 2)."""
     names = [[f"holes.{part}.{k}.{axis}" for axis in "xy"] for k in range(1, 7)]
     return np.stack([np.stack([_drawn(n, worlds, rng) for n in pair], -1) for pair in names], 1)
 
 
 def _hand(layer: str, worlds: int, rng: np.random.Generator) -> Array:
-    """Where the hand lays a layer, against the base: x, y and turn, shape (worlds, 3)."""
+    """Draw where the hand lays a layer, relative to the base: x, y and rotation, shape (worlds, 3)."""
     X_WT = standard() @ hand(*{"gasket": (0.04, 0.0), "top": (0.0, 0.0)}[layer], 0.1, 0.0, np.pi / 2, 0.0)
     target = solve(STANFORD, X_WT, PARK).q
     assert target is not None
     arm = _arm(worlds, rng)
     read = target + arm.pot_step * rng.uniform(
         -0.5, 0.5, (worlds, 6)
-    )  # anywhere within a step reads the same
+    )  # all positions within a step give the same reading
     X = forward(STANFORD, arm.positions(read))
     R = X[:, :3, :3] @ X_WT[:3, :3].T
     turn = np.arctan2(R[:, 1, 0], R[:, 0, 0]) - _drawn("fixtures.blocks.yaw", worlds, rng)
@@ -148,7 +153,7 @@ def _hand(layer: str, worlds: int, rng: np.random.Generator) -> Array:
 
 
 def _arm(worlds: int, rng: np.random.Generator) -> ArmErrors:
-    """Arms of many worlds at once."""
+    """Draw the arms of many worlds at once."""
     size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
 
     def joints(name: str) -> Array:
@@ -166,19 +171,19 @@ def _arm(worlds: int, rng: np.random.Generator) -> ArmErrors:
 
 
 def _moved(about: Array, place: Array) -> Array:
-    """How points of a layer move with it, shape (worlds, points, 2)."""
+    """Return the displacements of points of a layer in a placement, shape (worlds, points, 2)."""
     x, y = about.T
     turn = place[:, 2:]
     return np.stack([place[:, :1] - turn * y, place[:, 1:2] + turn * x], -1)
 
 
 def _off(about: Array, wrong: Array, place: Array) -> Array:
-    """Distances of a layer's holes from the tapped ones, shape (worlds, points)."""
+    """Return the distances of a layer's holes from the tapped holes, shape (worlds, points)."""
     return np.asarray(np.linalg.norm(_moved(about, place) + wrong, axis=-1))
 
 
 def _between(about: Array, wrong: Array, play: float, laid: Array) -> Array:
-    """The place nearest to where a layer is laid that both pins allow: each in turn draws its hole to itself."""
+    """Return the placement nearest to `laid` that both pins allow. In turn, each pin pulls its hole towards itself."""
     place = laid.copy()
     for _ in range(SWEEPS):
         for k, (x, y) in enumerate(about):
@@ -191,7 +196,7 @@ def _between(about: Array, wrong: Array, play: float, laid: Array) -> Array:
 
 
 def _worst(about: Array, wrong: Array, pinned: Array, play: float) -> Array:
-    """Farthest distance of any hole in the worst place that two pins allow, shape (worlds,)."""
+    """Return the greatest distance of any hole in the worst placement that two pins allow, shape (worlds,)."""
     worst = np.zeros(len(wrong))
     for place in _pushed(about[pinned], wrong[:, pinned], play):
         allowed = _off(about[pinned], wrong[:, pinned], place).max(axis=1) < play + 5e-6
@@ -200,7 +205,7 @@ def _worst(about: Array, wrong: Array, pinned: Array, play: float) -> Array:
 
 
 def _pushed(about: Array, wrong: Array, play: float) -> Iterator[Array]:
-    """Places of a layer that each pin pushes in some direction as far as it goes."""
+    """Yield placements in which each pin has pushed the layer in some direction as far as possible."""
     along = about[1] - about[0]
     length = np.hypot(*along)
     across = np.array([-along[1], along[0]]) / length
@@ -213,9 +218,9 @@ def _pushed(about: Array, wrong: Array, play: float) -> Iterator[Array]:
 
 
 def table(worlds: int) -> Iterator[str]:
-    """Lines that tell the stack of both layers, as drawn and as met."""
-    yield f"{worlds:,} worlds: millimetres, and the share of worlds in which"
-    heads = f"{'clear':>7}{'play':>7}{'pins bind':>11}{'a screw meets':>15}{'worst lie meets':>17}"
+    """Yield the lines of a table with the results for both layers, as drawn and as met."""
+    yield f"{worlds:,} worlds: lengths in mm, and shares of the worlds"
+    heads = f"{'clear':>7}{'play':>7}{'pins bind':>11}{'a screw meets':>15}{'worst place meets':>19}"
     yield f"{'':15}{heads}   farthest axis 50 / 99 / 99.99 / 100 %"
     for layer in LAYERS:
         drawn = Sizes.drawn(layer)
@@ -228,7 +233,7 @@ def _row(found: Stack) -> str:
     binds, meets, worst = (f"{share.mean():.0e}" if share.any() else "0" for share in shares)
     farthest = " / ".join(f"{value * 1e3:.3f}" for value in np.percentile(found.laid, [50, 99, 99.99, 100]))
     sizes = f"{found.clearance * 1e3:7.3f}{found.play * 1e3:7.3f}"
-    return f"{sizes}{binds:>11}{meets:>15}{worst:>17}   {farthest}"
+    return f"{sizes}{binds:>11}{meets:>15}{worst:>19}   {farthest}"
 
 
 if __name__ == "__main__":
