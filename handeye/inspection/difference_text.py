@@ -13,7 +13,7 @@ _SIGNS: Final = {"added": "+", "removed": "-", "changed": "~", "replanned": " "}
 def difference_text(found: Difference) -> list[str]:
     """Write the difference between two plans as lines of text."""
     if found.same:
-        return ["no difference: both plans do the same"]
+        return ["no difference: both plans do the same work"]
     out = [f"~ {what}: {was} -> {now}" for what, was, now in found.heads]
     out += [f"- stage {name}" for name in found.stages_removed]
     out += [f"+ stage {name}" for name in found.stages_added]

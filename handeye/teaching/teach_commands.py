@@ -216,7 +216,7 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="hand z -.2", act=_hand, help=_HAND_HELP),
     Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),
     Command(usage="open GAP", act=_function("OPEN"), help="open the hand"),
-    Command(usage="close [MIN]", act=_function("CLOSE"), help="close it"),
+    Command(usage="close [MIN]", act=_function("CLOSE"), help="close the hand"),
     Command(usage="center [MIN]", act=_function("CENTER"), help="close the hand without pushing the part"),
     Command(usage="float", act=_float, help="release the brakes; the arm then follows a push"),
     Command(usage="push x 5 2", act=_push, help="push the arm: along x with 5 oz for 2 s"),

@@ -187,7 +187,7 @@ def test_a_gap_that_is_not_that_of_what_is_held_is_told(factor: float, wrong: bo
     assert run.go().errors == [errors.GAP_WRONG] * wrong
     if wrong:
         assert run.told.endswith(
-            f"in on PIN, which is 1.00 in thick there: {factor:.2f} times the thickness)"
+            f"in on PIN, which is 1.00 in thick there; the reading is {factor:.2f} times the thickness)"
         )
 
 
@@ -325,7 +325,7 @@ STARTS = [0.05] * 4 + [0.0] * 20
         ),
         (
             [2 * each for each in STARTS] + [0.74] * 999,
-            "the sensor shows 104.8 oz-in, but the motor takes 52.4 oz-in: 2.0 times",
+            "the sensor shows 104.8 oz-in, but the motor takes 52.4 oz-in; the reading is 2.0 times",
         ),
         ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "the motor turns too slowly"),
         (

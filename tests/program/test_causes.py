@@ -79,13 +79,13 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
-        "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still, allowed: 0.6 "
-        "degrees/s: the tachometer fails, or the joint's drive or something outside shakes the arm",
+        "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still; allowed: 0.6 "
+        "degrees/s; either the tachometer fails, or the joint's drive or something outside shakes the arm",
     ),
     (
         s.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
-        "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still, allowed: 0.25 in/s: "
-        "the tachometer fails, or the joint's drive or something outside shakes the arm",
+        "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still; allowed: 0.25 in/s; "
+        "either the tachometer fails, or the joint's drive or something outside shakes the arm",
     ),
     (
         s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
@@ -121,16 +121,16 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.ScrewHard(torque=38 * OUNCE_INCH, limit=12.6 * OUNCE_INCH),
-        "the sensor shows 38.0 oz-in while the screw advances, allowed: 12.6 oz-in: its thread is hard to turn, or "
-        "the current sensor fails",
+        "the sensor shows 38.0 oz-in while the screw advances; allowed: 12.6 oz-in; "
+        "either the thread is hard to turn, or the current sensor fails",
     ),
     (
         s.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
-        "the gap reads 1.15 in on PIN, which is 1.00 in thick there: 1.15 times the thickness",
+        "the gap reads 1.15 in on PIN, which is 1.00 in thick there; the reading is 1.15 times the thickness",
     ),
     (
         s.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
-        "the sensor shows 3.5 oz-in, but the motor takes 7.0 oz-in: 0.5 times as much",
+        "the sensor shows 3.5 oz-in, but the motor takes 7.0 oz-in; the reading is 0.5 times this torque",
     ),
     (
         s.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),

@@ -33,7 +33,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             return f"the gap reading jumped from {before} in to {after} in: {_jump(cause)}"
         case s.GapUnlike():
             gap, thick = inches_apart(cause.gap, cause.thickness)
-            times = f": {cause.gap / cause.thickness:.2f} times the thickness" if cause.thickness else ""
+            times = f"; the reading is {cause.gap / cause.thickness:.2f} times the thickness" if cause.thickness else ""
             return f"the gap reads {gap} in on {cause.held}, which is {thick} in thick there{times}"
         case s.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
@@ -46,7 +46,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             )
         case s.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
-            times = f": {told / known:.1f} times as much" if known else ""
+            times = f"; the reading is {told / known:.1f} times this torque" if known else ""
             return f"the sensor shows {told:.1f} oz-in, but the motor takes {known:.1f} oz-in{times}"
         case s.CurrentShort():
             shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
@@ -61,8 +61,8 @@ def doubt_sentence(cause: s.SenseCause) -> str:
         case s.ScrewHard():
             takes, allowed = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
             return (
-                f"the sensor shows {takes:.1f} oz-in while the screw advances, allowed: {allowed:.1f} oz-in: its "
-                "thread is hard to turn, or the current sensor fails"
+                f"the sensor shows {takes:.1f} oz-in while the screw advances; allowed: {allowed:.1f} oz-in; "
+                "either the thread is hard to turn, or the current sensor fails"
             )
         case s.GapAstray():
             return f"the gap reads {inches(cause.gap)}; the fingers were driven to {inches(cause.goal)}"
@@ -84,8 +84,9 @@ def doubt_sentence(cause: s.SenseCause) -> str:
         case s.RateScatters():
             scatter, limit = (_rate(cause.joint, rate) for rate in (cause.scatter, cause.limit))
             return (
-                f"the tachometer reading of the {cause.joint.name} scatters by {scatter} while the arm holds still, "
-                f"allowed: {limit}: the tachometer fails, or the joint's drive or something outside shakes the arm"
+                f"the tachometer reading of the {cause.joint.name} scatters by {scatter} while the arm holds still; "
+                f"allowed: {limit}; either the tachometer fails, or the joint's drive or something outside shakes "
+                "the arm"
             )
         case s.JointAlone():
             return _alone(cause)
