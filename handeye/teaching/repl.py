@@ -183,7 +183,7 @@ _TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
     Command(usage="CLEAR", act=_clear, help="remove all collected lines"),
     Command(usage="WRITE FILE", act=_write, help="write the collected lines to a new file, as a script"),
     Command(usage="SHOW [WHAT]", act=_show, help="show joints, hand, gap, saved differences, positions, ..."),
-    Command(usage="BACK", act=_back, help="undo the last DO: restores arm, parts and memory"),
+    Command(usage="BACK", act=_back, help="undo the last DO: restore arm, parts and memory"),
     Command(usage="PROCEED", act=_answer("proceed"), help="continue after the call to the operator"),
     Command(usage="RETRY", act=_answer("retry"), help="repeat from the first instruction of the stage"),
     Command(usage="SKIP", act=_answer("skip"), help="skip the rest of the stage"),

@@ -22,10 +22,10 @@ def cache(
     """List the kept camera calibrations, or remove them.
 
     Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the
-    results, and uses them in later runs with the same world, kind of pictures and versions. Such a run starts
-    without the wait, and gives the same bytes as if it had measured. `--calibrate` measures again. One calibration
-    takes about 6 kB. All calibrations together take at most 16 MB; to keep this limit, the oldest are removed. The
-    environment variable HANDEYE_CACHE names another folder; if it is empty, nothing is kept.
+    results, and uses them in later runs with the same world, kind of pictures and versions. Such a run starts at once,
+    and gives the same bytes as a run that measures. `--calibrate` measures again. One calibration takes about 6 kB. All
+    calibrations together take at most 16 MB; to keep this limit, the oldest are removed. The environment variable
+    HANDEYE_CACHE names another folder; if it is empty, nothing is kept.
     """
     from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 

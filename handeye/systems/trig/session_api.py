@@ -15,8 +15,8 @@ _WIDE: Final = 100  # characters of a line of the displays
 
 
 class TrigSession:
-    """A session at TRIG's editor, with a teach box. Each typed line is executed, and most commands add a step
-    to the program.
+    """A session at TRIG's editor, with a teach box, whose controls move the arm. Each typed line is executed, and most
+    commands add a step to the program.
 
     The session is displayed as the steps of its program; notebooks also show the program in miniature.
 

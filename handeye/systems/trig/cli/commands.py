@@ -58,10 +58,10 @@ def run(
     /,
     *,
     arm: ArmKind = "none",
-    back: Annotated[bool, Parameter(help="Then run the program backwards to its start.")] = False,
+    back: Annotated[bool, Parameter(help="After that, run the program backwards to its start.")] = False,
     json: Json = False,
 ) -> int:
-    """Run a program from the top. If FILE is a script, its lines are first typed one by one, as in the editor.
+    """Run a program from its first step. If FILE is a script, its lines are first typed one by one, as in the editor.
 
     Exit code 0: the program has ended, and with --back everything is undone; 1: the arm stopped before that;
     2: bad input; 130: interrupted.

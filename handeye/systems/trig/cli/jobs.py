@@ -87,9 +87,9 @@ def palletise(
 ) -> int:
     """Move a stack of blocks into a pallet, and back: the paper's second example, with physics, in a random world.
 
-    The 26 lines of the example are typed into a new editor by a simulated person, whose taught positions are off
-    by .3 mm. Then the program runs forwards, and a referee judges the result; it runs backwards, and the referee
-    judges again. Twenty blocks take some minutes.
+    A simulated person types the 26 lines of the example into a new editor, and teaches positions with errors of about
+    .3 mm. Then the program runs forwards, and a referee judges the result. Finally the program runs backwards, and the
+    referee judges again. Twenty blocks take some minutes.
 
     Exit code 0: every block was placed and taken back; 1: the arm stopped before that; 3: done, but the referee
     disagrees; 2: bad input; 130: interrupted.
@@ -227,7 +227,7 @@ def _tell(done: "JobReport") -> None:
 def pallet_trials(
     *,
     n: Annotated[
-        WholeNumber, Parameter(name="--n", help="Number of trials; trial K has the seed --seed plus K.")
+        WholeNumber, Parameter(name="--n", help="Number of trials. The seed of trial K is --seed plus K.")
     ] = 10,
     seed: FirstSeed = 0,
     blocks: Annotated[WholeNumber, Parameter(help="Number of blocks in the stack, 0 to 20.")] = 7,
