@@ -1,9 +1,11 @@
 """Shows the faults of a task and the expected outcome of each, as a page for the terminal or as one JSON
 object."""
 
+import re
 from collections.abc import Sequence
 from itertools import groupby
 from textwrap import fill
+from typing import Final
 
 import msgspec
 from rich.console import Group, RenderableType
@@ -11,6 +13,8 @@ from rich.text import Text
 
 from handeye.core.errors import ERRORS
 from handeye.core.faults import Catalogue, ExpectedDetection, FaultKind, Size
+
+_PLACEHOLDER: Final = re.compile(r"\{[^}]*\}")  # such as `{number}`, for which a call can have several words
 
 
 class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -81,14 +85,14 @@ def _must(expected: ExpectedDetection) -> str:
     ways = [
         *(["before the first stage"] if expected.at_setup else []),
         *([f"with error {errors}"] if errors else []),
-        *(f"with “{call.replace('{what}', '…')}”" for call in expected.calls),
+        *(f"with “{_PLACEHOLDER.sub('…', call)}”" for call in expected.calls),
     ]
     stops = f"stops {', or '.join(ways)}" if ways else ""
     if stops and expected.stages:
         stops += f", in {' or '.join(f'“{stage}”' for stage in expected.stages)}"
     if not expected.harmless:
         return f"The program {stops}." if stops else "No outcome is specified."
-    return f"The program {stops}, or the work is right." if stops else "The work is right."
+    return f"The program {stops}, or it ends and the work is right." if stops else "The work is right."
 
 
 def _head(fault: FaultReport) -> Text:

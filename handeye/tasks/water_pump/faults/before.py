@@ -89,13 +89,14 @@ def _base() -> Iterator[PartFault]:
         Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
     )  # fmt: skip
     yield _fault(
-        "base.far", "The belt has carried the base this much too far: out of the arm's reach, or out of sight.",
+        "base.far", "The belt has carried the base too far by this distance: out of the arm's reach, or out of sight.",
         partial(_shift, "base", (0.0, 1.0)),
         ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=(detect.UNSEEN,)),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
     yield _fault(
-        "base.reversed", "The base is reversed.", lambda spec, _: _reverse(spec, "base", _plate_centre()),
+        "base.reversed", "The base lies the wrong way round, turned by 180 degrees.",
+        lambda spec, _: _reverse(spec, "base", _plate_centre()),
         ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,)),
     )  # fmt: skip
 
@@ -106,12 +107,12 @@ def _gasket() -> Iterator[PartFault]:
     high = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.TOO_HIGH,))
     wrong = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.TOO_LOW, detect.TOO_HIGH))
     yield _fault(
-        "gasket.missing", "No gasket lies on its stand.", partial(_missing, part),
+        "gasket.missing", "There is no gasket on the gasket stand.", partial(_missing, part),
         ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.GASKET_OFF,), stages=(detect.PUT_ON_GASKET,)),
     )  # fmt: skip
     yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), high)
     yield _fault(
-        "gasket.thick", "The gasket has this thickness; .06 in is right.",
+        "gasket.thick", "The gasket has this thickness instead of .06 in.",
         lambda spec, thick: _thicken(spec, thick / thin), wrong,
         Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
     )  # fmt: skip
@@ -135,14 +136,15 @@ def _gasket() -> Iterator[PartFault]:
         Size(unit="deg", usual=12.0, limits=(-90.0, 90.0)),
     )  # fmt: skip
     yield _fault(
-        "gasket.reversed", "The gasket is reversed.", lambda spec, _: _reverse(spec, part, middle),
+        "gasket.reversed", "The gasket lies the wrong way round, turned by 180 degrees.",
+        lambda spec, _: _reverse(spec, part, middle),
         ExpectedDetection(calls=(detect.GASKET_LOST,)),
     )  # fmt: skip
 
 
 def _top() -> Iterator[PartFault]:
     yield _fault(
-        "top.missing", "No top lies on its stand.", partial(_missing, "top"),
+        "top.missing", "There is no top on the top stand.", partial(_missing, "top"),
         ExpectedDetection(calls=(detect.NO_TOP, detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
     )  # fmt: skip
     off = ExpectedDetection(
@@ -162,7 +164,8 @@ def _top() -> Iterator[PartFault]:
         Size(unit="mm", usual=6.0, limits=(0.1, 15.0)),
     )  # fmt: skip
     yield _fault(
-        "top.reversed", "The top is reversed.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
+        "top.reversed", "The top lies the wrong way round, turned by 180 degrees.",
+        lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
         ExpectedDetection(calls=(detect.TOP_LOST,)),
     )  # fmt: skip
 

@@ -130,8 +130,8 @@ def _screws() -> Iterator[MishapFault]:
             calls=(detect.high_head(number),),
         )
         meaning = (
-            f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began: in the "
-            "last stage, after the screw was driven again."
+            f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began. "
+            "In the last stage, the screw has been driven again by then."
         )
         yield declared(
             f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE
@@ -140,7 +140,7 @@ def _screws() -> Iterator[MishapFault]:
         expected = ExpectedDetection(
             calls=(detect.missing_head(number), detect.untight_screw(number), detect.unfelt_head(number))
         )
-        meaning = f"Screw {number} is turned out after the screwdriver has left it, and taken away."
+        meaning = f"After the screwdriver has left screw {number}, the screw is turned out and taken away."
         yield declared(
             f"screw.{number}.removed", meaning, always(Mishap(partial(_loose, number - 1, None))), expected,
             stage=LAST_STAGE,
