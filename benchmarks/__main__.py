@@ -89,7 +89,12 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
     say(f"working phase without them   {cost.run:6.2f} s of wall-clock time")
     rows = (
         ("checkpoints", cost.checkpoints, counted(cost.kept, "checkpoint"), 0.02),
-        ("trace", cost.tracing, f"{counted(cost.ticks, 'servo period')}, {cost.trace_bytes / 1e6:.1f} MB", 0.10),
+        (
+            "trace",
+            cost.tracing,
+            f"{counted(cost.ticks, 'servo period')}, {cost.trace_bytes / 1e6:.1f} MB",
+            0.10,
+        ),
     )
     for name, seconds, what, limit in rows:
         share = seconds / cost.run
@@ -169,7 +174,9 @@ def ik(
 def poses(
     *,
     anywhere: Annotated[WholeNumber, Parameter(help="Number of random poses.")] = 100_000,
-    singular: Annotated[WholeNumber, Parameter(help="Number of poses in each set of singular poses.")] = 20_000,
+    singular: Annotated[
+        WholeNumber, Parameter(help="Number of poses in each set of singular poses.")
+    ] = 20_000,
 ) -> int:
     """Test the arm's inverse kinematics on poses that forward kinematics computes from joint positions within the
     limits.
@@ -259,7 +266,9 @@ def growth(
     *,
     most: Annotated[
         WholeNumber,
-        Parameter(help="The largest number of statements. The smaller programs have the powers of ten below it."),
+        Parameter(
+            help="The largest number of statements. The smaller programs have the powers of ten below it."
+        ),
     ] = 10_000,
     json: Json = False,
 ) -> int:

@@ -115,7 +115,9 @@ def _taught() -> Taught:
 
 
 def _setup(plan: Plan) -> Setup:
-    return Setup(plan=plan, world=WorldSpec(seed=0), camera="ray")  # never used, because the programs take no picture
+    return Setup(
+        plan=plan, world=WorldSpec(seed=0), camera="ray"
+    )  # never used, because the programs take no picture
 
 
 def _cpu_s(work: Callable[[], object]) -> float:

@@ -22,7 +22,10 @@ from handeye.core.units import DEGREE, INCH
 SEED: Final = 0
 EXACT: Final = 2e-9
 """Greatest permitted deviation (m or rad) of the hand from an exact pose."""
-_CLOSENESS: Final = (-17.0, -2.0)  # powers of ten between which a joint deviates from its singular position, rad
+_CLOSENESS: Final = (
+    -17.0,
+    -2.0,
+)  # powers of ten between which a joint deviates from its singular position, rad
 _AT_LIMIT: Final = 0.3  # fraction of the joints
 
 Set = Callable[[ArmModel, Array, np.random.Generator], None]

@@ -41,7 +41,10 @@ def _phases(speed: Speed) -> Table:
     rows = (
         ("start of the process", speed.start_cpu_s),
         ("planning", speed.planning_cpu_s),
-        ("preparation: building the cell, measuring the arm, calibrating the camera", spent.preparation_cpu_s),
+        (
+            "preparation: building the cell, measuring the arm, calibrating the camera",
+            spent.preparation_cpu_s,
+        ),
         ("work", spent.work_cpu_s),
         ("referee", spent.referee_cpu_s),
         ("all", speed.cpu_s),
@@ -95,7 +98,11 @@ def _sentences(speed: Speed) -> Iterable[str]:
     yield f"{speed.accepted} of {len(speed.runs)} accepted: {hourly:.0f} per hour of processor time"
     yield f"{simulated:.1f} s simulated per CPU s of work"
     memory = speed.peak_memory_mib
-    yield "greatest memory: not measured on this system" if memory is None else f"greatest memory: {memory:.0f} MiB"
+    yield (
+        "greatest memory: not measured on this system"
+        if memory is None
+        else f"greatest memory: {memory:.0f} MiB"
+    )
 
 
 def _verdict(run: RunCost) -> str:

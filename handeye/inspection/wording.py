@@ -15,7 +15,9 @@ from handeye.program.operations import AnyOperation
 
 FINGERS = {1: "finger 1", 2: "finger 2", 3: "either finger"}
 """Names of the fingers by switch mask. Finger 1 is on the +y side of the hand."""
-_ON_AXIS = 1e-9  # a direction counts as that of an axis if its other components are smaller than this fraction
+_ON_AXIS = (
+    1e-9  # a direction counts as that of an axis if its other components are smaller than this fraction
+)
 
 
 def figure(value: float) -> str:

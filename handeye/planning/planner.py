@@ -38,7 +38,9 @@ Fitted: with the assumed acceleration limits, the whole job takes about four min
 section 5). One fitted number is no evidence of the speed of the real arm.
 """
 HOME = "PARK"  # the position a program starts from
-_COLLISION_STRIDE = 2  # servo periods between checks of a free motion: under .6 in of motion at the pump's speeds
+_COLLISION_STRIDE = (
+    2  # servo periods between checks of a free motion: under .6 in of motion at the pump's speeds
+)
 
 
 def make_plan(

@@ -272,4 +272,6 @@ def _faults(taught: Taught) -> Iterator[UnfitEntry]:
         for name, solid in solids.items():
             count += len(solid.boxes)
             if count > MAX_BOXES:
-                yield UnfitEntry(kind, name, f"with these boxes, the file has more than {MAX_BOXES}, the limit")
+                yield UnfitEntry(
+                    kind, name, f"with these boxes, the file has more than {MAX_BOXES}, the limit"
+                )

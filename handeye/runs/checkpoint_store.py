@@ -35,7 +35,9 @@ class CheckpointStore:
         path = self.folder / file_name(checkpoint)
         write_checkpoint(path, checkpoint)
         for other in self.folder.glob(f"{checkpoint.position:04}-*{ENDING}"):
-            if other != path:  # an earlier state with the same number of steps, from before the operator's answer
+            if (
+                other != path
+            ):  # an earlier state with the same number of steps, from before the operator's answer
                 other.unlink(missing_ok=True)
         return path
 

@@ -211,7 +211,9 @@ _HAND_HELP: Final = (
     "an axis: `hand turn y 5`"
 )
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
-    Command(usage="j3 +1", act=_joint, help="move a joint by an amount; without a sign, to a position: `j3 20`"),
+    Command(
+        usage="j3 +1", act=_joint, help="move a joint by an amount; without a sign, to a position: `j3 20`"
+    ),
     Command(usage="table x +.5", act=_table, help=_TABLE_HELP),
     Command(usage="hand z -.2", act=_hand, help=_HAND_HELP),
     Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),

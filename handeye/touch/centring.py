@@ -42,7 +42,9 @@ class Centring:
     minimum: float = 0.0  # m; a smaller gap holds nothing, or something too thin; 0: anything
     speed: float  # m/s of the gap; the hand moves at half of it
     done: bool = field(default=False, init=False)
-    error: int = field(default=0, init=False)  # when done: 0, or the error for an empty hand or for a faulty switch
+    error: int = field(
+        default=0, init=False
+    )  # when done: 0, or the error for an empty hand or for a faulty switch
     eased: float = field(
         default=0.0, init=False
     )  # m that the hand has moved since the touching finger began to touch

@@ -41,7 +41,9 @@ GAP_OFFSET: Final = (
 GAP_SCALE: Final = 0.03  # of the gap
 STARTING_TORQUE: Final = 0.05
 """Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
-STALLED_TORQUE: Final = 0.37  # N m, greatest torque of the motor: that of the slipping clutch, plus that of the spindle
+STALLED_TORQUE: Final = (
+    0.37  # N m, greatest torque of the motor: that of the slipping clutch, plus that of the spindle
+)
 STARTING_PERIODS: Final = (
     4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
 )

@@ -33,7 +33,9 @@ from handeye.trace.sentences import level_of, measures_of, sentence
 from handeye.vision.marks import Mark
 
 MOVED: Final = 1e-6  # least change of a pose that is written: m, or of a quaternion component
-PUT_AWAY: Final = -1.0  # height (m), below the floor; a lower part is hidden there, because another body represents it
+PUT_AWAY: Final = (
+    -1.0
+)  # height (m), below the floor; a lower part is hidden there, because another body represents it
 
 BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may be resumed
 

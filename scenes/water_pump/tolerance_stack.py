@@ -37,7 +37,9 @@ SOFT: Final = 5e-5  # m, additional play of a pin in the simulation; measured: .
 SWEEPS: Final = (
     60  # iterations to find a layer's placement between two pins; after 30, none moves by a micrometre
 )
-DIRECTIONS: Final = 12  # number of directions in which each pin pushes a layer, in the search for the worst placement
+DIRECTIONS: Final = (
+    12  # number of directions in which each pin pushes a layer, in the search for the worst placement
+)
 LAYERS: Final = ("gasket", "top")
 
 

@@ -75,7 +75,9 @@ def test_a_toolbox_that_is_not_installed_is_not_measured(monkeypatch: pytest.Mon
     compared = inverse_kinematics.measure(STANFORD, 2, 1)
     assert compared.missing == ("no-such-distribution",)
     assert len(compared.ways) == 2
-    assert compared.lines()[-1] == "hand poses   no-such-distribution: not measured, because it is not installed"
+    assert (
+        compared.lines()[-1] == "hand poses   no-such-distribution: not measured, because it is not installed"
+    )
 
 
 @pytest.fixture

@@ -180,7 +180,10 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
         ("table x", "write the command as in `table x +.5` or `table turn z 10`"),
         ("table w 1", "`w` is not an axis; the axes are x, y and z"),
         ("table x inf", "`inf` is not a number"),
-        ("here 1A", "`1A` is not a name: a name consists of letters, digits and _, and does not start with a digit"),
+        (
+            "here 1A",
+            "`1A` is not a name: a name consists of letters, digits and _, and does not start with a digit",
+        ),
         ("here A of LID", "there is no part `LID`; there are BASE, PUMP"),
         ("push x 900 1", "a push can be at most 200 oz, not `900`"),
         ("push x 5 900", "a push can last at most 60 s, not `900`"),

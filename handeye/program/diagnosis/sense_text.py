@@ -33,7 +33,11 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             return f"the gap reading jumped from {before} in to {after} in: {_jump(cause)}"
         case s.GapUnlike():
             gap, thick = inches_apart(cause.gap, cause.thickness)
-            times = f"; the reading is {cause.gap / cause.thickness:.2f} times the thickness" if cause.thickness else ""
+            times = (
+                f"; the reading is {cause.gap / cause.thickness:.2f} times the thickness"
+                if cause.thickness
+                else ""
+            )
             return f"the gap reads {gap} in on {cause.held}, which is {thick} in thick there{times}"
         case s.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)

@@ -24,7 +24,9 @@ ALONE: Final = 19  # statements (eight steps) without any touch; a plate is at m
 NOTHING: Final = (
     "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"
 )
-EVERYWHERE: Final = "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
+EVERYWHERE: Final = (
+    "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
+)
 LONGEST: Final = 3000  # statements after which a follower with an open circuit is lost
 
 Point = tuple[float, float]

@@ -16,7 +16,9 @@ under the layer; assembly study.
 
 SCREW_GAP: Final = 0.2
 """Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high; assembly study."""
-SCREW_CLAMP: Final = 40.0  # N per screw: more than the 19 N with which a hand pulls; seated screws end at 56 to 298 N
+SCREW_CLAMP: Final = (
+    40.0  # N per screw: more than the 19 N with which a hand pulls; seated screws end at 56 to 298 N
+)
 SCREW_TURNED: Final = 400.0
 """Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most
 250 N. The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world;
@@ -58,7 +60,9 @@ farther.
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
 PIN_TILT: Final = 10.0  # deg: a pin tilted by more leans out of the holder
-RACK_TILT: Final = 5.0  # deg: the play of the guides allows this much; a screwdriver out of its guides leans more
+RACK_TILT: Final = (
+    5.0  # deg: the play of the guides allows this much; a screwdriver out of its guides leans more
+)
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.1
@@ -67,7 +71,9 @@ which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of
 reference, 40 oz at the crank, allows .35 N m, with which a rotor would bind.
 """
 
-ROTOR_PLACE: Final = 0.1  # mm: rotor from its bearing, crank pin from its place; the bearing is drawn without play
+ROTOR_PLACE: Final = (
+    0.1  # mm: rotor from its bearing, crank pin from its place; the bearing is drawn without play
+)
 ROTOR_LEAN: Final = 0.1  # deg from the top's axis: in the design, the two axes are parallel
 
 STILL: Final = 1.0
@@ -105,4 +111,6 @@ tightened later press the layer away from there: by up to .030 mm in pumps that 
 MERGED_TURN: Final = 0.1  # deg, the same: up to .017
 ALTERED: Final = 0  # parts; any difference counts, because building a scene again gives the same bytes
 FLOOR: Final = -5.0  # mm, height relative to the table top: no part may be lower
-PENETRATION: Final = 0.15  # mm, of parts pressed together: contacts are soft; the force of six screws gives .06 mm
+PENETRATION: Final = (
+    0.15  # mm, of parts pressed together: contacts are soft; the force of six screws gives .06 mm
+)

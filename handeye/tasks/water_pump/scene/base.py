@@ -118,7 +118,9 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "tap")
     shaper.hole(body, f"base_hole{number}", (x, y, top), tap.radius)
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
-    carrier.gravcomp = 1.0  # without weight, an empty thread does not sink; a sinking one would keep the base moving
+    carrier.gravcomp = (
+        1.0  # without weight, an empty thread does not sink; a sinking one would keep the base moving
+    )
     body_inertia(carrier, 0.005, (0.0, 0.0, 0.0), (1e-7, 1e-7, 1e-7))
     carrier.add_joint(shaper.style("thread_slide"), name=f"thread_slide{number}")
     carrier.add_joint(shaper.style("thread_turn"), name=f"thread_turn{number}")

@@ -115,7 +115,11 @@ def _keys() -> solids.Surface:
     return solids.surface(Manifold.compose(keys))
 
 
-_X, _Y, _Z = LEFT + 0.03, 0.30, 0.56  # middle of the clock, m; as seen from the room, y is to the right and z is up
+_X, _Y, _Z = (
+    LEFT + 0.03,
+    0.30,
+    0.56,
+)  # middle of the clock, m; as seen from the room, y is to the right and z is up
 _UPRIGHT: Final = [0.5, 0.5, 0.5, 0.5]
 """Quaternion of a frame whose z axis points away from the wall and whose y axis points up."""
 _HANDS: Final = {
