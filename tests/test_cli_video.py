@@ -125,7 +125,7 @@ def test_python_is_told_its_own_word_for_replacing_one(kept: Path) -> None:
     ("wrong", "sentence"),
     [
         ({"first": True}, "give a stage by its number or its name, not by True"),
-        ({"camera": 3}, "give a camera by its name, not by 3"),
+        ({"camera": 3}, "give the name of a camera, not 3"),
         ({"seconds": "14"}, "the length of a video must be more than 0 and at most 600 s, not 14 s"),
         ({"width": 64.5}, "a video of 64.5 x 360 cannot be made; each side must have 8 to 2048 pixels"),
         ({"path": 7}, "the name of a video must end in .webp, .webm or .mp4, not 7"),

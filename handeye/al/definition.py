@@ -145,7 +145,7 @@ def number(
 
 
 def count(name: str, low: float, high: float, why: str, *, word: str = "") -> Operand:
-    """Define an operand that is a whole number in a range. If it follows a keyword that is our addition, the
+    """Define an operand that is a whole number in a range. If it follows a keyword that handeye added to the language, the
     operand is optional.
     """
     plain = number(name, ONE, low, optional=bool(word), ours=bool(word))

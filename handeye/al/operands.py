@@ -75,7 +75,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
         if unit is not None and (before.kind is NUMBER or before.text == "]"):
             return Mistake(
                 "unit-written",
-                f"a number is followed by the unit {quoted(token.text)}",
+                f"write a number without the unit {quoted(token.text)}",
                 token.span,
                 help=unit,
             )
@@ -343,7 +343,7 @@ def _malformed(token: Token) -> Mistake:
     if glued is not None:
         unit, said = glued
         span = Span(start=token.end - len(unit), end=token.end)
-        return Mistake("unit-written", f"a number is followed by the unit {quoted(unit)}", span, help=said)
+        return Mistake("unit-written", f"write a number without the unit {quoted(unit)}", span, help=said)
     help = letters_for_digits(token.text) or "numbers look like 3, .07, -0.6 or 1e-3"
     return Mistake("malformed-number", f"{quoted(token.text)} is not a number", token.span, help=help)
 

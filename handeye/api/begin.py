@@ -134,7 +134,7 @@ def assemble(
 
     Args:
         on_stop: what to do when the program calls the operator: `abort` ends the run; `retry:N` repeats the stage,
-            at most N times; `unwind` has the arm undo its work in that stage, then repeats the stage, at most once
+            at most N times; `unwind` makes the arm undo its work in that stage, then repeats the stage, at most once
             per stage.
 
     The other arguments are those of `handeye.begin`.

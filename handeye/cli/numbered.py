@@ -92,7 +92,7 @@ def converse(
     *,
     echo: bool = False,
 ) -> int:
-    """Execute some lines, then those that the user types, until the session is over. Returns the exit code.
+    """Execute the lines of `typed`, then the lines that the user enters at the prompt. Returns the exit code.
 
     Args:
         begin: function that begins the session. It is given two functions: one asks the user a question, the other

@@ -344,8 +344,8 @@ class LiveNews(ABC):
 
     @abstractmethod
     def since(self, seen: object) -> tuple[object, str] | None:
-        """Return a mark of the present moment, and a message with everything that is new since the mark `seen`; the
-        first mark is None. Returns None if nothing is new.
+        """Return a mark of the present moment, and a message with everything that is new since the mark `seen`. Pass
+        None at the first call. Returns None if nothing is new.
         """
 
 

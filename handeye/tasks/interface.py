@@ -70,7 +70,7 @@ class Disturbance(Record, frozen=True, kw_only=True):
 
 
 class Words(Record, frozen=True, kw_only=True):
-    """Phrases with which messages name a task's product and the outcome of the work."""
+    """The phrases that messages use for a task's product and for the outcome of the work."""
 
     product: str  # the product with its article: `the pump`
     done: str  # sentence for a product that is finished and right

@@ -63,8 +63,8 @@ _CHOICES: Final = {
 
 _ASKING: Final[dict[happened.AskedBy, str]] = {
     "person": "the arm is asked to undo",
-    "program": "the program has the arm undo",
-    "job": "the job has the arm undo",
+    "program": "the program makes the arm undo",
+    "job": "the job makes the arm undo",
 }
 _PLACES: Final = ("saved", "position")  # kinds of experiments whose values are differences or places
 

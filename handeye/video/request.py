@@ -51,7 +51,7 @@ class VideoRequest:
             if isinstance(stage, bool) or not isinstance(stage, str | int | None):
                 raise BadArgument(f"give a stage by its number or its name, not by {stage!r}")
         if not isinstance(self.camera, str):
-            raise BadArgument(f"give a camera by its name, not by {self.camera!r}")
+            raise BadArgument(f"give the name of a camera, not {self.camera!r}")
 
 
 def _is_number(given: object) -> bool:

@@ -113,8 +113,9 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Find the centre, width and height of a convex blob. Beams bounce inside the blob from a seed until the centre
-    no longer moves. Returns None if a beam finds no edge.
+    """Find the centre, width and height of a convex blob. From a seed point inside the blob, scan lines (beams) run
+    from edge to edge, and each gives a better estimate of the centre, until the estimate no longer changes. Returns
+    None if a beam finds no edge.
 
     The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
     sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help, and so does a

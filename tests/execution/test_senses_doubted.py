@@ -330,7 +330,7 @@ STARTS = [0.05] * 4 + [0.0] * 20
         ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "the motor turns too slowly"),
         (
             [0.05] * 6 + [0.0] * 999,
-            "had not started after 1.5 times its usual time: the motor turns too fast",
+            "took more than 1.5 times its usual time to reach its speed: it turns too fast",
         ),
     ],
 )

@@ -117,7 +117,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.MotorFast(times=1.5),
-        "the motor had not started after 1.5 times its usual time: the motor turns too fast",
+        "the motor took more than 1.5 times its usual time to reach its speed: it turns too fast",
     ),
     (
         s.ScrewHard(torque=38 * OUNCE_INCH, limit=12.6 * OUNCE_INCH),
@@ -137,7 +137,7 @@ WORDS: list[tuple[c.Cause, str]] = [
         "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque than "
         "commanded (the drive of the wrist 1.30 times as much), or the arm no longer stands upright",
     ),
-    (s.MotorSlow(share=0.4), "the motor had started after 0.4 of the usual time: the motor turns too slowly"),
+    (s.MotorSlow(share=0.4), "the motor took only 0.4 of its usual time to reach its speed: it turns too slowly"),
     (
         s.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",

@@ -267,7 +267,7 @@ class _Flow:
 
     def never_raised(self, number: int, error: int, actions: set[int], raised: set[int]) -> Diagnostic:
         words = {self.word(n).text for n in actions}
-        one = f"`{words.pop()}` does not raise" if len(words) == 1 else "no action before this test raises"
+        one = f"`{words.pop()}` does not raise" if len(words) == 1 else "no earlier action raises"
         cause = Label(span=self.word(max(actions)).span, text="the last action")
         can = ", ".join(map(str, sorted(raised)))
         help = _CURES.get(error, f"errors that can occur here: {can}")

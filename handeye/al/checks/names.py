@@ -112,7 +112,7 @@ def _twice(what: str, names: list[Name], taken: Mapping[str, str]) -> Iterator[D
 def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagnostic:
     unit_help = no_units(name.text) if refers is Refers.VECTOR else None
     if unit_help is not None:
-        message = f"a number is followed by the unit {quoted(name.text)}"
+        message = f"write a number without the unit {quoted(name.text)}"
         return problem("unit-written", message, name.span, *uses(name), help=unit_help)
     message = _MESSAGES[refers].format(quoted(name.text))
     code = "never-saved" if refers is Refers.SAVED else f"unknown-{refers.name.lower()}"

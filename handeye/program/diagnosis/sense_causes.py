@@ -145,13 +145,13 @@ class CurrentShort(CauseRecord, frozen=True, kw_only=True):
 
 
 class MotorSlow(CauseRecord, frozen=True, kw_only=True):
-    """The motor started in this fraction of its usual starting time."""
+    """The motor took only the fraction `share` of its usual time to reach its speed."""
 
     share: float
 
 
 class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor ran free, and had not started after this multiple of its usual starting time."""
+    """The motor ran free, but took more than `times` times its usual time to reach its speed."""
 
     times: float
 

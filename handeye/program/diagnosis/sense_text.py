@@ -58,10 +58,10 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             return f"{short}: the current sensor reads no higher, or the motor is weak"
         case s.MotorSlow():
             return (
-                f"the motor had started after {cause.share:.1f} of the usual time: the motor turns too slowly"
+                f"the motor took only {cause.share:.1f} of its usual time to reach its speed: it turns too slowly"
             )
         case s.MotorFast():
-            return f"the motor had not started after {cause.times:.1f} times its usual time: the motor turns too fast"
+            return f"the motor took more than {cause.times:.1f} times its usual time to reach its speed: it turns too fast"
         case s.ScrewHard():
             takes, allowed = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
             return (

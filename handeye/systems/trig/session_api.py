@@ -41,7 +41,7 @@ class TrigSession:
             InvalidInput: there is no such arm.
         """
         if arm not in get_args(ArmName):
-            raise NoSuchName(f"there is no arm {quoted(str(arm))}; there are `none` and `purbrick`")
+            raise NoSuchName(f"there is no arm {quoted(str(arm))}; the arms are `purbrick` and `none`")
         self._session = new_session(arm)
 
     def type(self, text: str) -> tuple[str, ...]:

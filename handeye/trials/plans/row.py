@@ -46,7 +46,7 @@ def contacts(
 
 
 def searches(program: Program, events: Sequence[AnyEvent]) -> Iterator[SearchEnd]:
-    """Yield those searches in which the hand moved to a place, in order."""
+    """Yield, in order, the searches in which the hand moved."""
     under_way: SearchEnd | None = None
     for event in events:
         if isinstance(event, StepStarted):

@@ -100,7 +100,7 @@ def check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str]
         raise BadArgument("--sense applies only to `--arm none`: the rectilinear arm has sensors of its own")
     elif left is not None:
         raise BadArgument(
-            "--left applies only to `--arm none`: the rectilinear arm has no left arm beside it"
+            "--left applies only to `--arm none`: the rectilinear machine has only one arm"
         )
 
 
@@ -199,7 +199,7 @@ def try_program(file: MlFile, /) -> int:
 
 
 def _session(file: Path | None, *typed: str, left: bool = False) -> int:
-    """Execute some lines, then those that the user types. Returns the exit code."""
+    """Execute the lines of `typed`, then the lines that the user enters at the prompt. Returns the exit code."""
     from handeye.systems.ml.cli.console import Console
 
     def begin(ask: Ask, halted: Callable[[], bool]) -> Console:

@@ -124,7 +124,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("SENSOR", "[s [lo hi]]", "Expect the readings of a sensor to be above lo and below hi, and clear its flag. "
                                   "Without limits, expect any reading; without s, do this for all sensors.",
          "200 SENSOR 5 -178 450"),
-        ("WAND", "[s]", "Assign the wand to sensor s, or to sensor 1 if s is omitted, and expect no contact.",
+        ("WAND", "[s]", "Assign the wand to sensor s, by default sensor 1. From then on, its flag comes on if the wand touches.",
          "10 WAND"),
     ),
     "data": (

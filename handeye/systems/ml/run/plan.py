@@ -98,7 +98,7 @@ def sound(plan: MlPlan) -> None:
         raise BadFile(f"{plan.name} has stimuli or an outline, which apply only to perfect motors")
     if plan.arm != "none" and plan.left is not None:
         raise BadFile(
-            f"{plan.name} has a program for the left arm, but the rectilinear arm has no left arm beside it"
+            f"{plan.name} has a program for the left arm, but the rectilinear machine has only one arm"
         )
     channels = {source.channel for source in RIGHT.analog.values()}
     channels |= {name for names in (*RIGHT.digital.values(), RIGHT.interlocks) for name in names}
