@@ -320,7 +320,7 @@ def breaking(
             help="Interrupt the run while the arm takes the pump apart: kill it at ten moments, or press Ctrl-C.",
         ),
     ] = False,
-    jobs: Annotated[WholeNumber, Parameter(help="Number of processes that run at the same time.")] = 2,
+    jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
 ) -> int:
     """Interrupt runs, resume them, and check that the results are the same as without an interruption.
 

@@ -369,7 +369,7 @@ def test_a_current_that_ends_below_the_torque_stop_is_told_of_a_motor_that_is_he
         assert "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in" in run.told
 
 
-@pytest.mark.parametrize(("running", "told"), [(5.0, ""), (20.0, "its thread is hard to turn")])
+@pytest.mark.parametrize(("running", "told"), [(5.0, ""), (20.0, "the thread is hard to turn")])
 def test_a_screw_that_takes_its_torque_long_before_its_head_is_down_is_told(
     running: float, told: str
 ) -> None:
