@@ -171,12 +171,12 @@ class StepChange(Record, frozen=True, kw_only=True):
 class Difference(Record, frozen=True, kw_only=True):
     """All differences between two plans; empty if the plans do the same work."""
 
-    heads: tuple[tuple[str, str, str], ...]  # arm, speed and the like: what, before, after
+    heads: tuple[tuple[str, str, str], ...]  # settings such as arm and speed: what, before, after
     stages_removed: tuple[str, ...]
     stages_added: tuple[str, ...]
     places: tuple[PlaceChange, ...]
     steps: tuple[StepChange, ...]
-    seconds: tuple[float, float]  # planned motion before and after, each step once
+    seconds: tuple[float, float]  # total planned time of the motions, before and after; each step counts once
 
     @property
     def same(self) -> bool:

@@ -60,8 +60,8 @@ class Crossing:
 
     what: str | None  # fixture; None: the table
     depth: float  # m
-    along: float  # m travelled when deepest
-    at_end: bool  # deepest at the end
+    along: float  # m travelled up to the deepest point
+    at_end: bool  # True if the deepest point is the end
 
 
 class Obstacles:

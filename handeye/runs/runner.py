@@ -105,11 +105,11 @@ class Runner:
                 calibrate=calibrate,
             ),
         )
-        self.events: list[AnyEvent] = []  # not undone
+        self.events: list[AnyEvent] = []  # events that were not undone
         self.position = 0  # steps done
         self.history: list[Snapshot] = []  # states to go back to, the present one last
         self.started = 0.0  # reading of the clock when this object began to simulate
-        self.first = 0  # steps done before that
+        self.first = 0  # steps done before this object began
         self.observers: list[Observer] = []
         self._broken: str | None = None
         self._within_step = False

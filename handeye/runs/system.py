@@ -325,12 +325,12 @@ class StepperWords:
 
     about: tuple[str, ...] = (
         "The program runs one step at a time; the arrow marks the next step.",
-    )  # lines on what a step is
+    )  # lines that explain what a step is
     places: tuple[str, ...] = (
         "PLACE is a line, a label, the first word of a step, or a stage. WHAT is one of",
     )  # lines that say what PLACE and WHAT can be; the topics follow
     units: str = "those of the system"
-    commands: Mapping[str, str] = field(default_factory=dict)  # help by usage
+    commands: Mapping[str, str] = field(default_factory=dict)  # help texts of further commands, by usage
     without: tuple[str, ...] = ("picture",)  # names of commands that have no effect in this system
 
 

@@ -22,9 +22,9 @@ from handeye.teaching.workplace import Workplace
 class LineResult(Record, frozen=True, kw_only=True):
     """The result of a line. Fields without content are left out."""
 
-    said: str | UnsetType = UNSET  # a sentence or more
+    said: str | UnsetType = UNSET  # one or more sentences
     did: tuple[StepSummary, ...] | UnsetType = UNSET  # steps that were done, in words
-    pause: Pause | UnsetType = UNSET  # why the arm pauses, if it went
+    pause: Pause | UnsetType = UNSET  # why the arm pauses, if it has moved
     show: RunViews | UnsetType = UNSET
     lines: tuple[str, ...] | UnsetType = UNSET  # lines that are collected, or listed
     file: str | UnsetType = UNSET  # file that was written

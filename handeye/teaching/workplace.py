@@ -28,7 +28,7 @@ from handeye.tasks import DEFAULT
 from handeye.tasks import task as known_task
 from handeye.teaching.functions import TYPED, planned
 
-MAX_STATES: Final = 100  # to go back to
+MAX_STATES: Final = 100  # states that are stored for going back
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
 """Programs for a workplace that has not been given a program yet; they are not executed."""

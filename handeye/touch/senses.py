@@ -38,7 +38,7 @@ difference, and the gap is known only to one step of its converter.
 GAP_OFFSET: Final = (
     0.06 * INCH
 )  # m by which the gap may be off; like GAP_SCALE, three times the doubled stated error
-GAP_SCALE: Final = 0.03  # of the gap
+GAP_SCALE: Final = 0.03  # as a fraction of the gap
 STARTING_TORQUE: Final = 0.05
 """Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
 STALLED_TORQUE: Final = (

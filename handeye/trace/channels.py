@@ -38,7 +38,7 @@ EVENTS: Final = "/events"
 HAND: Final = "/hand"
 MACHINES: Final = "/channels"
 ANNOTATIONS: Final = "/camera/annotations"
-MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, MACHINES, ANNOTATIONS)  # recorded beside events
+MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, MACHINES, ANNOTATIONS)  # recorded in addition to events
 
 WORLD: Final = "world"  # name of the frame W, parent of all others
 

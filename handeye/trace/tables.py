@@ -246,7 +246,7 @@ def csv_bytes(table: Table) -> bytes:
 def _cells(column: Column) -> Iterable[object]:
     values = column.values
     if isinstance(values, np.ndarray):
-        return ("" if value != value else value for value in values.tolist())  # NaN is not itself
+        return ("" if value != value else value for value in values.tolist())  # NaN differs from itself
     return values
 
 
@@ -257,7 +257,7 @@ def parquet_bytes(table: Table) -> bytes:
         from pyarrow import parquet
     except ImportError:
         raise MissingExtra("parquet", "pyarrow", "export") from None
-    arrays = [pa.array(column.values, from_pandas=True) for column in table.columns]  # NaN is none
+    arrays = [pa.array(column.values, from_pandas=True) for column in table.columns]  # NaN becomes null
     fields = [
         pa.field(column.name, array.type, metadata={"unit": column.unit, "about": column.about})
         for column, array in zip(table.columns, arrays, strict=True)

@@ -94,7 +94,7 @@ class Failure(Record, frozen=True, kw_only=True):
     verdict: str
     stage: str
     cause: str  # Equal causes have equal words
-    detail: str  # With figures
+    detail: str  # Cause with the measured values
     line: str | None  # Line of the script where the program stopped
     command: str  # Command that repeats the trial
 

@@ -112,7 +112,7 @@ def answers(
                     todo.appendleft(_Assignment(item=answer.item, killed=answer.killed))
                 else:
                     yield answer
-                if worker.given is not None:  # it is lost
+                if worker.given is not None:  # its process is lost
                     worker.end()
                     workers.remove(worker)
     finally:  # above all after Ctrl-C, because a trial in progress may take minutes

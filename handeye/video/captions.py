@@ -33,8 +33,8 @@ class Caption:
 
     words: str
     clock: str
-    stages: int  # in all
-    begun: int  # begun so far
+    stages: int  # number of all stages
+    begun: int  # number of stages that have begun
     stopped: bool  # True if the last stage was stopped
 
 

@@ -151,7 +151,7 @@ class Format:
     kind: Kind
     encode: Callable[[Frames, int], bytes]  # takes frames, and the number of periods to hold the last one
     largest: int | None  # limit on bytes of all frames
-    even: bool  # needs even sides
+    even: bool  # True if width and height must be even
 
     def check(self, frames: int, width: int, height: int) -> None:
         """Raise BadArgument if the size or length is impossible."""

@@ -155,7 +155,7 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
     for shrink in SHRINK:
         box = localise(
             scan, window(view, part, shrink), OUTLINE_STEP, fits, whole=False
-        )  # `fits` knows its size
+        )  # `fits` decides by size whether the box is the part
         if box is not None:
             return _general(scan, view, part, box)
     return Failure(cause=NoOutline())

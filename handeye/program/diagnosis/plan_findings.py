@@ -50,8 +50,8 @@ class RunsInto(Record, frozen=True, kw_only=True):
     position: str | None  # the goal, if deepest there
     fixture: str | None  # None: the table
     depth: float  # m, at most
-    along: float  # m travelled when deepest
-    at_end: bool  # deepest at the end of the motion
+    along: float  # m travelled up to the deepest point
+    at_end: bool  # True if the deepest point is the end of the motion
     held: str | None  # what the hand holds there; None: the hand itself
     grasp: int | None  # the step that grasped it
 

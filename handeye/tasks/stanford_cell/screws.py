@@ -16,10 +16,10 @@ MM: Final = 0.001
 STEEL: Final = 7800.0  # kg/m3
 ALUMINIUM: Final = 2700.0
 
-SHANK: Final = 3.05  # radius: 1/4-20
+SHANK: Final = 3.05  # radius of a 1/4-20 screw
 POINT: Final = 2.2  # radius of the point
 POINT_LENGTH: Final = 3.0
-LENGTH: Final = 19.05  # under the head
+LENGTH: Final = 19.05  # length below the head
 PITCH: Final = 1.27  # twenty threads an inch
 HEAD: Final = 5.5  # radius
 HEAD_HEIGHT: Final = 6.0

@@ -18,7 +18,7 @@ class Contact(Record, frozen=True, kw_only=True):
     to another position."""
 
     operation: str
-    at: str  # The position
+    at: str  # Name of the position
     done: bool  # The program continued after the operation
 
 

@@ -17,7 +17,7 @@ class Symbols:
     stem: str
     tee: str
     turn: str
-    more: str  # continues that way
+    more: str  # at an edge: the program continues beyond it
 
 
 UNICODE: Final = Symbols(cursor="▶", line="─", corner="┐", stem="│", tee="┬", turn="└", more="…")

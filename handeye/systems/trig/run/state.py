@@ -43,14 +43,14 @@ class TaughtState(SystemState, kw_only=True):
     obstacle: Obstacle | None = None  # what stopped the reversal
     rounds: dict[int, int] = msgspec.field(default_factory=dict)  # by loop node
     fathers: dict[int, int] = msgspec.field(default_factory=dict)  # most recent father by node
-    taught: dict[str, Place] = msgspec.field(default_factory=dict)  # as taught
-    positions: dict[str, Place] = msgspec.field(default_factory=dict)  # at present
-    trail: list[RecordedStep] = msgspec.field(default_factory=list)  # executed and not reversed
+    taught: dict[str, Place] = msgspec.field(default_factory=dict)  # values of the positions, as taught
+    positions: dict[str, Place] = msgspec.field(default_factory=dict)  # present values of the positions
+    trail: list[RecordedStep] = msgspec.field(default_factory=list)  # steps that were executed and not reversed
     forgotten: bool = False
     cursor: int = TOP
     taken: int | None = None
     ended_at: Place | None = None
-    arm: ArmMemory | None = None  # None: not begun
+    arm: ArmMemory | None = None  # None: the arm has not begun
 
     def order(self, plan: TaughtPlan, undoing: ReversalOrder) -> None:
         """Order a reversal. Raises Refused if there is nothing to reverse."""

@@ -158,7 +158,7 @@ def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold
 def surface(solid: Manifold) -> Surface:
     """Return the whole surface of a solid."""
     mesh = solid.to_mesh()
-    vertices = np.array(mesh.vert_properties[:, :3], np.float64)  # copies: no mesh stays
+    vertices = np.array(mesh.vert_properties[:, :3], np.float64)  # copies, so that the mesh can be freed
     return vertices, np.array(mesh.tri_verts, np.int32)
 
 

@@ -99,7 +99,7 @@ def _add_drives(spec: mujoco.MjSpec) -> None:
     drive = spec.add_actuator(name="drive", trntype=site, target="thread0", refsite="driver", gear=gear)
     drive.set_to_velocity(kv=0.0)
     drive.forcelimited = True
-    drive.forcerange[:] = [-d("driver.torque"), d("driver.loosening")]  # clockwise it fastens
+    drive.forcerange[:] = [-d("driver.torque"), d("driver.loosening")]  # negative: clockwise, which fastens
     magnet = spec.add_actuator(name="magnet", trntype=mujoco.mjtTrn.mjTRN_BODY, target="bit")
     magnet.set_to_adhesion(gain=d("driver.magnet"))
     magnet.ctrllimited = True
