@@ -60,7 +60,7 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
             "the task `clock:TASK` cannot be imported: ModuleNotFoundError: No module named 'clock'",
         ),
         ("world --task block_task:HALF",
-         "`block_task:HALF` is not a task: an instance of a class derived from handeye.Task"),
+         "`block_task:HALF` is not a task; a task is an instance of a class derived from handeye.Task"),
         ("world --task clock-TASK", "there is no task `clock-TASK`; "),
         ("world --task :x", "name a task as MODULE:NAME, such as my_task:TASK, not `:x`"),
     ],

@@ -158,7 +158,7 @@ REFUSALS = {
     ): "there is no camera nowhere; the cameras are orbit, follow, tv, studio, pump, work, belt",
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
-    ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",
+    ("--from", "shut", "--to", "open"): "the last stage, `open`, comes before the first, `shut`",
     (
         "-o",
         "it.webm",

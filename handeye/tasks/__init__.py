@@ -49,7 +49,7 @@ def register(task: AnyTask) -> None:
         raise BadArgument(f"a task must be an instance of a class derived from handeye.Task, not {task!r}")
     name = getattr(task, "name", None)
     if not isinstance(name, str) or not name.strip():
-        raise BadArgument(f"a task needs a text as its name, not {name!r}")
+        raise BadArgument(f"the name of a task must be a non-empty text, not {name!r}")
     if name in _ours() or _REGISTERED.get(name, task) is not task:
         raise BadArgument(f"there is already a task called {quoted(name)}")
     if isinstance(task, Task):
@@ -170,7 +170,7 @@ def _loaded(words: str) -> AnyTask:
         sys.path.append(os.getcwd())  # as the last entry, so that no file there hides an installed module
     found = loaded(words, "the task ")
     if not isinstance(found, AnyTask):
-        raise BadArgument(f"{quoted(words)} is not a task: an instance of a class derived from handeye.Task")
+        raise BadArgument(f"{quoted(words)} is not a task; a task is an instance of a class derived from handeye.Task")
     return found
 
 

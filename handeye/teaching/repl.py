@@ -61,7 +61,7 @@ class Repl:
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
         if len(self.functions) >= MAX_LINES:
-            raise Refused(f"at most {MAX_LINES} lines; for more, write a script")
+            raise Refused(f"at most {MAX_LINES} lines can be collected; for more, write a script")
         lines = [*self.functions, line]
         checked = self.workplace.plan(self.typed("\n".join(lines)))
         found = mistakes(checked, len(lines))

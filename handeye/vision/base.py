@@ -150,7 +150,7 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
     has no outline or no region.
     """
     if part.region is None or part.outline is None:
-        raise BadArgument("vision needs the region and the outline of a part")
+        raise BadArgument("vision needs the region and the outline of a part, but one of them is missing")
     fits, scan = fitting(view, part), Scan(picture)
     for shrink in SHRINK:
         box = localise(

@@ -75,7 +75,10 @@ def test_motions_changed_by_hand_make_another_plan_of_the_same_digest(tmp_path: 
     assert not difference(PLAN, other).same
     kept = CheckpointStore(tmp_path)
     kept.save(Checkpoint(setup=replace(begin().setup, plan=other)))
-    with pytest.raises(BadFile, match=r"belongs to another plan of this script, with different motions$"):
+    with pytest.raises(
+        BadFile,
+        match=r"belongs to another plan of this script, with different motions; choose another folder$",
+    ):
         kept.check(begin().setup)
 
 

@@ -86,8 +86,8 @@ def test_a_task_can_be_asked_of_its_arm_without_a_simulator() -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ({"name": ""}, r"^a task needs a text as its name, not ''$"),
-        ({"name": None}, r"^a task needs a text as its name, not None$"),
+        ({"name": ""}, r"^the name of a task must be a non-empty text, not ''$"),
+        ({"name": None}, r"^the name of a task must be a non-empty text, not None$"),
         (
             {"name": "odd", "park": [0.0] * 5},
             r"^the task `odd` parks .* \(5,\); the Stanford arm has 6 joints$",

@@ -196,7 +196,7 @@ def test_the_kill_switch_records_nothing() -> None:
         ("LOOP S1 -1", "the count of a loop must be 0 or more, not -1"),
         ("LOOP S1 1000000000000", "`1000000000000` is more than 999999999"),
         ("L NOWHERE", "there is no step `NOWHERE`; known: `S1`"),
-        ("M 1A", "`1A` is not a name: a name is a letter, then letters, digits, `-` and `_`"),
+        ("M 1A", "`1A` is not a name: a name is a letter, followed by letters, digits, `-` or `_`"),
         (
             "M " + "A" * 10_000,
             "`AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA…` has 10000 characters; a name can have at most 40",
@@ -216,7 +216,7 @@ def test_the_kill_switch_records_nothing() -> None:
         ("N -1", "N and P move by 1 to 100000 steps: N down, P up"),
         (
             "GOPOS B\x1b[2J",
-            "`B\u241b[2J` is not a name: a name is a letter, then letters, digits, `-` and `_`",
+            "`B\u241b[2J` is not a name: a name is a letter, followed by letters, digits, `-` or `_`",
         ),
         ("RECORD", "RECORD is a control of the teach box, which works only while M or FREE is waiting"),
         (

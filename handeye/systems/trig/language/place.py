@@ -93,7 +93,7 @@ def name_of(word: str) -> str:
         raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name can have at most {LONGEST}")
     if not NAME.fullmatch(word.upper()) or not word.isascii():
         raise BadArgument(
-            f"{quoted(word)} is not a name: a name is a letter, then letters, digits, `-` and `_`"
+            f"{quoted(word)} is not a name: a name is a letter, followed by letters, digits, `-` or `_`"
         )
     return word.upper()
 
