@@ -52,7 +52,7 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """Return True if edges to the steps `old` and `new` lead to the same step when removed and added steps are
+    """Return True if two edges, to the steps `old` and `new`, lead to the same step when removed and added steps are
     skipped. None stands for the end of the program.
     """
     at = _pair_of(pairs, 0, old)
@@ -161,7 +161,7 @@ class StepChange(Record, frozen=True, kw_only=True):
     before: int | None
     after: int | None
     stage: str
-    file: str = ""  # a required file; empty: the script itself
+    file: str = ""  # required file that contains the step; empty: the script itself
     line: int
     text: str
     changes: tuple[tuple[str, str, str], ...] = ()  # what, before, after

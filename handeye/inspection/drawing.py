@@ -17,7 +17,7 @@ COLOURS: Final = {
 }
 """Fill colour and stroke colour of each kind of step."""
 RADIUS: Final = 6.0  # px, of the corners of an edge
-LETTERS: Final = (30, 43)  # characters that fit into a step: of its statement, and of a note
+LETTERS: Final = (30, 43)  # greatest numbers of characters in a step: in its statement, and in a note
 _MARGIN: Final = 64  # px above the drawing, for title and legend
 
 _STYLE: Final = (

@@ -44,7 +44,7 @@ class Flow:
     stages: tuple[str, ...]  # of the whole plan
     nodes: tuple[Node, ...]  # in text order
     edges: tuple[FlowEdge, ...]
-    outside: dict[int, str]  # steps to which edges lead but which are not drawn, with their stages
+    outside: dict[int, str]  # steps that are not drawn although edges lead to them, with their stages
 
 
 def flow(plan: Plan, stage: int | None = None) -> Flow:

@@ -30,7 +30,7 @@ class Dependence(Record, frozen=True, kw_only=True):
     kind: Measured
     name: str  # empty for a search
     level: bool = False  # horizontal components only
-    steps: tuple[int, ...]  # may have measured it last; empty: as planned, or zero
+    steps: tuple[int, ...]  # steps that may have measured it last; empty: the planned value, or zero
     lines: tuple[int | str, ...]  # lines of the source, or `pins.al:12` in a required file
 
 
@@ -149,7 +149,7 @@ class Inspection(Record, frozen=True, kw_only=True):
     arm: str
     speed: float  # speed of free motions as a share of the arm's limits
     motions: int
-    seconds: float  # planned motion, each step counted once: a search that fails takes longer
+    seconds: float  # planned time of all motions; each step counts once, so a long search takes longer
     stages: tuple[InspectedStage, ...]
 
 

@@ -9,7 +9,7 @@ from handeye.core.record import Record
 from handeye.program.program import Program
 
 VERSION: Final = 3  # version of the format on disk
-PLANNER: Final = 1  # version of the planner; versions plan different motions for the same script
+PLANNER: Final = 1  # version of the planner; another version may plan other motions for the same script
 
 Joints = tuple[float, ...]  # one for each joint of the arm, rad or m
 
@@ -28,7 +28,7 @@ class Plan(Record, frozen=True, kw_only=True):
 
     format: str = "handeye plan"
     version: int = VERSION
-    task: str  # name of the task whose arm and cell it is for
+    task: str  # name of the task; the plan is for this task's arm and cell
     arm: str  # name of the arm model
     arm_digest: str  # digest of the arm model's figures: a plan runs only on the arm for which it was made
     speed: float  # speed of free motions as a share of the arm's limits

@@ -18,7 +18,7 @@ from handeye.program.operations import AnyOperation
 from handeye.program.program import Program, SourcePlace, Step
 
 _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # names that become file names
-_SHORTEST: Final = 1e-5  # s, segment of a polynomial
+_SHORTEST: Final = 1e-5  # s, shortest segment of a motion
 
 
 def faults(plan: Plan) -> Iterator[str]:

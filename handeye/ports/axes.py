@@ -16,7 +16,7 @@ class AxisSpec:
 
     name: str
     kind: Literal["revolute", "prismatic"]
-    lower: float  # rad or m, as `upper`
+    lower: float  # rad or m, like `upper`
     upper: float
     speed: float  # greatest, rad/s or m/s
     force: float | None = None
@@ -49,7 +49,7 @@ class AxesReading:
 
     time: float  # s on the cell's clock
     q: Array  # positions of the axes, shape (n,), rad or m
-    channels: Mapping[str, float]  # everything else that the machine senses, SI, by `Channel.parts`
+    channels: Mapping[str, float]  # all other sensed values (SI), by the names in `Channel.parts`
 
 
 class Axes(ABC):

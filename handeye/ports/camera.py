@@ -13,7 +13,7 @@ ROWS: Final = 256
 RASTER: Final = (0.0128, 0.0096)
 """Width and height of the raster on a one-inch vidicon (m). Inferred; picture points are not square."""
 
-WIDE: Final = 0.025  # focal length of a lens of the turret, m, as CLOSE_UP
+WIDE: Final = 0.025  # focal length of a lens of the turret, m, like CLOSE_UP
 CLOSE_UP: Final = 0.050
 LENSES: Final = (WIDE, CLOSE_UP)
 FIRST_LENS: Final = CLOSE_UP

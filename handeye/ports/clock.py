@@ -12,7 +12,7 @@ _ROUNDING: Final = 1e-6
 """Tolerated deviation of a period from a whole number of steps, as a fraction of a step. It allows for the
 rounding of floating-point numbers.
 """
-_DIGITS: Final = ".12g"  # digits of a period in a message, so that what is written there can be typed
+_DIGITS: Final = ".12g"  # digits of a period in a message, so that a user can type this period
 
 
 class Clock(ABC):

@@ -47,7 +47,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     program: str
     steps: int
     plan: str  # digest that identifies the plan
-    content: str | UnsetType = UNSET  # digest of the plan's bytes, which any change of a number changes
+    content: str | UnsetType = UNSET  # digest of the plan's bytes, which differs if any number differs
     arm: str
     arm_digest: str
     world: WorldSpec
@@ -57,7 +57,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     processor: str | UnsetType = UNSET  # kind of processor, on which last digits of numbers depend
     replaced: dict[str, str] | UnsetType = UNSET  # parts replaced by the caller's code
     without: tuple[str, ...] | UnsetType = UNSET
-    prepared: float = 0.0  # simulated seconds of preparation before that, such as calibration and teaching
+    prepared: float = 0.0  # simulated seconds of preparation before time 0, such as calibration and teaching
 
     @property
     def made_alike(self) -> "RunStarted":
@@ -289,7 +289,7 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
     follows from the plan alone.
     """
 
-    what: str  # `saved`, `position`, or another that the system has
+    what: str  # kind of value: `saved`, `position`, or another kind of the system
     name: str
     value: tuple[float, ...]
 

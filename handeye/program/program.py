@@ -16,7 +16,7 @@ from handeye.core.source import Source, line_name
 from handeye.program.operation import Device, Kind
 from handeye.program.operations import AnyOperation
 
-Columns = tuple[int, int]  # start and end on a line, from 0, end exclusive
+Columns = tuple[int, int]  # first column, and the column after the last, counted from 0
 
 
 class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):

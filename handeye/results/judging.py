@@ -10,7 +10,7 @@ from handeye.judge.finding import Finding, Findings
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 
-Referee = Callable[[Truth], Findings]  # Judges the truth of a cell; the cell is not touched
+Referee = Callable[[Truth], Findings]  # Judges the true state of a cell, without changing it
 Limits = Mapping[str, float]  # Limits of findings by their names, each in the unit of the finding
 
 

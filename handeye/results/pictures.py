@@ -54,7 +54,7 @@ def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> 
     they cannot be written.
     """
     try:
-        folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
+        folder.mkdir(exist_ok=True)  # an empty folder is easily lost when a run is copied
     except OSError as error:
         raise CannotWrite(f"the folder {folder} cannot be created: {error.strerror}") from None
     for name in runner.system.shots:
@@ -64,5 +64,5 @@ def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> 
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:
         posed = as_it_stands(runner.task.shown(runner.setup.world, written(runner.setup)), runner.cell.truth)
         for camera in runner.task.photographs:
-            with suppress(Refused):  # a driver that draws the camera's pictures may lack room for larger ones
+            with suppress(Refused):  # OpenGL may lack the memory for pictures larger than the camera's
                 write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))

@@ -13,7 +13,7 @@ from handeye.core.record import Record
 from handeye.core.variation import Seed, WorldSpec
 from handeye.judge.finding import Finding, Relation
 
-_LARGEST: Final = 1 << 24  # Bytes: thousands of times what a result has
+_LARGEST: Final = 1 << 24  # Bytes: thousands of times the size of a result
 Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undone"]
 """Status of a stage."""
 

@@ -116,7 +116,7 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
         elif isinstance(event, CameraBusy):
             busy += event.seconds
         elif isinstance(event, StageFinished):
-            if here == event.stage:  # else the stage was done before, and the arm has been undoing it
+            if here == event.stage:  # if not, the stage was done earlier, and the arm was undoing it
                 seconds[here] += event.time - begun - busy
             status[event.stage], here = event.status, ""
         elif isinstance(event, StageUndone):

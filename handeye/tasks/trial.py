@@ -29,7 +29,7 @@ A = TypeVar("A", bound=Attempt)
 class Count:
     """Counts of the outcomes of many attempts."""
 
-    figures: Mapping[str, object]  # counts by their names, as JSON has them
+    figures: Mapping[str, object]  # counts by name, for JSON
     lines: tuple[str, ...]  # the same as lines of text
     wrong: int  # attempts in which a wrong result was accepted
 

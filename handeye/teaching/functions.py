@@ -70,7 +70,7 @@ def lasting(lines: Sequence[str]) -> list[str]:
     are executed alone."""
     script, _ = parse("\n".join(lines))
     written = [lines[s.line - 1] for s in script.statements if s.word is not None and s.word.text in _LASTING]
-    for macro in script.macros.values():  # as it is written, and the blank line that ends it
+    for macro in script.macros.values():  # the text of the macro, and the blank line that ends it
         head = " ".join(["DEFINE", macro.name.text, *(parameter.text for parameter in macro.parameters)])
         written += [head, *(lines[statement.line - 1] for statement in macro.body), ""]
     return [*written, ""]

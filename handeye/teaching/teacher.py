@@ -40,7 +40,7 @@ class Teacher:
     workplace: Workplace
     file: Path
     saved: str  # the text of the file
-    text: str = field(init=False)  # the same, with the names given since
+    text: str = field(init=False)  # the text of the file, with all names given since it was read
     afloat: bool = False  # the brakes are off, and gravity is balanced
     # what `undo` restores: positions and text as they were before a name was given; None: the cell
     _before: list[tuple[Taught, str] | None] = field(default_factory=list)

@@ -25,7 +25,7 @@ from handeye.trace.hand_message import channels_schema, hand_schema
 FORMAT: Final = "handeye trace"
 VERSION: Final = 4  # version of the format; a reader reads only this one
 METADATA: Final = "handeye"  # metadata record on what the file is and what the run depended on
-THINNED: Final = "thinned"  # its key in files that hold only some servo periods
+THINNED: Final = "thinned"  # metadata key that marks a file with only some servo periods
 PLAN: Final = "plan.json"  # name of the attachment with the plan
 PACKED_PLAN: Final = "plan.json.zst"  # in a thinned trace: compressed, or it would be a quarter of the file
 

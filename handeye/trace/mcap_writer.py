@@ -156,7 +156,7 @@ class GrowingFile:
         except OSError as error:
             self.broken = True
             raise CannotWrite(f"{self.file} cannot be written: {error.strerror}") from None
-        except BaseException:  # Ctrl-C in the middle of a chunk: what is there may be half of it
+        except BaseException:  # Ctrl-C in the middle of a chunk: the chunk may be incomplete
             self.broken = True
             raise
 

@@ -25,8 +25,8 @@ from handeye.trace.channels import WORLD
 from handeye.vision.marks import Colour, Disc, Line, Loop, Mark, Point
 
 GAP: Final = "gap"  # name of the fingers' opening among the joints, m
-CAMERA: Final = "camera"  # frame that pictures are taken in
-LEVEL: Final = 255 // 15  # grey level that one step of the camera's digitiser is shown as
+CAMERA: Final = "camera"  # name of the frame of the pictures
+LEVEL: Final = 255 // 15  # grey levels in an image for one step of the camera's digitiser
 SECOND: Final = 10**9
 
 Poses = NDArray[np.float32]

@@ -159,7 +159,7 @@ _UNDATED: Final[dict[str, dict[str, Any]]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None},
     ".pdf": {"CreationDate": None},
-}  # metadata that would date a file or name its maker, left out
+}  # metadata that are left out, because they would give the file's date or maker
 _STYLE: Final[dict[Any, Any]] = {
     "svg.hashsalt": "handeye",
     "font.size": 8.0,

@@ -122,7 +122,7 @@ class Recorder:
         separately takes twice as long, because the simulation displaces the recorder from the processor's
         cache.
         """
-        if self._writing.head is None:  # what was before the run is no part of it
+        if self._writing.head is None:  # periods before the run are not recorded
             return
         self._waiting.append((period, self._frames.poses(), self._frames.there()))
 

@@ -40,7 +40,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     **dict.fromkeys(_INFORMED, Log.INFO),
     **dict.fromkeys(_WARNED, Log.WARNING),
     **dict.fromkeys((happened.OperatorCalled, happened.PanicStopped), Log.ERROR),
-}  # events that a person would log, and how much they matter
+}  # log levels of the events that are logged
 
 
 def level_of(event: Event) -> Log.Level.ValueType | None:
@@ -53,7 +53,7 @@ _CAMERA: Final = {
     "aim": "turns to its aim",
     "focus": "is focused",
 }
-_WAITING: Final = {"digitise": "the picture"}  # for what the arm waits if not for the camera's mechanism
+_WAITING: Final = {"digitise": "the picture"}  # what the arm waits for, if not for the camera's mechanism
 _CHOICES: Final = {
     "proceed": "to proceed",
     "retry": "to retry the stage",

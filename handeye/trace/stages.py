@@ -79,7 +79,7 @@ class Stage(Record, frozen=True, kw_only=True):
 
     name: str
     begin: float  # s
-    end: float  # s; of one that was interrupted, the time of the last event
+    end: float  # s; if the stage was interrupted, the time of the last event
     status: Status
     back: bool = False  # the arm undid what was done in it
 

@@ -22,7 +22,7 @@ from handeye.trace.stages import CLOCKS
 from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
 
-NO_STEP: Final = -1  # number, of a step and of its line, if no step was in progress
+NO_STEP: Final = -1  # stands for the numbers of step and line if no step was in progress
 
 
 def table(trace: Trace, name: str) -> Table:

@@ -44,7 +44,7 @@ _STEP_SHARE: Final = 0.92
 """The search step as a fraction of the greatest step with which every hole is found. For the hole of the Factory
 benchmark, this gives a step of .07 in.
 """
-_PLACE: Final = 0.005  # in, to which it is rounded down
+_PLACE: Final = 0.005  # in; the search step is rounded down to a multiple of this
 
 
 def bench() -> InsertionTask:
@@ -286,7 +286,7 @@ def _plan(search: Search, step: float) -> Plan:
     return made.plan
 
 
-GENTLE: Final = 20.0  # N, the limit to which a peak is compared
+GENTLE: Final = 20.0  # N; an insertion with a greater peak is not gentle
 
 
 class Setting(Record, frozen=True, kw_only=True):

@@ -117,7 +117,7 @@ def _quiet() -> Iterator[None]:
         os.close(kept)
 
 
-_MP4_QUALITY: Final = "23"  # of x264: 0 is without loss, 51 the worst
+_MP4_QUALITY: Final = "23"  # quality of x264: 0 is lossless, 51 is the worst
 
 
 def mp4(frames: Frames, held: int) -> bytes:

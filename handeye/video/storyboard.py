@@ -165,7 +165,7 @@ def storyboard(trace: Trace, wanted: VideoRequest) -> Storyboard:
 
 
 def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
-    """Return the times of the run (s) at which the fractions `over` of the passages are over."""
+    """Return the times of the run (s) at which a fraction `over` of each passage has been shown."""
     spans = np.array([(passage.begin, passage.end) for passage in chosen])
     return list((spans[:, 0] + over * np.ptp(spans, axis=1)).tolist())
 

@@ -6,7 +6,7 @@ from queue import Empty, SimpleQueue
 from threading import Lock
 from typing import Final
 
-MAX_WAITING_LINES: Final = 100  # the run takes them in less than a servo period
+MAX_WAITING_LINES: Final = 100  # a run that moves fetches them in less than a servo period
 
 
 class Link:

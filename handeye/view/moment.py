@@ -88,7 +88,7 @@ def _last(events: Sequence[AnyEvent], listing: Listing) -> tuple[PictureTaken | 
     return (None, ()) if last is None else (taken[last], findings[last])
 
 
-FIGURES: Final = 5  # before the joints: time, gap, and the three of the force
+FIGURES: Final = 5  # number of values before the joints: time, gap, and three components of the force
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +133,7 @@ class Newest(Observer):
         self._channels: Array = np.full(len(self.parts), np.nan)
         self.moment = self._now(None)
         self.television = television(runner)
-        self.live = runner.system.live  # what the system shows besides
+        self.live = runner.system.live  # what the system shows in addition
 
     def event(self, event: AnyEvent) -> None:
         if isinstance(event, NEWS):

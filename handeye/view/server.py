@@ -26,9 +26,9 @@ from handeye.view.link import Link
 from handeye.view.moment import Newest
 
 MOMENTS_PER_S: Final = 25
-MAX_MESSAGE_BYTES: Final = 4096  # of a viewer's message; a larger message ends the connection
+MAX_MESSAGE_BYTES: Final = 4096  # greatest size of a viewer's message; a larger one ends the connection
 MAX_LINE_CHARS: Final = 1000
-KEPT_MESSAGES: Final = 400  # for viewers who come later
+KEPT_MESSAGES: Final = 400  # number of messages kept for viewers who come later
 MAX_BEHIND: Final = 4 * KEPT_MESSAGES  # number of unsent messages at which a viewer is disconnected
 
 

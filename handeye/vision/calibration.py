@@ -84,7 +84,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
 
     def residuals(x: Array) -> Array:
         model = moved(drawing, x)
-        misses = []  # of the line of sight, along columns and rows, m
+        misses = []  # distances of the lamp from the line of sight, along columns and rows, m
         for s in sightings:
             view = _view(model, s)
             distance = float(np.linalg.norm(np.array(s.point_W) - view.X_WC[:3, 3]))

@@ -78,7 +78,7 @@ def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
     """Return |after - before| at every point of the first picture, after aligning the unchanged parts of the two
     pictures.
     """
-    from handeye.vision.alignment import aligned  # takes OpenCV, without which plans are made
+    from handeye.vision.alignment import aligned  # imports OpenCV, which is not needed to make plans
 
     return np.abs(aligned(after, to=before) - before.astype(np.float32))
 

@@ -40,8 +40,8 @@ UNITS: Final = {
 class Figure:
     """One dimension or other figure of the cell, with its unit and source."""
 
-    values: tuple[float, ...]  # SI; a single one for a plain number
-    unit: str  # the unit it was written in
+    values: tuple[float, ...]  # SI; one value for a single number
+    unit: str  # unit of the figure in the file
     source: str
 
 

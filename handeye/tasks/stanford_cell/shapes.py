@@ -12,7 +12,7 @@ from handeye.cell.looks import BOX, CYLINDER, MESH, SPHERE
 from handeye.core.pose import Array
 
 Vector = Sequence[float]
-_MARK_HALF_HEIGHT_M = 1e-4  # of the disc that marks a hole
+_MARK_HALF_HEIGHT_M = 1e-4  # half the height of the disc that marks a hole
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -98,6 +98,6 @@ def _rename(spec: mujoco.MjSpec) -> None:
     things = [thing for kind in (spec.bodies, spec.joints) for thing in kind if thing.name in RENAMED]
     names = [RENAMED[thing.name] for thing in things]
     for thing in things:
-        thing.name = f"{thing.name} of the scene"  # two must never have one name
+        thing.name = f"{thing.name} of the scene"  # no two may ever have the same name
     for thing, name in zip(things, names, strict=True):
         thing.name = name

@@ -27,7 +27,7 @@ TrigFile = Annotated[
     Path,
     Parameter(help="A script of typed lines (.trig), or a program that the command W wrote (.trig.json)."),
 ]
-ALL: Final = 1_000_000_000  # steps: more than can be recorded
+ALL: Final = 1_000_000_000  # number of steps: more than can be recorded
 
 trig = App(name="trig", help="TRIG (MIT, 1982): teach a program by example, watch it grow, run it backwards.")
 

@@ -99,7 +99,7 @@ FAULTS: Final = Catalogue(
     ),
 )  # fmt: skip
 _WAVE: Final = (*3 * (0.1,), *3 * (1.0,))  # m and rad, period of a potentiometer's error
-_MAX_SIGMAS: Final = 2.0  # larger errors are corrected by people
+_MAX_SIGMAS: Final = 2.0  # people notice and correct larger errors
 
 
 @dataclass(frozen=True, slots=True)

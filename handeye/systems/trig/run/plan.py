@@ -16,7 +16,7 @@ from handeye.systems.trig.language.graph import NONE, Graph, Node
 from handeye.systems.trig.language.program import TrigProgram
 from handeye.systems.trig.language.styled import ASCII
 
-PATIENCE: Final = 100_000  # halt checks until a program run in teaching counts as endless
+PATIENCE: Final = 100_000  # number of halt checks after which a program run during teaching counts as endless
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

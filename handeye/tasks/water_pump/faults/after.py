@@ -24,7 +24,7 @@ from handeye.tasks.water_pump.faults.mishap import Scene
 TIGHT_TORQUE_NM: Final = 1.5  # five times the screwdriver's torque
 _TIGHTENING_S: Final = 0.5
 MOVED_M: Final = 0.005  # m, away from a block
-THIN_RATIO: Final = 0.6  # thickness of the pin that takes the place of another
+THIN_RATIO: Final = 0.6  # thickness of the replacement pin, relative to the original
 TOP_ON_STAGE: Final = 7
 _FINGERS: Final = (f"{ARM}finger_a", f"{ARM}finger_b")
 _PARTS: Final = ("base", "gasket", "top", "pin0", "pin1", "driver")

@@ -30,7 +30,7 @@ from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
 if TYPE_CHECKING:
     import mujoco
 
-Change = Callable[["mujoco.MjSpec", float], None]  # of a scene, by the value of a fault (SI)
+Change = Callable[["mujoco.MjSpec", float], None]  # changes a scene, given the value of the fault (SI)
 
 GONE: Final = {
     "base": (-0.15, 0.15), "gasket": (-0.15, -0.15), "top": (0.15, -0.2), "driver": (0.2, 0.2), "pin0": (0.0, 0.1),

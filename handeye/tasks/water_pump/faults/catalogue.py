@@ -38,7 +38,7 @@ _TRIED: Final = {
     "rotor": ("jammed", "stops", "turned"),
     "driver": ("fallen",),
     "arm": ("pushed.y",),
-}  # by what is broken; of joints, pins, screws and holes that are alike, only one is tried
+}  # by what is broken; of several similar joints, pins, screws or holes, only one is tried
 MATRIX: Final = tuple(f"{broken}.{how}" for broken, hows in _TRIED.items() for how in hows)
 
 

@@ -20,7 +20,7 @@ from handeye.core.faults import UNKNOWN, ExpectedDetection
 
 SCREWED: Final = (1, 3, 6, 2, 5, 4)
 """The tapped holes in the order in which the program drives screws 1 to 6 into them."""
-PINNED: Final = (2, 5)  # the tapped holes into which it puts the aligning pins, earlier
+PINNED: Final = (2, 5)  # the tapped holes into which the program puts the aligning pins before that
 INSERT_PINS: Final = "insert the aligning pins"
 PUT_ON_GASKET: Final = "put on the gasket"
 PUT_ON_TOP: Final = "put on the top"
@@ -76,7 +76,7 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Each of these errors stands for the calls beside it. The careful program names the fault with one of these
+"""Each of these errors counts as the calls listed with it. The careful program names the fault with one of these
 calls; a program that tries every step only once, like that of 1973, reports it with the error. Error and call
 count as one name.
 """

@@ -46,7 +46,7 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "height of the lowest part above the table top"),
         "tray": mm(
             max((measured.from_site(f"screw{k}", f"park{k}") for k in in_threads), default=0.0), limits.TRAY,
-            "greatest distance of a threaded screw's spare body from its tray in the simulator",
+            "greatest distance of the hidden body of a threaded screw from its tray",
         ),
         "hand": _hand(measured, parts),
         "still": _speed(measured, np.flatnonzero(there), "part"),

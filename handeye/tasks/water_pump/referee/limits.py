@@ -68,7 +68,7 @@ RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevel
 ROTOR_TORQUE: Final = 0.1
 """Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
 which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. The check in the
-reference, 40 oz at the crank, allows .35 N m, with which a rotor would bind.
+reference, 40 oz at the crank, allows .35 N m, but a rotor that needs this torque binds.
 """
 
 ROTOR_PLACE: Final = (

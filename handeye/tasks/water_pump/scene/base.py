@@ -16,7 +16,7 @@ from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.fasteners import screw_look
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
-_WEDGES = 24  # around the large holes; 15 degrees each
+_WEDGES = 24  # number of wedges around a large hole; each covers 15 degrees
 
 
 def add_base(shaper: Shaper, world: PumpWorld) -> None:

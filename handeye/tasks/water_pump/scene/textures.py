@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 _SIZE: Final = 512
-_BENCH: Final = 1024  # px: photographs show more of the bench than of anything else
+_BENCH: Final = 1024  # px; more than for others, because photographs show most of the bench
 _BOARDS: Final = 33
 Grain = Callable[[np.random.Generator], Array]
 """Computes a square picture of relative intensities, shape (n, n, 3)."""
@@ -103,7 +103,7 @@ def _tiles(rng: np.random.Generator) -> Array:
     return _tinted((tone + 0.025 * _smooth(rng, 3, 3)) * np.where(joints, 0.75, 1.0), (1.0, 0.97, 0.9))
 
 
-_MARKS: Final = 64  # of the mill, in a picture
+_MARKS: Final = 64  # number of mill marks in a picture
 _GRAINS: Final[dict[str, Grain]] = {
     "belt": _woven, "cast": _cast, "floor": _tiles, "machined": _milled, "table": _bench,
     "wood": lambda rng: _tinted(0.87 + _streaks(rng), (1.0, 0.95, 0.88)),

@@ -33,8 +33,8 @@ from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, loca
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel, View
 
-SPOTS: Final = 20  # simulated sightings with each lens
-ARM_ERROR_M: Final = 0.1 * INCH  # the largest, on each axis
+SPOTS: Final = 20  # number of simulated sightings with each lens
+ARM_ERROR_M: Final = 0.1 * INCH  # greatest simulated error of the arm along each axis
 SPOT_NOISE_PX: Final = 0.5
 Place = tuple[float, float, float, float]  # x, y, z (m) and yaw (rad) in W
 
