@@ -98,8 +98,8 @@ def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
 
 
 def _bonded(drawn: mujoco.MjModel) -> NDArray[np.int32]:
-    """Return, for each equality constraint, the body of the first of the two objects that it connects, or the
-    world body if it names none.
+    """Return, for each equality constraint, the body of the first of its two objects, or the world body if the
+    constraint names no object.
     """
     of_joint = drawn.eq_type == mujoco.mjtEq.mjEQ_JOINT
     of_body = drawn.eq_objtype == mujoco.mjtObj.mjOBJ_BODY

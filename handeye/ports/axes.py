@@ -64,7 +64,7 @@ class Axes(ABC):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Quantities that the machine senses besides the positions of its axes."""
+        """Quantities that the machine senses in addition to the positions of its axes."""
         return ()
 
     @property

@@ -38,7 +38,7 @@ class TvCamera(ABC):
     """The television camera on its pan/tilt mount, with two lenses in a turret.
 
     `lens`, `aim` and `focus` start a slow mechanical movement and return its duration. The mechanism makes one
-    movement after another; the arm may move meanwhile. The executor takes no picture until all movements have
+    movement after another; the arm may move at the same time. The executor takes no picture until all movements have
     ended.
     """
 

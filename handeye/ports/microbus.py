@@ -153,8 +153,9 @@ class MicrobusPort(ABC):
         return Status(self.page(number // PAGE) >> 2 * (number % PAGE) & 0b11)
 
     def begun(self, number: int) -> bool:
-        """Return True if a microcomputer shows, after the last byte of a command that takes time, that it executes
-        the command or has refused it."""
+        """Return True if the status of a microcomputer shows that its command is being executed or was refused. Call
+        this after the last byte of a command that takes time.
+        """
         return self.status(number) is not Status.FREE
 
     def send(self, command: Command) -> None:

@@ -331,9 +331,9 @@ class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class UndoFinished(StepFinished, frozen=True, kw_only=True):
-    """A step has been undone. `force` (N) is the greatest force that was sensed in the meantime."""
+    """A step has been undone. `force` (N) is the greatest force that was sensed while it was undone."""
 
-    force: float  # greatest force on the hand meanwhile, N
+    force: float  # greatest force on the hand during the undoing, N
 
 
 class StageUndone(Event, frozen=True, kw_only=True):

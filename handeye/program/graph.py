@@ -72,7 +72,7 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Return the reachable steps of these kinds that can be the last of their kinds before a step. The list is
+        """Return the reachable steps that can be the last step of these kinds before a given step. The list is
         empty if some path has no such step, or if the search takes too long.
         """
         found: list[int] = []

@@ -55,7 +55,7 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def needs(self) -> Device | None:
-        """The device that the step needs besides the arm."""
+        """The device that the step needs in addition to the arm."""
         return self.operation.needs
 
     @property

@@ -1,4 +1,4 @@
-"""Senses and macros that can be switched off in a run, and the assumption that a run makes in place of each."""
+"""Senses and macros that can be switched off in a run, and the assumption that replaces each of them."""
 
 from typing import Final, Literal, get_args
 

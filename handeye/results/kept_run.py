@@ -97,7 +97,7 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
 
 
 def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> KeptRun:
-    """From its events, make the record of a run that has no result. `faults` are the flaws already found in the
+    """Make the record of a run that has no result, from the run's events. `faults` are the flaws already found in the
     folder.
     """
     begun, last = events[0], events[-1]

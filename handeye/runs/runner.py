@@ -1,8 +1,8 @@
 """A run that can be stepped, stopped and restored.
 
-After every step, the cell's state is captured and immediately restored. This resets whatever a state does not
-contain (see `SimulatedCell.restore`). A run that is interrupted and resumed therefore takes the same course,
-byte for byte, as a run that is not interrupted.
+After every step, the cell's state is captured and immediately restored. This resets everything that a state does not
+contain (see `SimulatedCell.restore`). A run that is interrupted and resumed therefore takes the same course, byte for
+byte, as a run that is not interrupted.
 """
 
 from __future__ import annotations

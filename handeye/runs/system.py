@@ -69,7 +69,7 @@ class StepFacts(Protocol):
 
     @property
     def needs(self) -> Device | None:
-        """The device besides the arm that the step uses, or None."""
+        """The device that the step uses in addition to the arm, or None."""
 
     @property
     def ways(self) -> tuple[int | None, ...]:
@@ -171,7 +171,7 @@ class RunningSystem(Protocol):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Further channels that are recorded in each servo period, besides joints and hand."""
+        """Channels that are recorded in each servo period in addition to joints and hand."""
         return ()
 
     @property

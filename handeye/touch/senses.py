@@ -116,8 +116,8 @@ SKEW: Final = 1e-3
 gives .9 mm.
 
 An object that is grasped again lies straighter, and CENTER holds it only lightly. After being pushed against blocks
-it lies more askew. Measured: on pins the gap closed by .5 mm; on the base of the pump it closed by .8 mm and
-widened by .44 mm in the worlds of seeds 1 to 6, and widened by more than .5 mm in the world of seed 1001.
+it lies more askew. Measured: on pins, the gap closed by .5 mm. On the base of the pump, it closed by .8 mm and widened
+by .44 mm in the worlds of seeds 1 to 6; in the world of seed 1001, it widened by more than .5 mm.
 """
 OFF_MIDDLE: Final = 3e-3
 """Permitted distance (m) of an object from the middle of the fingers that close on it again, along the line of the

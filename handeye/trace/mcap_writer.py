@@ -64,7 +64,7 @@ class GrowingFile:
     def __init__(self, file: Path) -> None:
         """Create the file, or empty it."""
         self.file = file
-        self.uneven = False  # a chunk ends where it would not have ended by itself
+        self.uneven = False  # True if a sync has ended a chunk early
         self.broken = False  # something could not be written; the file ends there
         self.released = False
         self._pending = 0  # bytes in the chunk in progress

@@ -22,7 +22,7 @@ from zstandard import ZstdDecompressor, ZstdError, frame_content_size
 from handeye.program.events import Event, to_line
 from handeye.trace.channels import EVENTS, METADATA, PACKED_PLAN, PLAN
 
-_HEAD: Final = struct.Struct("<BQ")  # before every record: what it is, and its length
+_HEAD: Final = struct.Struct("<BQ")  # head of a record: its kind and its length
 _DATA_END: Final = _HEAD.size + 4
 _FOOTER: Final = _HEAD.size + 20
 _TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, MemoryError, OverflowError)

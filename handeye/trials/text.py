@@ -172,4 +172,4 @@ def told_so_far(sweep: Sweep[R], rows: Sequence[R]) -> str:
 
 def kept(rows: int, out: object) -> str:
     """Say in a sentence how many trials of an interrupted batch are saved, and how to continue."""
-    return f"{counted(rows, 'trial')} kept in {out}; the same command continues from there"
+    return f"{counted(rows, 'trial')} kept in {out}; the same command continues the batch"

@@ -76,9 +76,9 @@ def localise(
     """Find the box around the first blob that lies completely within a window and that `fits` accepts. Returns None
     if there is none.
 
-    Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box
-    grows from there until all its sides are in the background. A blob that reaches the border of the window or of
-    the picture is passed over. The window applies to this call only.
+    Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box grows
+    from this area until all its sides are in the background. A blob that reaches the border of the window or of the
+    picture is passed over. The window applies to this call only.
 
     Args:
         window: a convex quadrilateral, as its corners (u, v) in order, shape (4, 2), points; its border must lie on

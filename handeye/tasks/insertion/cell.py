@@ -48,7 +48,7 @@ def build(world: InsertionWorld) -> mujoco.MjModel:
     configuration before the first physics step.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
-    add_arm(spec, world)  # first: free bodies before it would shift its joints
+    add_arm(spec, world)  # first, because free bodies added before the arm would shift its joints
     shaper = Shaper(spec=spec)
     for style in _METAL:
         shaper.style(style).geom.friction[0] *= world.friction["part"]

@@ -117,7 +117,7 @@ def add_box(
     low: float,
     colour: str = "",
 ) -> mujoco.MjsGeom:
-    """Add a box of a size around a place; its underside is at the height `low` (mm)."""
+    """Add a box with its middle at a place and its underside at the height `low` (mm)."""
     x, y, z = (each * MM for each in size)
     geom = shaper.box(
         body,

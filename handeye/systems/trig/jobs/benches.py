@@ -37,7 +37,7 @@ class SeenTable(Tabletop):
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":
     """Return a TRIG arm that is switched on, and its table, in a world without errors."""
-    from handeye.systems.trig.jobs.table import purbrick  # with its physics: only where it is asked for
+    from handeye.systems.trig.jobs.table import purbrick  # imports the physics, so only when it is needed
 
     return {"purbrick": purbrick}[name]()
 

@@ -64,7 +64,7 @@ class PalletWork:
 def tried(blocks: int, interrupt: bool, seed: int, world: WorldSpec) -> JobReport:
     try:
         runner = Runner(setup_of_job("palletise", msgspec.structs.replace(world, seed=seed), blocks))
-    except (Refused, PhysicsFailed) as error:  # it cannot go where it is driven
+    except (Refused, PhysicsFailed) as error:  # the arm cannot reach a place to which it is driven
         return JobReport(job="palletise", seed=seed, blocks=blocks, outcome="stopped", told=(str(error),))
     after = broken_off_after(seed, blocks) if interrupt else None
     return carried_out(runner, after=after)

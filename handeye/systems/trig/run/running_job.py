@@ -165,7 +165,7 @@ class RunningJob(RunningSystem):
         """Execute a step and the hidden nodes after it. Returns the reason if the arm refuses, or None."""
         try:
             next = self.job.session.runner.carry_out(step.node, self._state.came)
-        except Refused as error:  # it cannot go where the step wants it
+        except Refused as error:  # the arm cannot reach the goal of the step
             return str(error)
         if next is None:
             raise Halted
@@ -204,7 +204,7 @@ class RunningJob(RunningSystem):
         """Reverse the last step. Returns the reason if the arm stopped, or None."""
         try:
             ran = job.session.runner.back(1)
-        except Refused as error:  # it cannot go back to where it was
+        except Refused as error:  # the arm cannot go back to its earlier place
             return str(error)
         if ran.end == "halted":
             raise Halted

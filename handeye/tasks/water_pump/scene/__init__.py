@@ -32,7 +32,7 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
     is that of the table.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
-    add_arm(spec, world)  # first: free bodies before it would shift its joints
+    add_arm(spec, world)  # first, because free bodies added before the arm would shift its joints
     shaper = Shaper(spec=spec)
     for style in _METAL:
         friction = shaper.style(style).geom.friction
