@@ -41,7 +41,7 @@ class Flow:
     """
 
     name: str
-    stages: tuple[str, ...]  # of the whole plan
+    stages: tuple[str, ...]  # names of all stages of the whole plan
     nodes: tuple[Node, ...]  # in text order
     edges: tuple[FlowEdge, ...]
     outside: dict[int, str]  # steps that are not drawn although edges lead to them, with their stages

@@ -238,7 +238,7 @@ def _plain(
     over = shelf + TOP - 16.0
     if (
         one.node.step + 1 == other.node.step and other.y == shelf + TOP
-    ):  # from the foot of a column to the next
+    ):  # an edge from the foot of a column to the next column
         out, down, corner = border - 4, bottom + 12, other.x + WIDTH / 2
         leaving = (middle, bottom), (middle, down), (out, down), (out, over)
         return Route(edge=edge, points=(*leaving, (corner, over), (corner, other.y)), kind="over")

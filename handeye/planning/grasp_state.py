@@ -16,7 +16,7 @@ class GraspState:
     program: Program
     hand: HandModel
     gap: float = 0.0  # m; after a grasp, its minimum
-    closed_at: str | None = None  # where it has closed since it was last opened
+    closed_at: str | None = None  # position at which it has closed since it was last opened
     held: str | None = None
     taken: int | None = None  # the step that grasped it
     _goal: str = ""

@@ -141,7 +141,7 @@ def weakness(
     return None if least >= 1.0 else Weakness(joint=joint, most=size * least)
 
 
-LOAD_STRIDE: Final = 8  # of the configurations of a motion, every eighth is checked for load
+LOAD_STRIDE: Final = 8  # every eighth configuration of a motion is checked for load
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,7 +58,7 @@ class Command(Record, frozen=True, kw_only=True):
 class BusFault(HandeyeError):
     """Raised if an answer did not arrive as the protocol requires."""
 
-    number: int  # of the microcomputer that was asked
+    number: int  # number of the microcomputer that was asked
 
 
 class NoAnswer(BusFault):

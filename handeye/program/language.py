@@ -21,7 +21,7 @@ Compiled = tuple[Program | None, list[Diagnostic]]  # returns a program (None if
 class Language(Record, frozen=True, kw_only=True):
     """A language for scripts."""
 
-    name: str  # as stored in programs and plans
+    name: str  # name that is stored in programs and plans
     read: Callable[[Path], Source]  # reads a script with all it requires; raises InvalidInput
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanFinding]], list[Diagnostic]]

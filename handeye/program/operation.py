@@ -58,7 +58,7 @@ class Operation(
     raising: ClassVar[frozenset[int]] = frozenset()  # errors of the whole class; empty: not an action
     reading: ClassVar[Fields] = {}
     writing: ClassVar[Fields] = {}
-    bounds: ClassVar[Mapping[str, Bounds]] = {}  # of numbers, and sizes of vectors
+    bounds: ClassVar[Mapping[str, Bounds]] = {}  # limits of numbers, and of the sizes of vectors
     choices: ClassVar[Mapping[str, tuple[float, ...]]] = {}  # allowed values, SI
 
     @property

@@ -15,7 +15,7 @@ class TaskPlace(NamedTuple):
 
     task: str  # empty: the only one
     step: int  # the step that it does next
-    waits_for: str = ""  # what it waits for, in words; empty: only its turn
+    waits_for: str = ""  # what the task waits for, in words; empty: only for its turn
 
 
 class SystemState(MutableRecord, kw_only=True):

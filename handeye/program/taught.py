@@ -226,7 +226,7 @@ def read_taught(source: Source) -> Taught:
         raise BadFile(f"{path} is not TOML: nested too deeply") from None
     except msgspec.ValidationError as error:
         raise BadFile(f"{path}: {unfit(error)}") from None
-    except ValueError:  # of a whole number that Python does not read
+    except ValueError:  # for a whole number with too many digits for Python
         raise BadFile(f"{path}: a number has too many digits") from None
     except UnfitEntry as fault:
         line = _line(source, fault)

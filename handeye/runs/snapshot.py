@@ -27,7 +27,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     setup: Setup
     snapshot: Snapshot | None = None  # None: the run has not begun
-    events: tuple[AnyEvent, ...] = ()  # that were not undone
+    events: tuple[AnyEvent, ...] = ()  # events that were not undone
 
     @property
     def position(self) -> int:

@@ -148,7 +148,7 @@ class Settable:
     usage: str  # form of the words after its kind: `NAME x y z`
     names: tuple[str, ...]
     units: tuple[float, ...]  # size of the displayed unit of each number, in SI units
-    fewest: int  # how many numbers must be given; the other numbers do not change
+    fewest: int  # how many numbers must be given; the others keep their values
     present: Callable[[str], tuple[float, ...]]  # the present values of a name, SI
 
 

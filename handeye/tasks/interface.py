@@ -46,7 +46,7 @@ class HistoricalTiming(Record, frozen=True, kw_only=True):
 
     year: int
     program: str  # the program that was timed
-    times: Mapping[str, float]  # by the names `planning`, `manipulation`, `lens` and `vision`
+    times: Mapping[str, float]  # durations by the names `planning`, `manipulation`, `lens` and `vision`
 
 
 class ExportedScene(Record, frozen=True, kw_only=True):
@@ -64,7 +64,7 @@ class Disturbance(Record, frozen=True, kw_only=True):
     """A change that a person makes to the cell after the arm has finished, and before the arm undoes its work."""
 
     name: str
-    meaning: str  # what is changed, in a sentence
+    meaning: str  # sentence that says what is changed
     make: Callable[[SimulatedCell], None]  # makes the change in a cell
     after: int | None = None  # number of the stage after which the change is made; None: the last
 

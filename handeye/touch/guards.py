@@ -17,7 +17,7 @@ HOLD_PERIODS: Final = 4  # servo periods that a torque must last; the spindle st
 class Reading:
     """Sensor readings of one servo period. Vectors have shape (3,) and are given in world axes."""
 
-    force: Array  # that the hand exerts on the world, N
+    force: Array  # force that the hand exerts on the world, N
     direction: Array  # unit vector of the motion, or zero
     moment: Array = field(default_factory=lambda: np.zeros(3))  # about the tool centre point, N m
     touch: tuple[bool, bool] = (False, False)  # as `Sensed.touch`

@@ -58,7 +58,7 @@ class Journal:
         An incomplete last line is dropped. A journal in which some of the events are missing is started from
         scratch.
         """
-        self._owed: WentBack | None = None  # there was no room for it
+        self._owed: WentBack | None = None  # could not be written yet, because the disk was full
         self._file = LineFile(path, "another run", again=again)
         lacking = effective(read_events(path))[: len(events)] != list(events)
         self.lost = again and lacking  # True if the journal was started again because events were missing

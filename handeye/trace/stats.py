@@ -20,7 +20,7 @@ class Figures(msgspec.Struct, kw_only=True):
     """Statistics of a part of a run."""
 
     seconds: float = 0.0  # simulated, s
-    camera_s: float = 0.0  # of these, s that the camera's mechanism took
+    camera_s: float = 0.0  # part of `seconds` that the camera's mechanism took
     steps: int = 0
     motions: int = 0  # steps that moved the arm
     guards: int = 0  # motions that a force or torque ended
@@ -50,7 +50,7 @@ class StageFigures(Figures, kw_only=True):
     """Statistics of a stage. The figures of repetitions are added up."""
 
     stage: str
-    status: str = BROKEN_OFF  # how it last ended: done, stopped, skipped, or interrupted
+    status: str = BROKEN_OFF  # how its last execution ended: done, stopped, skipped, or interrupted
 
 
 class Statistics(msgspec.Struct, kw_only=True):

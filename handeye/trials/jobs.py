@@ -53,7 +53,7 @@ class JobWork(Generic[J]):
 
     setup: Setup  # of the first world
     row: Callable[..., J]
-    settings: Mapping[str, object]  # that are recorded in each row
+    settings: Mapping[str, object]  # settings that are recorded in each row
 
     def __call__(self, case: Case) -> list[J]:
         """Run one trial."""

@@ -17,7 +17,7 @@ _BAND, _BAR, _LETTERS, _MARGIN = 0.105, 0.016, 0.05, 0.025
 of the frame's height.
 """
 _DARK: Final = 0.35  # remaining brightness under the caption
-_MIN_SCALE: Final = 0.6  # of the letter height before words are cut
+_MIN_SCALE: Final = 0.6  # least scale of the letters; words that are still too long are cut
 _INK: Final = np.array([255, 250, 240], dtype=np.float32)
 DONE: Final = np.array([228, 164, 52], dtype=np.uint8)
 STOPPED: Final = np.array([214, 48, 40], dtype=np.uint8)

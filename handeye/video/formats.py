@@ -141,7 +141,7 @@ def mp4(frames: Frames, held: int) -> bytes:
         return path.read_bytes()
 
 
-_MAX_BYTES: Final = 1 << 30  # of a WebP animation's frames, all in memory at once
+_MAX_BYTES: Final = 1 << 30  # limit on the frames of a WebP animation, which are all in memory at once
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

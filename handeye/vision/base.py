@@ -138,7 +138,7 @@ class SpecificLocation:
     """Pose of a part, found from its holes."""
 
     pose: tuple[float, float, float]  # x, y (m), yaw (rad) in W, by fitted circles
-    bounce_pose: tuple[float, float, float]  # by the bouncing characteriser alone, as in 1973
+    bounce_pose: tuple[float, float, float]  # pose from the bouncing characteriser alone, as in 1973
     holes: tuple[SeenHole, SeenHole]  # largest first; centres by fitted circles
     screw_holes: int  # seen where they should be
     beams: int

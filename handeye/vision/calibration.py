@@ -52,7 +52,7 @@ class Sighting:
     tilt: float
     u: float
     v: float
-    point_W: tuple[float, float, float]  # by the arm, m
+    point_W: tuple[float, float, float]  # position that the arm measured, m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

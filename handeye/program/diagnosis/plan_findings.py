@@ -52,7 +52,7 @@ class RunsInto(Record, frozen=True, kw_only=True):
     depth: float  # m, at most
     along: float  # m travelled up to the deepest point
     at_end: bool  # True if the deepest point is the end of the motion
-    held: str | None  # what the hand holds there; None: the hand itself
+    held: str | None  # the held object that would collide; None: the hand itself
     grasp: int | None  # the step that grasped it
 
     @property

@@ -7,7 +7,7 @@ from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis import sense_causes as s
 from handeye.program.diagnosis.cause_record import JointName
 
-_FINGERS = ("+y", "-y")  # by side of the hand, in switch order
+_FINGERS = ("+y", "-y")  # names by the side of the hand, in the order of the switches
 
 
 def doubt_sentence(cause: s.SenseCause) -> str:

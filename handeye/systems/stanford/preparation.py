@@ -84,7 +84,7 @@ def conditions_of(setup: Setup, camera: Renderer) -> Conditions | None:
     ours = type(task(setup.task)).__module__.startswith("handeye.")
     if camera.method == "replaced" or not ours:
         return None
-    instructions = np.show_config(mode="dicts")["SIMD Extensions"]["found"]  # by NumPy, on this computer
+    instructions = np.show_config(mode="dicts")["SIMD Extensions"]["found"]  # that NumPy has found here
     return Conditions(
         task=setup.task,
         world=setup.world,

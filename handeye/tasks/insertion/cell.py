@@ -165,7 +165,7 @@ class InsertionCell(SimulatedCell):
         data, noise = mujoco.MjData(model), world.generator("sensors")
         arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
         hand = SimulatedHand(model, data, ARM, hand=STANFORD.hand, errors=world.hand, noise=noise)
-        self.witness = Witness(model, data)  # for the bench; the working phase knows nothing of it
+        self.witness = Witness(model, data)  # for the bench; hidden from the working phase
         super().__init__(model, data, arm=arm, hand=hand, stepper=self.witness, noise=noise)
 
 

@@ -19,7 +19,7 @@ from handeye.systems.trig.language.styled import plain, symbols_for
 
 PROMPT = ">"
 BOX_PROMPT = "teach box (X 30, Z BY -5, RECORD, KILL)> "
-ROWS = 12  # of the partial display
+ROWS = 12  # number of rows of the partial display
 
 
 class LineDesk(Desk):

@@ -22,7 +22,7 @@ RIM: Final = 60.0  # mm, height of the bucket
 HAND: Final = 0.5  # mm between hand and place; the potentiometers are off by up to .1 along each axis
 _MM: Final = 1e3
 
-Poses = Mapping[str, Pose]  # of blocks over the platter, by name
+Poses = Mapping[str, Pose]  # poses of the blocks relative to the platter, by name
 
 
 def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings:

@@ -23,7 +23,7 @@ class RecordedStep(NamedTuple):
     position: str = ""  # the position it changed
     data: Place = NOWHERE  # value of that position
     gaps: tuple[float, float] = (0.0, 0.0)  # gap before and after a step of the hand, m
-    touched: Place | None = None  # where a guarded step met something
+    touched: Place | None = None  # place at which a guarded step met an object
     met: float = 0.0  # greatest force felt in a move, N
 
 

@@ -15,7 +15,7 @@ from handeye.runs.runner import Runner
 from handeye.systems.trig.run.job import JobReport, carried_out, setup_of_job
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
-STEPS: Final = 14  # of a block, at least, without loop ends
+STEPS: Final = 14  # least number of steps per block, without loop ends
 PLACES: Final = 15
 
 

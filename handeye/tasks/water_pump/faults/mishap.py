@@ -34,7 +34,7 @@ class Scene:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    threads: Threads | None = None  # of the cell while it works
+    threads: Threads | None = None  # the threads of the cell, during a run
 
     def dofs(self, part: str) -> slice:
         """Return the indices of a free part's degrees of freedom."""

@@ -122,7 +122,7 @@ def _add_tripod(shaper: Shaper) -> None:
     shaper.cylinder(head, "scenery", 0.048, (0, 0, 0.055), (0, 0, 0.07), "black")
     for side in (-1, 1):
         shaper.cylinder(head, "scenery", 0.016, (side * 0.022, 0, 0.04), (side * 0.022, 0, 0.055), "steel")
-    back = y + 0.45  # it leans, and stays out of the view of `studio`
+    back = y + 0.45  # leans back, to stay out of the view of `studio`
     shaper.cylinder(body, "scenery", 0.02, (x, back, 0.35), (x, y + 0.14, z + 0.20), "steel", "tripod")
     for k, angle in enumerate((0.5, 2.6, 4.7)):
         foot = (x + 0.42 * math.cos(angle), back + 0.30 * math.sin(angle), floor)
