@@ -31,7 +31,10 @@ def _tables() -> Iterator[str]:
     told = {quantity.name: how(quantity) for quantity in report(table, world).quantities}
     there = list(table.present({}).values())
     without = sum(bool(quantity.unsourced) for quantity in there)
-    yield f"\nThe world of a pump has {len(there)} uncertain quantities. For {without} of them, no source gives the size of the error.\n"
+    yield (
+        f"\nThe world of a pump has {len(there)} uncertain quantities. For {without} of them, no source gives the "
+        "size of the error.\n"
+    )
     yield "\n## Without a source\n\n| quantities | size | what | why there is none, and a bound |\n|---|---|---|---|\n"
     for those in _rows([quantity for quantity in there if quantity.unsourced]):
         yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} | {_sentence(those[0].unsourced)} |\n"

@@ -75,7 +75,8 @@ class World:
             raise BadArgument(f"`set` must be a dictionary of values by the names of quantities, not {set!r}")
         if not isinstance(scale, Mapping | None):
             raise BadArgument(
-                f"`scale` must be a dictionary whose keys are names of quantities and whose values are factors, not {scale!r}"
+                "`scale` must be a dictionary whose keys are names of quantities and whose values are factors, "
+                f"not {scale!r}"
             )
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._scale = dict(scale or {})

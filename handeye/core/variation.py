@@ -145,7 +145,9 @@ class Variation:
         assert len({crc32(name.encode()) for name in self.quantities}) == len(quantities), (
             "two quantities share a random stream"
         )
-        assert not self.groups & self.quantities.keys(), "the same name is used for a quantity and for a group"
+        assert not self.groups & self.quantities.keys(), (
+            "the same name is used for a quantity and for a group"
+        )
         assert UNSOURCED not in {*self.groups, *self.quantities}, "a name is reserved"
         choices = {q.name for q in quantities if isinstance(q.distribution, Choice)}
         assert {q.where[0] for q in quantities if q.where} <= choices, (

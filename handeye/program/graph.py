@@ -138,7 +138,9 @@ class Graph:
         out = set(exits)
         turns = {n for n, step in enumerate(self.steps) if step.next is not None and step.next <= n} - out
         if all(any(t is None or t > n for t in self.onward[n]) for n in turns):
-            return set()  # a trapped set has a last step, from which all edges lead back; there is no such step
+            return (
+                set()
+            )  # a trapped set has a last step, from which all edges lead back; there is no such step
         out.update(number for number, targets in enumerate(self.onward) if None in targets)
         return set(range(len(self.steps))) - reachable(out, self.back)
 

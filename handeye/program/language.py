@@ -15,7 +15,9 @@ from handeye.program.diagnosis.reach import NamedArm
 from handeye.program.program import Program
 from handeye.program.taught import Taught
 
-Compiled = tuple[Program | None, list[Diagnostic]]  # returns a program (None if there are errors) and diagnostics
+Compiled = tuple[
+    Program | None, list[Diagnostic]
+]  # returns a program (None if there are errors) and diagnostics
 
 
 class Language(Record, frozen=True, kw_only=True):

@@ -68,7 +68,9 @@ class CheckpointStore:
         newest = next((path for path, _ in self.heads()), None)
         for path, head in self.heads():
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
-                raise BadFile(f"{path} belongs to another plan ({head.program}, {head.plan}); choose another folder")
+                raise BadFile(
+                    f"{path} belongs to another plan ({head.program}, {head.plan}); choose another folder"
+                )
             if path == newest and not same_plan(read_checkpoint(path).setup, setup):
                 raise BadFile(
                     f"{path} belongs to another plan of this script, with different motions; choose another folder"

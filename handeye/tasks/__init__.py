@@ -167,10 +167,14 @@ def _loaded(words: str) -> AnyTask:
     if not all(part.isidentifier() for part in (*module.split("."), name)):
         raise BadArgument(f"name a task as MODULE:NAME, such as my_task:TASK, not {quoted(words)}")
     if module.partition(".")[0] != "handeye" and os.getcwd() not in sys.path:
-        sys.path.append(os.getcwd())  # last on the path, so that no file in the folder hides an installed module
+        sys.path.append(
+            os.getcwd()
+        )  # last on the path, so that no file in the folder hides an installed module
     found = loaded(words, "the task ")
     if not isinstance(found, AnyTask):
-        raise BadArgument(f"{quoted(words)} is not a task; a task is an instance of a class derived from handeye.Task")
+        raise BadArgument(
+            f"{quoted(words)} is not a task; a task is an instance of a class derived from handeye.Task"
+        )
     return found
 
 

@@ -177,7 +177,9 @@ def _span(trace: Trace, wanted: VideoRequest) -> Span:
         None if given is None else stage_index(str(given), program) for given in (wanted.first, wanted.last)
     )
     if first is not None and last is not None and last < first:
-        raise BadArgument(f"the last stage, {quoted(program[last])}, comes before the first, {quoted(program[first])}")
+        raise BadArgument(
+            f"the last stage, {quoted(program[last])}, comes before the first, {quoted(program[first])}"
+        )
     if first is not None:
         begin = max(begin, _recorded(trace, program[first])[0].begin)
     if last is not None:

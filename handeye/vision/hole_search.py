@@ -92,7 +92,9 @@ def dark_screw_holes(
     """Count the screw holes that are visible as dark spots in the bright face."""
     places = view.project(hole_places(part, pose, screws=True))
     places = places[scan.inside(places)]
-    around = np.sort(scan.patches(places, 6, 2).reshape(len(places), 49), axis=1)[:, 24]  # the median of 49 points
+    around = np.sort(scan.patches(places, 6, 2).reshape(len(places), 49), axis=1)[
+        :, 24
+    ]  # the median of 49 points
     spots = scan.patches(places, 2)
     means = (spots[:, :-1, :-1] + spots[:, :-1, 1:] + spots[:, 1:, :-1] + spots[:, 1:, 1:]) / 4
     dark = means.min(axis=(1, 2)) < 0.8 * around - 0.3

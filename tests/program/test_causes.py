@@ -137,7 +137,10 @@ WORDS: list[tuple[c.Cause, str]] = [
         "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque than "
         "commanded (the drive of the wrist 1.30 times as much), or the arm no longer stands upright",
     ),
-    (s.MotorSlow(share=0.4), "the motor took only 0.4 of its usual time to reach its speed: it turns too slowly"),
+    (
+        s.MotorSlow(share=0.4),
+        "the motor took only 0.4 of its usual time to reach its speed: it turns too slowly",
+    ),
     (
         s.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
         "the gap reads 0.50 in; the fingers were driven to 1.80 in",

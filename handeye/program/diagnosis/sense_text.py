@@ -57,11 +57,12 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             short = f"the sensor shows {shown:.1f} oz-in of the commanded {asked:.1f} oz-in while the motor is stalled"
             return f"{short}: the current sensor reads no higher, or the motor is weak"
         case s.MotorSlow():
-            return (
-                f"the motor took only {cause.share:.1f} of its usual time to reach its speed: it turns too slowly"
-            )
+            return f"the motor took only {cause.share:.1f} of its usual time to reach its speed: it turns too slowly"
         case s.MotorFast():
-            return f"the motor took more than {cause.times:.1f} times its usual time to reach its speed: it turns too fast"
+            return (
+                f"the motor took more than {cause.times:.1f} times its usual time to reach its speed: "
+                "it turns too fast"
+            )
         case s.ScrewHard():
             takes, allowed = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
             return (

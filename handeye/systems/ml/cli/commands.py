@@ -99,9 +99,7 @@ def check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str]
     elif sense:
         raise BadArgument("--sense applies only to `--arm none`: the rectilinear arm has sensors of its own")
     elif left is not None:
-        raise BadArgument(
-            "--left applies only to `--arm none`: the rectilinear machine has only one arm"
-        )
+        raise BadArgument("--left applies only to `--arm none`: the rectilinear machine has only one arm")
 
 
 Printer = partial(LinePrinter, Printed)

@@ -124,8 +124,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("SENSOR", "[s [lo hi]]", "Expect the readings of a sensor to be above lo and below hi, and clear its flag. "
                                   "Without limits, expect any reading; without s, do this for all sensors.",
          "200 SENSOR 5 -178 450"),
-        ("WAND", "[s]", "Assign the wand to sensor s, by default sensor 1. From then on, its flag comes on if the wand touches.",
-         "10 WAND"),
+        ("WAND", "[s]", "Assign the wand to sensor s, by default sensor 1. From then on, the flag of this sensor comes "
+                       "on if the wand touches.", "10 WAND"),
     ),
     "data": (
         ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. The statement does "

@@ -164,5 +164,7 @@ def arrange(table: Tabletop, line: str) -> str:
 
 def _at(word: str) -> float:
     if abs(number(word)) > TABLE_RADIUS_MM:
-        raise BadArgument(f"{quoted(word)} is beyond the table, which ends {TABLE_RADIUS_MM:g} mm from its centre")
+        raise BadArgument(
+            f"{quoted(word)} is beyond the table, which ends {TABLE_RADIUS_MM:g} mm from its centre"
+        )
     return number(word) * MILLIMETRE

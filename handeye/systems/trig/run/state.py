@@ -45,7 +45,9 @@ class TaughtState(SystemState, kw_only=True):
     fathers: dict[int, int] = msgspec.field(default_factory=dict)  # most recent father by node
     taught: dict[str, Place] = msgspec.field(default_factory=dict)  # values of the positions, as taught
     positions: dict[str, Place] = msgspec.field(default_factory=dict)  # present values of the positions
-    trail: list[RecordedStep] = msgspec.field(default_factory=list)  # steps that were executed and not reversed
+    trail: list[RecordedStep] = msgspec.field(
+        default_factory=list
+    )  # steps that were executed and not reversed
     forgotten: bool = False
     cursor: int = TOP
     taken: int | None = None

@@ -168,7 +168,9 @@ def add_boom_cables(shaper: Shaper) -> None:
     for number, z in enumerate(np.linspace(_BACK + 0.05, _FRONT - 0.05, 8)):
         low, high = (-0.0385, _MIDDLE - 0.010, z - 0.006), (-0.030, _MIDDLE + 0.010, z + 0.006)
         shaper.box(boom, "scenery", low, high, "steel", f"cable_clip{number}")
-    turns = np.linspace(0.0, math.pi, 13)  # angles of the loop, from the boom's side outwards and back to the motor
+    turns = np.linspace(
+        0.0, math.pi, 13
+    )  # angles of the loop, from the boom's side outwards and back to the motor
     way = [(0.007 * t - 0.06 * math.sin(t), 0.0, -0.06 * (1 - math.cos(t))) for t in turns]
     loop = solids.surface(solids.tube(way, 0.006))
     shaper.look(boom, "cable_loop", "black", loop, (_SIDE, _MIDDLE, _BACK), style="scenery")

@@ -79,7 +79,9 @@ def _add_building(shaper: Shaper, screws: int) -> None:
     shaper.box(body, "scenery", (LEFT - 0.05, BACK, floor), (LEFT, FRONT, 3.0), "plaster", "wall1")
     shaper.box(body, "scenery", (LEFT, BACK, floor), (RIGHT, BACK + 0.015, floor + 0.09), "iron", "skirting0")
     shaper.box(body, "scenery", (LEFT, BACK, floor), (LEFT + 0.015, FRONT, floor + 0.09), "iron", "skirting1")
-    shaper.box(body, "solid", (-0.3, -0.3, TRAY - 0.02), (0.4, 0.3, TRAY), name="tray")  # has room for seven screws
+    shaper.box(
+        body, "solid", (-0.3, -0.3, TRAY - 0.02), (0.4, 0.3, TRAY), name="tray"
+    )  # has room for seven screws
     for k in range(screws):
         body.add_site(name=f"park{k}", pos=[0.05 * k, 0.0, TRAY], group=5)
 

@@ -55,7 +55,9 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
         pole = shaper.ball(body, "pole", _POLE, (out * cos(angle), out * sin(angle), 1.1 * _POLE))
         pole.gap = d("driver.magnet_reach")
     ring = Bore(radius=d("screw.head_radius") + 0.0003, outer=0.0085, height=0.003, below=0.002, sectors=8)
-    brass = body.add_body(name="socket")  # a body of its own: the magnet pulls on the bit's face, not on the ring
+    brass = body.add_body(
+        name="socket"
+    )  # a body of its own: the magnet pulls on the bit's face, not on the ring
     shaper.ring(brass, "socket", ring, (0.0, 0.0, -0.0025), lambda _: "socket")
     shaper.cylinder(body, "housing", 0.0085, (0, 0, 0.0005), (0, 0, 0.014), name="housing")
     shaper.cylinder(body, "look", 0.006, (0, 0, 0.012), (0, 0, length), "steel")
