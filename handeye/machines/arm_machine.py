@@ -28,13 +28,13 @@ class HandlingLimits:
     acceleration: tuple[float, ...]  # m/s2 and rad/s2
     guarded_speed: tuple[float, ...]  # m/s and rad/s of a guarded move
     settling: float  # s to wait after a move, until the servos have settled
-    standing: tuple[float, ...]  # m and rad that an axis at rest may be from its goal
-    lag: float  # s that an axis may lag behind its goal while it moves
+    standing: tuple[float, ...]  # m and rad, greatest distance of an axis at rest from its goal
+    lag: float  # s, greatest lag of a moving axis behind its goal
     open: float  # goal that opens the hand, m between the fingers; `closed` likewise
     closed: float
     grasping: float  # s to wait after a goal of the hand
-    carried: float  # N upwards on the finger, beyond which something else carries the held object
-    resistance: float  # N on the finger, beyond which there is an obstacle on the way back
+    carried: float  # N, upwards on the finger; a greater force shows that something else carries the held object
+    resistance: float  # N, on the finger; a greater force on the way back shows an obstacle
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -29,7 +29,7 @@ PURBRICK: Final = ArmMachine(
     force=Channel(name="force", unit="N", width=3),
     force_sensor="strain",
     limits=HandlingLimits(
-        acceleration=(0.8, 0.8, 0.8, 10.0, 10.0, 10.0),  # a stack of 20 blocks on 30 mm tips at 1.2 m/s2
+        acceleration=(0.8, 0.8, 0.8, 10.0, 10.0, 10.0),  # at 1.2 m/s2, a stack of 20 blocks, 30 mm wide, falls over
         guarded_speed=(0.015, 0.015, 0.015, 0.2, 0.2, 0.2),
         settling=0.15,
         standing=(*3 * (1e-3,), *3 * (1e-2,)),  # 100 N push the platter's servo this far
@@ -38,8 +38,8 @@ PURBRICK: Final = ArmMachine(
         closed=-0.020,  # the hand cannot reach this goal, so it presses with all its force
         grasping=0.2,
         carried=0.28,  # an ounce, the weight of a block
-        # Measured: at most 1.8 N on the way back from a stack of four blocks, where closed fingers return to the
-        # stack; 5.8 N and more where a block had been pressed onto it a third of a millimetre too deep.
+        # Measured on the way back: at most 1.8 N if closed fingers return to a stack of four blocks, but 5.8 N or more
+        # if a block had been pressed onto the stack a third of a millimetre too deep.
         resistance=3.0,
     ),
 )

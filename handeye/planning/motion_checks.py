@@ -51,7 +51,7 @@ Free motions of the pump's program deviate from a straight descent by that much:
 screwdriver goes .02 in into its rack.
 """
 
-SAME: Final = 1e-6  # depths closer than this are equal, m: of equal ones the first counts, on every processor
+SAME: Final = 1e-6  # m; depths that differ by less count as equal, so that every processor finds the same one
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

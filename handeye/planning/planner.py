@@ -73,7 +73,7 @@ class _Walk:
     program: Program
     arm: ArmModel
     speed: float
-    world: WorldModel  # nothing measured; moved by `HERE` only
+    world: WorldModel  # planned poses only; `HERE` alone moves positions
     findings: FindingList
     checks: Checks
     q: Array = field(init=False)

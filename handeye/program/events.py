@@ -244,8 +244,8 @@ class PartMatched(Event, frozen=True, kw_only=True):
 
     part: str
     ok: bool  # it has not moved
-    off: float  # displacement against its surroundings, m
-    unlike: float  # share of it, from 0 to 1, that looks different
+    off: float  # displacement relative to its surroundings, m
+    unlike: float  # fraction of the part that looks different, 0 to 1
 
 
 class CameraStarted(Event, frozen=True, kw_only=True):

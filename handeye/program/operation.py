@@ -51,7 +51,7 @@ class Operation(
     family: ClassVar[Family] = "other"
     moves: ClassVar[bool] = False  # moves the arm or the hand
     takes_time: ClassVar[bool] = False
-    needs: ClassVar[Device | None] = None  # needed besides the arm
+    needs: ClassVar[Device | None] = None  # device that is needed in addition to the arm
     planned: ClassVar[bool] = False  # needs a planned motion
     only_checks: ClassVar[bool] = False  # an action without an effect
     branches: ClassVar[bool] = False  # may continue elsewhere than at the next step

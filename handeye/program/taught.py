@@ -205,7 +205,7 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
     held: dict[str, dict[str, object]] = {}
 
 
-MAX_BOXES: Final = 500  # in a file: checking motions takes time for each
+MAX_BOXES: Final = 500  # in a file; each box makes the check of motions slower
 
 
 def load_taught(path: str | Path) -> Taught:

@@ -17,7 +17,7 @@ from handeye.runs.systems import listing_of
 from handeye.tasks import DEFAULT, any_task
 from handeye.tasks.interface import Task
 
-MomentKind = Literal["drawn", "final", "unfinished"]  # before, at the end of, or within the plan
+MomentKind = Literal["drawn", "final", "unfinished"]  # before the plan, after its end, or in between
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -28,7 +28,7 @@ class HostSeconds(Record, frozen=True, kw_only=True):
     user.
     """
     from_step: int = 0  # steps done before the first session that is counted
-    from_clock_s: float = 0.0  # the clock at that moment: below 0 if the session prepared the cell
+    from_clock_s: float = 0.0  # the clock when that session began: below 0 if the session prepared the cell
 
 
 @dataclass(slots=True, kw_only=True)

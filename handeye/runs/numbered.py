@@ -73,7 +73,7 @@ class NumberedRun(RunningSystem):
             self.state.stage = None
 
     def _finish(self, *, completed: bool) -> bool:
-        if not completed and self.state.stage is not None:  # the stage stays: results name it
+        if not completed and self.state.stage is not None:  # the stage is kept, because results name it
             self._around.emit(StageFinished(time=self.time, stage=self._listing.name, status="stopped"))
         self._around.emit(RunFinished(time=self.time, completed=completed))
         return completed

@@ -102,6 +102,6 @@ def plan_text(text: str, known: Taught, work: Task) -> "PlannedScript":
 
 def planned(source: Source, known: Taught, work: Task, language: Language) -> "PlannedScript":
     """Plan a source for the arm of a task."""
-    from handeye.planning.planner import plan_source  # not before something is planned: it takes a while
+    from handeye.planning.planner import plan_source  # imported only for planning, because this takes a while
 
     return plan_source(source, in_cell(known, work), work.arm, language, task=work.name)

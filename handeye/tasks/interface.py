@@ -53,7 +53,7 @@ class ExportedScene(Record, frozen=True, kw_only=True):
     """A scene for export to other programs, with a description."""
 
     spec: mujoco.MjSpec
-    about: str  # Markdown: its names, and how it differs from the cell
+    about: str  # Markdown: the names in the scene, and how the scene differs from the cell
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Names of the bodies that can be exported separately, by the name of the whole that they form."""
     densities: Mapping[str, float] = field(default_factory=dict)

@@ -12,7 +12,7 @@ from typing import Final
 from handeye.core.errors import NOTHING_HELD, SWITCH_WRONG
 from handeye.touch.senses import least_gap
 
-OVERDRIVE: Final = 0.005  # m driven beyond the opening before the fingers count as stalled; placeholder
+OVERDRIVE: Final = 0.005  # m; fingers driven this far beyond their opening count as stalled; placeholder
 SLOWER: Final = 0.5
 """Fraction of their speed at which the fingers close when one of them begins to touch. While it keeps touching,
 the speed falls to 0. Chosen so that an object between the fingers is still pressed, and the switch that needs more

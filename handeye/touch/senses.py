@@ -110,7 +110,7 @@ EMPTY_GAP: Final = 0.05 * INCH
 """Greatest reading (m) of the gap when the fingers are closed and empty. The potentiometer is off by up to .02 in,
 and by up to .04 in at the high level.
 """
-SAME_HOLD: Final = 5e-4  # m by which the gap may differ while the hold is the same
+SAME_HOLD: Final = 5e-4  # m; greatest change of the gap in an unchanged hold
 SKEW: Final = 1e-3
 """Permitted change (m) of the gap on an object that has turned between the fingers. A turn of 2 degrees on an inch
 gives .9 mm.

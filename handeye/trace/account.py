@@ -35,9 +35,9 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
 class _Teller:
     lines: list[str] = field(default_factory=list)
     _task: str = ""
-    _heading: int | None = None  # the line with the heading of the stage under way, once there is one
+    _heading: int | None = None  # the line with the heading of the present stage, if a stage has begun
     _begun: float = 0.0  # when that stage began, s
-    _camera: float = 0.0  # seconds of it that the camera's mechanism took
+    _camera: float = 0.0  # part of the stage that the camera's mechanism took, s
     _shift: Array | None = None  # offset of the goal of the present step from its planned place, m
     _off: Array = field(default_factory=lambda: np.zeros(3))
     """Offset of the end of the last motion from its planned end (m); a straight motion after it begins with

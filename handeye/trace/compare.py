@@ -100,7 +100,7 @@ def _difference(
     if here is None or there is None:
         short, long = (a, b) if here is None else (b, a)
         return f"{short.name} ends and {long.name} continues {after}"
-    if {here.topic, there.topic} <= {EVENTS, LOG}:  # a sentence stands before its event
+    if {here.topic, there.topic} <= {EVENTS, LOG}:  # a sentence precedes its event
         return f"event {events + 1} differs: {_events(a, b, events)}"
     if here.topic == there.topic and here.time == there.time:
         period = f"in servo period {so_far.periods}, " if here.time == so_far.last else ""

@@ -16,7 +16,7 @@ from handeye.ports.workcell import Sensed
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard
 
-PLACES: Final = 6  # decimal places of all figures, as of a trip in its event: a micrometre, a micronewton
+PLACES: Final = 6  # decimals of all figures, as in the event of a tripped guard: a micrometre, a micronewton
 
 
 class Axes(Record, frozen=True, kw_only=True):

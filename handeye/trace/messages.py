@@ -24,7 +24,7 @@ from handeye.ports.workcell import Sensed
 from handeye.trace.channels import WORLD
 from handeye.vision.marks import Colour, Disc, Line, Loop, Mark, Point
 
-GAP: Final = "gap"  # name of the fingers' opening among the joints, m
+GAP: Final = "gap"  # name under which the opening of the fingers (m) is listed among the joints
 CAMERA: Final = "camera"  # name of the frame of the pictures
 LEVEL: Final = 255 // 15  # grey levels in an image for one step of the camera's digitiser
 SECOND: Final = 10**9

@@ -81,7 +81,7 @@ class Stage(Record, frozen=True, kw_only=True):
     begin: float  # s
     end: float  # s; if the stage was interrupted, the time of the last event
     status: Status
-    back: bool = False  # the arm undid what was done in it
+    back: bool = False  # True if the arm has undone the stage
 
 
 def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
@@ -116,7 +116,7 @@ def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 @dataclass(slots=True)
 class _Walk:
     found: list[Stage] = field(default_factory=list)
-    _done: list[str] = field(default_factory=list)  # begun and not undone, the present or last one at the end
+    _done: list[str] = field(default_factory=list)  # begun and not undone stages, the latest one last
     _begun: float | None = None  # when the present stage began or was re-entered; None between stages
     _back: bool = False
 

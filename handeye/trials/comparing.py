@@ -11,7 +11,7 @@ from handeye.trials.folder import Head, sweep_of
 from handeye.trials.sweep import Standing, TrialRow
 
 Batch = tuple[Head, tuple[Any, ...]]
-Key = tuple[str, int, int]  # Condition, seed, and which of the trials in that world
+Key = tuple[str, int, int]  # Condition, seed, and index of the trial in that world
 
 
 class Difference(Record, frozen=True, kw_only=True):

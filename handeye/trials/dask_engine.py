@@ -35,7 +35,7 @@ def _answers(
     if not cases:
         return
     with _client(count, scheduler) as client:
-        there = client.scatter(work, broadcast=True)  # once to each worker, and not with each trial
+        there = client.scatter(work, broadcast=True)  # sent once to each worker, and not with each trial
         code = code_digest()
         given = {client.submit(_tried, there, code, case, pure=False): case for case in cases}
         for done in as_completed([*given], loop=client.loop):

@@ -109,7 +109,7 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     the program reported success, but the pin is not in its hole.
     """
     places: int = 0
-    peak: float = 0.0  # Greatest force between pin and plate, N, by the truth of each physics step
+    peak: float = 0.0  # Greatest true force between pin and plate in any physics step, N
     felt: float = 0.0  # Greatest force that the hand felt, N
     seconds: float | None = None
     """Time on the cell's clock (s) from the first contact of pin and plate until the pin was seated; None:

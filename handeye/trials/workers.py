@@ -56,7 +56,7 @@ class Worker:
         self.process = get_context("spawn").Process(target=_serve, args=(there, limit_s), daemon=True)
         with deaf_to_interrupts():
             self.process.start()
-        there.close()  # so that each end notices when the other is gone
+        there.close()  # so that each end notices when the other has closed
         self.given: _Assignment[Any] | None = None
         self._send(
             trial

@@ -25,7 +25,7 @@ from handeye.vision.drawing import annotate
 _FINER: Final = 2  # drawn points per frame point along a side
 _SHADOW: Final = 2048
 
-Progress = Callable[[int, int], None]  # progress: frames drawn, and their number
+Progress = Callable[[int, int], None]  # called with the number of frames drawn, and the number of all frames
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,7 +14,7 @@ from handeye.report.facts.seen import SeenPicture, seen_pictures
 from handeye.report.recorded import RecordedRun
 from handeye.trace.trace import Trace
 
-MAX_WAIT_S: Final = 1.0  # What is left of a wait for the camera's mechanism
+MAX_WAIT_S: Final = 1.0  # Greatest part of a wait for the camera's mechanism that is shown
 _LOOK: Final = 0.7  # s of the video to show a picture
 _LOOKING: Final = 0.4  # fraction of a video for pictures, at most
 _LEAST: Final = 2 / 3  # Least duration of a stage, as a fraction of an equal share

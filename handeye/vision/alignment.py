@@ -100,7 +100,7 @@ def moved(picture: Levels, by: Array) -> Levels:
 
 
 LEVEL: Final = 3.0  # least mean difference over 3 x 3 points: six times its noise
-RADIUS: Final = 10  # points about the peak that count to its centre: the lamp seen near, with the 50 mm lens
+RADIUS: Final = 10  # points; the centre is computed within this radius, that of a near lamp in the 50 mm lens
 
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:

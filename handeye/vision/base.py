@@ -113,7 +113,7 @@ class GeneralLocation:
     in the picture; the rest is as planned.
     """
 
-    box: BoundingBox  # around it in the picture
+    box: BoundingBox  # box around the part in the picture
     x: float
     y: float
     corners: tuple[tuple[float, float, float], ...]  # corners of the box at half the part's height, m
@@ -140,7 +140,7 @@ class SpecificLocation:
     pose: tuple[float, float, float]  # x, y (m), yaw (rad) in W, by fitted circles
     bounce_pose: tuple[float, float, float]  # pose from the bouncing characteriser alone, as in 1973
     holes: tuple[SeenHole, SeenHole]  # largest first; centres by fitted circles
-    screw_holes: int  # seen where they should be
+    screw_holes: int  # number of screw holes seen at their expected places
     beams: int
     points: int
 

@@ -63,7 +63,7 @@ high level).
 class GasketInspection:
     """Result of an inspection. Centres are (u, v) in the picture, with the centre of the largest hole first."""
 
-    cause: InspectionCause | None  # None: it is on properly
+    cause: InspectionCause | None  # None: the gasket lies properly
     expected: tuple[tuple[float, float], ...]  # expected centres, from the base's pose and its largest hole
     found: tuple[tuple[float, float] | None, ...]  # in the difference
     shift: float | None  # greatest displacement of a hole's border, m; None if no border is found

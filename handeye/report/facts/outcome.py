@@ -28,7 +28,7 @@ class Outcome:
     kind: Kind
     time: float  # The moment to look at first, s since the run began
     stage: str | None = None
-    step: StepStarted | None = None  # The step under way then, or done last
+    step: StepStarted | None = None  # The step in progress at that time, or the last step before
     call: OperatorCalled | None = None
     wrong: tuple[Check, ...] = ()
     doubts: tuple[Check, ...] = ()  # Failed findings that are only warnings

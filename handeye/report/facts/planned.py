@@ -142,7 +142,7 @@ class Cause:
     name: str
     by: Mover
     place: str  # The line of the SAVE, of the inspection by camera, or of the step that advanced the search
-    time: float  # When that was, s since the run began
+    time: float  # Time of that step, s since the run began
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

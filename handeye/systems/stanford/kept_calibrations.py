@@ -150,5 +150,5 @@ def _size(path: Path) -> int:
 
 
 def _remove(path: Path) -> None:
-    with suppress(OSError):  # another process was quicker, or it is not ours to remove
+    with suppress(OSError):  # another process has removed the file, or the file may not be removed
         path.unlink()

@@ -42,7 +42,7 @@ VARIATION: Final = Variation(*arm(), *hand(), *rubbing(_RUBBING), *_hole())  # t
 class InsertionWorld(ArmWorld):
     """One world of the insertion bench, with the values drawn for it."""
 
-    clearance: float  # diameter of the hole over that of the pin's nose, m
+    clearance: float  # diameter of the hole minus diameter of the pin's nose, m
     chamfer: float  # width of the chamfer around the hole, m
     plate: tuple[float, float]  # displacement of the hole, x and y, m
 

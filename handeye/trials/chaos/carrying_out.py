@@ -25,8 +25,8 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.trials.assembly import brakes_hold
 from handeye.trials.chaos.schedule import Answer, Break, Schedule
 
-POLL: Final = 0.01  # s between two looks at what a process has written
-LIMIT: Final = 300.0  # s after which a process is taken to hang
+POLL: Final = 0.01  # s between two checks of what a process has written
+LIMIT: Final = 300.0  # s after which a process counts as hanging
 
 
 class ReachedPosition(StopCondition, frozen=True, kw_only=True):

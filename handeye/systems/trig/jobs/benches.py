@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 ArmName = Literal["none", "purbrick"]
 JobName = Literal["palletise", "bucket"]
 MOST_BLOCKS = 20  # blocks in the palletiser's stack, limited by the arm's reach
-_LONGEST = 100_000  # characters of a script; the paper's have a thousand
+_LONGEST = 100_000  # characters of a script; the paper's scripts have about a thousand
 
 
 class SeenTable(Tabletop):

@@ -102,7 +102,7 @@ def _step_faults(node: Node, positions: Positions) -> Iterator[str]:
 VERSION: Final = 1
 ENDING: Final = ".trig.json"
 TRIG_FILE: Final = Kind(name="TRIG program", begins=rb'\s*\{\s*"trig"', ending=ENDING)
-LARGEST: Final = 20_000_000  # bytes: ten thousand steps take five million
+LARGEST: Final = 20_000_000  # bytes; a program of ten thousand steps takes five million
 UNITS: Final = {"length": "mm", "angle": "deg", "force": "oz"}
 _MAX_MEASURE: Final = 1e9  # mm, degrees or ounces
 Read = TypeVar("Read")

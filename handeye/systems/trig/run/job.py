@@ -158,7 +158,7 @@ def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
     undoing, done = state.turn is not None, len(system.executed)
     steps = done if state.turn is None else state.turn.steps - done
     ran = RunResult(steps=steps, end=_end(pause, undoing=undoing), obstacle=state.obstacle)
-    if ran.end == "halted":  # no command of TRIG resumes it
+    if ran.end == "halted":  # TRIG has no command that resumes a job
         return _record(ran), f"{counted(steps, 'step')} {'undone' if undoing else 'done'}; interrupted"
     return _record(ran), told_run(ran, back=undoing)
 

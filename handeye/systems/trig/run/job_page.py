@@ -167,7 +167,7 @@ def _scatter(title: str, off: Sequence[Point], limit: float | None, panel: Point
 
 
 JOB, TAUGHT = ENTRY.files  # the job's account, and its program
-_LARGEST: Final = 1_000_000  # bytes: an account of twenty blocks takes ten thousand
+_LARGEST: Final = 1_000_000  # bytes; the account of a job with twenty blocks takes ten thousand
 _MAX_MEASURE: Final = 1e6  # mm and degrees
 
 

@@ -41,7 +41,7 @@ OVER_TRAY_M: Final = 0.12  # more than any part reaches below its origin
 
 _SMOOTH: Final = "bit.smooth"
 _CARD_HALF_M: Final = 0.08
-_FOREMOST: Final = 3  # priority in a contact, over all shapes of the scene
+_FOREMOST: Final = 3  # priority in a contact, higher than that of any shape in the scene
 METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
 """Stiffness of the end of a blocked hole. We measured that a thread drives its screw straight through a joint
 limit with MuJoCo's default stiffness.

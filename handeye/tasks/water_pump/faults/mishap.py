@@ -22,7 +22,7 @@ _STACK: Final = ("gasket", "top", "pin0", "pin1")
 class MishapState(Record, frozen=True, kw_only=True):
     """The state of a mishap: how long it has lasted, and whether it is over."""
 
-    seconds: float | None = None  # since it began; None: it has not
+    seconds: float | None = None  # since the mishap began; None: it has not begun
     place: tuple[float, float, float] | None = None
     """Position of the part (m) when the mishap began; None if the mishap concerns no part."""
     over: bool = False  # it has happened
@@ -78,7 +78,7 @@ class Mishap:
     over."""
 
     act: Callable[[Scene, MishapState], bool]
-    watched: str | None = None  # the part whose place at the beginning it needs, if any
+    watched: str | None = None  # the part whose position must be known when the mishap begins, if any
 
 
 MishapFault = PumpFault[Callable[[float], Mishap]]

@@ -10,7 +10,7 @@ from handeye.cell.hand import HandState, ScrewdriverState, SimulatedScrewdriver
 from handeye.cell.truth import Truth
 from handeye.tasks.stanford_cell.arm import ARM
 
-_ROUNDING: Final = 1e-9  # m and m/s: what a servo that has arrived adds up to
+_ROUNDING: Final = 1e-9  # m and m/s; rounding errors of a servo at its goal
 
 
 def commanded(truth: Truth) -> list[str]:

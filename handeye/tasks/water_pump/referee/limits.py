@@ -88,7 +88,7 @@ settle by up to .03 mm; a part without support falls.
 
 HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or touches something is nearer
 
-APART: Final = 3.0  # mm from where the run found a part: the next run must find what the arm puts back
+APART: Final = 3.0  # mm from where the run found a part: the next run must find the part there again
 APART_GASKET: Final = 6.0
 """Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket in
 its tray draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was
@@ -108,7 +108,7 @@ MERGED: Final = 0.1
 """Greatest distance (mm) between a clamped layer and the position in which its weld holds it. Screws that are
 tightened later press the layer away from there: by up to .030 mm in pumps that the arm has made.
 """
-MERGED_TURN: Final = 0.1  # deg, the same: up to .017
+MERGED_TURN: Final = 0.1  # deg, the same limit for rotation; up to .017 deg in pumps that the arm has made
 ALTERED: Final = 0  # parts; any difference counts, because building a scene again gives the same bytes
 FLOOR: Final = -5.0  # mm, height relative to the table top: no part may be lower
 PENETRATION: Final = (

@@ -27,7 +27,7 @@ class Light:
     """The lamp that lights the work, and the ambient light of the room."""
 
     zenith: float  # rad from the vertical
-    azimuth: float  # rad from table x: where the light comes from
+    azimuth: float  # rad from table x, direction from which the light comes
     strength: float
     ambient: float
 
@@ -61,7 +61,7 @@ class PumpWorld(ArmWorld):
     camera: CameraErrors
     light: Light
     fixtures: dict[str, Placing]  # error of each fixture
-    parts: dict[str, Placing]  # error of each part's place on its fixture, by its body; pins have none
+    parts: dict[str, Placing]  # error of each part's place on its fixture, by body; pins have no error
     holes: dict[str, tuple[Point, ...]]
     """Errors (m) of the screw holes of each part in DRILLED, by the name of the part. In the base, these are the
     tapped holes.
