@@ -116,7 +116,7 @@ def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
 @dataclass(slots=True)
 class _Walk:
     found: list[Stage] = field(default_factory=list)
-    _done: list[str] = field(default_factory=list)  # begun and not undone stages, the latest one last
+    _done: list[str] = field(default_factory=list)  # stages begun and not undone, the latest one last
     _begun: float | None = None  # when the present stage began or was re-entered; None between stages
     _back: bool = False
 
