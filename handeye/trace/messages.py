@@ -164,8 +164,8 @@ def _disc(mark: Disc, taken: int) -> CircleAnnotation:
 
 
 def _point(point: Point) -> Point2:
-    """Convert a point of a picture to the message's coordinates. Their origin is the corner of the first pixel;
-    the origin of our points is its centre.
+    """Convert a point of a picture to the message's coordinates. The message's origin is the corner of the first
+    pixel; the origin of our points is the pixel's centre.
     """
     u, v = point
     return Point2(x=u + 0.5, y=v + 0.5)

@@ -1,7 +1,7 @@
 """The insertion bench: inserts one pin into one hole, in many worlds and with many position errors of the hole.
 
-A trial begins when the hand holds the pin above the hole. It consists of search, insertion and check. The pin is
-fetched once per world. Several trials start from this state, each with a different position error of the hole.
+A trial begins when the hand holds the pin above the hole. The trial consists of search, insertion and check. The pin
+is fetched once per world. Several trials start from this state, each with a different position error of the hole.
 """
 
 import math
@@ -70,8 +70,8 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def step(self) -> float:
-        """Distance between neighbouring search places (in). It is chosen so that the pin still enters the hole
-        from the worst point between four places."""
+        """Distance between neighbouring search places (in). The distance is chosen so that the pin still enters
+        the hole from the worst point between four places."""
         caught = bench().caught(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
         return max(1, math.floor(_STEP_SHARE * math.sqrt(2) * caught / INCH / _PLACE)) * _PLACE
 

@@ -2,7 +2,7 @@
 
 Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each
 picture slightly, so the part is compared with its surroundings. Its shift relative to them is measured in fractions
-of a point, and other differences appear as changed points. This is our addition.
+of a point, and other differences appear as changed points. This comparison is our addition to the vision of 1973.
 """
 
 from typing import Final
@@ -32,7 +32,7 @@ DIFFERENT: Final = 1.6
 changed.
 
 The noise of two pictures gives a mean of .3 (median of 17,500 squares). If the pump is at rest, or was pushed by
-up to .15 mm, the greatest square of a pair of pictures has a median of .88. Its maximum was 1.06 in 90 pairs (seed
+up to .15 mm, the greatest square of a pair of pictures has a median of .88. The maximum was 1.06 in 90 pairs (seed
 15, OpenGL), and 1.08 in 36 pairs by ray casting. The greatest of many values has a Gumbel distribution, here of
 location .86 and scale .05, so the limit is reached once in a million pairs. A screw whose head is missing gives
 3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so most such screws are missed; a screw behind the

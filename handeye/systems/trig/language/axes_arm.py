@@ -33,9 +33,9 @@ taught with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm w
 grasped that much too high.
 """
 AGAIN: Final = 1.5
-"""Permitted force during a reversal, as a multiple of the force met in the move itself. It is the same as for the
-pump. When a hand that has pressed an object onto a support rises, the sensed force changes by about the force met in
-the move.
+"""Permitted force during a reversal, as a multiple of the force met in the move itself. The factor is the same as for
+the pump. When a hand that has pressed an object onto a support rises, the sensed force changes by about the force met
+in the move.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 

@@ -1,8 +1,8 @@
 """Runs the steps of a program, forwards and backwards.
 
 A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the last
-step first, regardless of later edits and of the cursor. It brings the arm back to the start of each move, the hand
-to its earlier state, and positions and counts to their old values. Where the hand closed on an object or let it
+step first, regardless of later edits and of the cursor. A reversal brings the arm back to the start of each move, the
+hand to its earlier state, and positions and counts to their old values. Where the hand closed on an object or let it
 go, the fingers must have the same gap again. An object that was taken up must find support again. An object that a
 guarded step met must still be there.
 """

@@ -1,4 +1,4 @@
-"""Palletising trials: in many worlds, a job is taught, executed, reversed and judged. It is executed either
+"""Palletising trials: in many worlds, a job is taught, executed, reversed and judged. The job is executed either
 completely or until an interruption.
 """
 
