@@ -33,7 +33,9 @@ class HandlingLimits:
     open: float  # goal that opens the hand, m between the fingers; `closed` likewise
     closed: float
     grasping: float  # s to wait after a goal of the hand
-    carried: float  # N, upwards on the finger; a greater force shows that something else carries the held object
+    carried: (
+        float  # N, upwards on the finger; a greater force shows that something else carries the held object
+    )
     resistance: float  # N, on the finger; a greater force on the way back shows an obstacle
 
 

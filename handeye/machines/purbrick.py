@@ -29,7 +29,14 @@ PURBRICK: Final = ArmMachine(
     force=Channel(name="force", unit="N", width=3),
     force_sensor="strain",
     limits=HandlingLimits(
-        acceleration=(0.8, 0.8, 0.8, 10.0, 10.0, 10.0),  # at 1.2 m/s2, a stack of 20 blocks, 30 mm wide, falls over
+        acceleration=(
+            0.8,
+            0.8,
+            0.8,
+            10.0,
+            10.0,
+            10.0,
+        ),  # at 1.2 m/s2, a stack of 20 blocks, 30 mm wide, falls over
         guarded_speed=(0.015, 0.015, 0.015, 0.2, 0.2, 0.2),
         settling=0.15,
         standing=(*3 * (1e-3,), *3 * (1e-2,)),  # 100 N push the platter's servo this far

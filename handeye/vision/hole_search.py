@@ -107,7 +107,10 @@ def wrapped(angle: float) -> float:
 
 
 ELONGATION: Final = (0.6, 1.65)
-SIZES: Final = (0.55, 1.3)  # limits of accepted sizes, as multiples of the smallest and of the largest diameter
+SIZES: Final = (
+    0.55,
+    1.3,
+)  # limits of accepted sizes, as multiples of the smallest and of the largest diameter
 SEED: Final = 4  # points inside the border where bouncing starts
 
 # All figures above: vision study, sections 1.2 and 1.3.

@@ -8,7 +8,9 @@ from typing import Final, NamedTuple
 from handeye.systems.trig.language.graph import NONE, TOP, Graph, Node
 from handeye.systems.trig.language.place import Place, Positions
 
-REMEMBERED: Final = 100_000  # steps that can be reversed, enough for a night of palletising; older steps are forgotten
+REMEMBERED: Final = (
+    100_000  # steps that can be reversed, enough for a night of palletising; older steps are forgotten
+)
 
 NOWHERE: Final = Place()
 
