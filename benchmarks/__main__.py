@@ -355,6 +355,32 @@ def breaking(
     return 0 if good == len(verdicts) else 1
 
 
+@app.command
+def turns(
+    before: Path,
+    after: Path,
+    checkpoint: Path,
+    /,
+    *,
+    stages: Annotated[WholeNumber, Parameter(help="Number of stages; 0: all that are left.")] = 0,
+) -> int:
+    """Run the same stages in two checkouts in turn, from a kept checkpoint, and compare cost and bytes.
+
+    For each stage: CPU seconds in both, and the ratios of CPU seconds a simulated second (work, physics, rest).
+
+    Exit code 0: the same bytes; 1: other bytes.
+    """
+    from benchmarks.turns import lines, pairs
+
+    done = []
+    for pair in pairs(before, after, checkpoint, stages or None):
+        done.append(pair)
+        notes.print(f"{pair[0].stage}: done")
+    for line in lines(done):
+        say(line, whole=True)
+    return 0 if all(first.digest == second.digest for first, second in done) else 1
+
+
 def _tell(comparisons: Sequence[Comparison], json: bool) -> None:
     """Print what was measured."""
     for comparison in comparisons:
