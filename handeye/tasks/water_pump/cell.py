@@ -7,7 +7,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera, make_renderer
 from handeye.cell.hand import SimulatedHand, SimulatedLamp, SimulatedScrewdriver
-from handeye.cell.physics_stepper import Carrying, PhysicsStepper
+from handeye.cell.physics_stepper import Carrying
 from handeye.cell.rendering import RendererMaker
 from handeye.cell.signal_lines import SignalLines
 from handeye.cell.simulated import SimulatedCell
@@ -15,6 +15,7 @@ from handeye.cell.threads import THREAD_FRICTION, ThreadFigures, Threads
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import PARK
 from handeye.tasks.water_pump.clamping import Clamping
+from handeye.tasks.water_pump.clear_shanks import ClampedStepper
 from handeye.tasks.water_pump.faults.before import bad_threads, slipping_screws
 from handeye.tasks.water_pump.faults.devices import defects
 from handeye.tasks.water_pump.faults.during import Mishaps, due
@@ -53,6 +54,7 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
         slipping=slipping_screws(faults, len(world.thread_phase)),
     )
     threads = Threads(model, data, driver, figures, lines)
+    clamping = Clamping(model, data, threads, allowed=rest)
     mishaps = (Mishaps(Scene(model, data, threads), faults),) if due(faults) else ()
     return SimulatedCell(
         model,
@@ -64,9 +66,9 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
         camera=SimulatedCamera(
             data, world.camera, world.generator("camera"), make_renderer(camera, model), DRAWING, lines
         ),
-        mechanisms=(*mishaps, threads, Clamping(model, data, threads, allowed=rest)),
+        mechanisms=(*mishaps, threads, clamping),
         lines=lines,
-        stepper=PhysicsStepper(model, data, carrying(world.screws)),
+        stepper=ClampedStepper(model, data, carrying(world.screws), clamping, world.screws),
         noise=noise,
     )
 

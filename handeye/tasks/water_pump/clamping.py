@@ -30,8 +30,8 @@ SCREWS: Final = 2
 CLAMP: Final = 40.0  # N per screw: two screws hold 16 N sideways if the friction is .2. Our choice.
 
 _MOTORED: Final = ("base", "driver")
-_LAYERS: Final = ("gasket", "top")
-WELDS: Final = tuple(f"merge_{layer}" for layer in _LAYERS)
+LAYERS: Final = ("gasket", "top")
+WELDS: Final = tuple(f"merge_{layer}" for layer in LAYERS)
 _LANDS: Final = (64, 128)  # contact bits of the lands of gasket and top; scenes/water_pump/workcell.xml
 
 
@@ -55,7 +55,7 @@ class Clamping(Mechanism[ClampingState]):
         same, but the simulation is slower."""
         self._model, self._data, self._threads, self._allowed = model, data, threads, allowed
         self._base = model.body("base").id
-        self._layers = [model.body(name).id for name in _LAYERS]
+        self._layers = [model.body(name).id for name in LAYERS]
         self._welds = [model.equality(name).id for name in WELDS]
         self._lands = lands_of(model)
         self._friction = float(model.geom_friction[self._lands, 0].max())
@@ -86,6 +86,11 @@ class Clamping(Mechanism[ClampingState]):
         elif self._clamped and not clamped:
             self.release(self._model, self._data)
         self._clamped = clamped
+
+    @property
+    def clamped(self) -> bool:
+        """True if welds hold the layers."""
+        return self._clamped
 
     def state(self) -> ClampingState:
         return ClampingState(clamped=self._clamped)

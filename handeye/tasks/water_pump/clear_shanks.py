@@ -1,0 +1,61 @@
+"""Saves computing time: shanks that are clear of the holes in clamped layers are left out of the search for contacts.
+
+A screw passes through gasket and top with .7 mm of play. The simulator cannot know that: it compares each shank with
+the twelve wedges around each hole, which takes a fifth of the computing time of a clamped stack, and finds nothing.
+Welds hold clamped layers to within some micrometres. So a shank that is clear of both holes when a servo period
+begins touches neither during that period, and leaving it out changes no number of the simulation.
+"""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.physics_stepper import Carrying, PhysicsStepper
+from handeye.tasks.water_pump.clamping import LAYERS, Clamping
+
+MARGIN: Final = 1e-4
+"""Distance (m) between a shank and a hole from which on the shank is left out. Chosen; welds give by micrometres."""
+
+
+class ClampedStepper(PhysicsStepper):
+    """Advances the physics of the pump's cell. In short steps it leaves out the shanks that touch no hole."""
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying, clamping: Clamping, screws: int
+    ) -> None:
+        super().__init__(model, data, carrying)
+        self._clamping, self._base = clamping, model.body("base").id
+        self._shanks = np.array([model.geom(f"shank{k}").id for k in range(screws)])
+        holes = [[model.site(f"{layer}_hole{k}").id for k in range(screws)] for layer in LAYERS]
+        self._mouths = np.array(holes)  # sites, (layers, screws)
+        self._radii = model.geom_size[self._shanks, 0].copy()
+        self._play = model.site_size[self._mouths, 0] - self._radii - MARGIN
+        depths = model.site_pos[self._mouths, 2]  # m; the origin of a layer is in its underside
+        self._ends = np.stack([np.zeros_like(depths), -depths])  # of the holes, above their mouths
+
+    def _closely(self, steps: int) -> None:
+        if not (self._clamping.clamped and self._data.body_awake[self._base]):
+            super()._closely(steps)
+            return
+        affinity, clear = self._model.geom_conaffinity, self._clear()
+        kept = affinity[clear]
+        affinity[clear] = 0
+        try:
+            super()._closely(steps)
+        finally:
+            affinity[clear] = kept
+
+    def _clear(self) -> NDArray[np.intp]:
+        """Return the geoms of the shanks whose axes pass through the holes of both layers with play to spare."""
+        data, mouths = self._data, self._mouths
+        up = data.site_xmat[mouths][..., 2::3]  # axes of the holes, (layers, screws, 3)
+        along = data.geom_xmat[self._shanks][:, 2::3]
+        upright = (up * along).sum(axis=-1)
+        apart = data.geom_xpos[self._shanks] - data.site_xpos[mouths]
+        way = (self._ends - (up * apart).sum(axis=-1)) / upright  # along the shank to both ends of a hole
+        aside = apart + way[..., np.newaxis] * along - self._ends[..., np.newaxis] * up
+        wider = self._radii * (1 / np.abs(upright) - 1)
+        clear = (np.sqrt((aside * aside).sum(axis=-1)) + wider < self._play).all(axis=(0, 1))
+        return np.asarray(self._shanks[clear])
