@@ -88,7 +88,6 @@ def test_an_error_stops_the_program_with_exit_code_1(handeye: Command, program: 
         (("--left", "11"), "has no statement 11"),
         (("--seed", "3"), "--seed applies only to `--arm rectilinear`"),
         (("--arm", "rectilinear", "--sense", "8=1200"), "--sense applies only to `--arm none`"),
-        (("--arm", "rectilinear", "--left", "10"), "--left applies only to `--arm none`"),
         (("--arm", "purbrick"), "--arm"),
     ],
 )
@@ -127,7 +126,7 @@ def test_a_symbolic_program_is_assembled_into_a_file(handeye: Command, tmp_path:
 
 def test_both_arms_run_at_once(handeye: Command, program: Path) -> None:
     program.write_text(
-        "10 DMOTOR 3 1000\n20 PRINT 1\n30 STOP\n100 DMOTOR 3 12000\n110 PRINT 2", encoding="utf-8"
+        "10 DMOTOR 3 1000\n20 PRINT 1\n30 STOP\n100 DMOTOR 9 12000\n110 PRINT 2", encoding="utf-8"
     )
     code, out, _ = handeye("ml", "run", program, "--left", "100", "--no-keep")
     assert code == 0

@@ -81,17 +81,17 @@ def test_absent_motors_are_found_before_the_program_runs(text: str) -> None:
     ("text", "left", "found"),
     [
         ("10 MOTOR 3 100\n20 STOP\n100 MOTOR 12 5", 100, ["M09"]),
-        ("10 MOTOR 3 100\n20 STOP\n100 MOTOR 3 12000\n110 MOTOR 2 7000", 100, ["M10"]),
-        ("10 MOTOR 3 12000\n20 STOP\n100 MOTOR 3 12000", 100, ["M10"]),
-        ("10 LEFT\n20 MOVE 0 0 12000\n30 RIGHT\n40 MOVE 0 0 12000", None, ["M10"]),
+        ("10 MOTOR 3 100\n20 STOP\n100 MOTOR 9 12000\n110 MOTOR 2 7000", 100, ["M10"]),
+        ("10 MOTOR 9 12000\n20 STOP\n100 MOTOR 9 12000", 100, ["M10"]),
+        ("10 LEFT\n20 MOVE 0 0 0 0 0 0 0 0 12000\n30 RIGHT\n40 MOVE 0 0 0 0 0 0 0 0 12000", None, ["M10"]),
         ("10 LEFT\n20 MOVE 5 0 0 0\n30 GETPOS 1 12\n40 HAND 50 0\n50 DHAND 50 0", None, ["M09"] * 3),
         (
-            "10 GOSUB 100\n20 LEFT\n30 GOSUB 100\n40 STOP\n100 MOTOR 3 12000\n110 MOTOR 1 50\n120 RETURN",
+            "10 GOSUB 100\n20 LEFT\n30 GOSUB 100\n40 STOP\n100 MOTOR 9 12000\n110 MOTOR 1 50\n120 RETURN",
             None,
             [],
         ),
-        ("10 GOSUB 100\n20 LEFT\n30 GOSUB 100\n40 STOP\n100 MOTOR 3 17000\n120 RETURN", None, ["M10"]),
-        ("10 STOP\n100 MOTOR 3 12000", None, []),  # a program for a left arm, perhaps
+        ("10 GOSUB 100\n20 LEFT\n30 GOSUB 100\n40 STOP\n100 MOTOR 9 17500\n120 RETURN", None, ["M10"]),
+        ("10 STOP\n100 MOTOR 9 12000", None, []),  # a program for a left arm, perhaps
     ],
 )
 def test_motors_and_goals_are_those_of_the_arm_that_a_statement_commands(

@@ -220,8 +220,8 @@ def test_an_emergency_of_an_arm_whose_program_has_ended_is_reported() -> None:
 
 @pytest.mark.ml_row(43)
 def test_an_arm_waits_for_its_motion_though_the_program_of_the_other_ends() -> None:
-    runner = ran("10 MOTOR 3 8000\n20 GETPOS 1 3\n30 PRINT &1\n40 STOP\n100 MOTOR 3 100", first=100, left=10)
-    assert printed(runner) == ["8000"]
+    runner = ran("10 MOTOR 3 7000\n20 GETPOS 1 3\n30 PRINT &1\n40 STOP\n100 MOTOR 3 100", first=100, left=10)
+    assert printed(runner) == ["7000"]
     assert runner.finish()
 
 

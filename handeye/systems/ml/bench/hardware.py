@@ -10,6 +10,7 @@ from handeye.core.units import MILLIMETRES
 from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
 from handeye.systems.ml.bench.arm import AXES
+from handeye.systems.ml.bench.left_arm import add_left_arm
 from handeye.systems.ml.bench.station import CAMERA, Station, scene
 from handeye.systems.ml.bench.world import ALONE, ArmWorld
 from handeye.systems.ml.run.hardware import Hardware, StationTask, Tell
@@ -43,7 +44,7 @@ class StationHardware(Hardware):
         return self._arm.servo_period
 
     def signal(self, interlock: str, *, on: bool) -> None:
-        self._arm.signal(interlock, on=on)
+        self.station.signal(interlock, on=on)
 
 
 class ArmTask(StationTask):
@@ -66,9 +67,22 @@ class ArmTask(StationTask):
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         return scene(self.world(spec)).compile()
 
+    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
+        from handeye.systems.ml.run.plan import decode
+
+        two = decode(plan, "the plan of the run").left is not None
+        return self._alone(self.world(spec), two=two).compile() if two else self.scene(spec)
+
     def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
-        errors = self.world(world)
-        return StationHardware(Station(scene(errors), errors), tell)
+        errors, two = self.world(world), plan.left is not None
+        return StationHardware(Station(self._alone(errors, two=two), errors, left=two), tell)
+
+    def _alone(self, world: ArmWorld, *, two: bool) -> mujoco.MjSpec:
+        """Return the scene of the arm over an empty table, or of both arms."""
+        spec = scene(world)
+        if two:
+            add_left_arm(spec)
+        return spec
 
     def judge(self, truth: Truth) -> Findings:
         return {}

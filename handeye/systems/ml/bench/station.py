@@ -1,4 +1,4 @@
-"""A work station: the rectilinear arm in a scene, with its tools and all that a job adds."""
+"""A work station: the rectilinear arm in a scene, with its tools, all that a job adds, and perhaps the left arm."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
@@ -10,10 +10,14 @@ from handeye.cell.bench_axes import BenchOutputs
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.snapshot_cell import SnapshotCell
 from handeye.core.resources import scenes
+from handeye.ports.axes import Axes, Outputs
 from handeye.program.events import SystemEvent
 from handeye.systems.ml.bench.faults import arm_of
+from handeye.systems.ml.bench.left_arm import LeftArm
 from handeye.systems.ml.bench.world import ArmWorld
-from handeye.systems.ml.machine.rectilinear import RIGHT
+from handeye.systems.ml.level import Side
+from handeye.systems.ml.machine.rectilinear import LEFT, RIGHT
+from handeye.systems.ml.machine.spec import ArmSpec
 from handeye.systems.ml.realtime.machine import Machine
 
 SCENE: Final = "rectilinear_arm/rectilinear_arm.xml"
@@ -48,6 +52,7 @@ class Station:
         at: Mapping[int, float] | None = None,
         tools: Mapping[str, Callable[[float], None]] | None = None,
         others: Sequence[Mechanism[Any]] = (),
+        left: bool = False,
     ) -> None:
         """Put the arm in a scene. Its pump is off.
 
@@ -55,12 +60,14 @@ class Station:
             at: positions at which motors begin, by the numbers of the motors (ML units). All others begin at 0.
             tools: functions that switch the tools of the station, by the names of the tools. Other tools do nothing.
             others: mechanisms of a job that do not act as time passes.
+            left: True if the scene also has the left arm.
         """
         self.bench = Bench(spec.compile())
         _stand(self.bench, at or {})
         self.arm = arm_of(self.bench, world)
         switched = dict.fromkeys(RIGHT.tools, _nothing) | dict(tools or {})
         self.outputs = BenchOutputs(self.bench, "outputs", switched)
+        self.left = (LeftArm(self.bench), BenchOutputs(self.bench, "left_outputs", {})) if left else None
         self.others: Sequence[Mechanism[Any]] = others
         self._load = int(self.bench.model.sensor(TABLE).adr[0])
         self.bench.after_step.append(self._fuse)
@@ -74,7 +81,16 @@ class Station:
 
     def machine(self, tell: Callable[[SystemEvent], None] = lambda _: None) -> Machine:
         """Return the machine of the station, with a new real-time level."""
-        return Machine({"right": (RIGHT, self.arm, self.outputs)}, self.bench, tell)
+        arms: dict[Side, tuple[ArmSpec, Axes, Outputs]] = {"right": (RIGHT, self.arm, self.outputs)}
+        if self.left is not None:
+            arms["left"] = (LEFT, *self.left)
+        return Machine(arms, self.bench, tell)
+
+    def signal(self, interlock: str, *, on: bool) -> None:
+        """Switch the signal of an interlock for all arms, as a person or a device of the room does."""
+        self.arm.signal(interlock, on=on)
+        if self.left is not None:
+            self.left[0].signal(interlock, on=on)
 
     def cell(self) -> SnapshotCell:
         """Return the station as a cell whose state can be captured, restored and judged."""

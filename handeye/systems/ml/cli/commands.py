@@ -56,7 +56,8 @@ def run(
         WholeNumber | None,
         Parameter(
             help="The statement at which the program of the left arm begins. The programs of both arms run at the same "
-            "time. Default: there is no left arm."
+            "time. With `--arm rectilinear`, the left arm is a Purbrick arm beside the right one. Default: there is no "
+            "left arm."
         ),
     ] = None,
     sense: Annotated[
@@ -79,7 +80,7 @@ def run(
     from handeye.systems.ml.run.plan import MlPlan, sound
 
     check_kept(options.no_keep, options.out)
-    check_machine(arm, seed=seed, left=left, sense=sense)
+    check_machine(arm, seed=seed, sense=sense)
     stimuli = tuple(sensed(each) for each in sense or ())
     source = read_source(file)
     if not reported(source, first=first, left=left):
@@ -91,15 +92,13 @@ def run(
     return carry_out_run(setup, options, (Printer(note if options.json else say),), judged=judged)
 
 
-def check_machine(arm: ArmName, *, seed: int, left: int | None, sense: list[str] | None) -> None:
+def check_machine(arm: ArmName, *, seed: int, sense: list[str] | None) -> None:
     """Raise BadArgument if an option does not apply to the machine of the run."""
     if arm == "none":
         if seed:
             raise BadArgument("--seed applies only to `--arm rectilinear`: perfect motors have no errors")
     elif sense:
         raise BadArgument("--sense applies only to `--arm none`: the rectilinear arm has sensors of its own")
-    elif left is not None:
-        raise BadArgument("--left applies only to `--arm none`: the rectilinear machine has only one arm")
 
 
 Printer = partial(LinePrinter, Printed)

@@ -64,7 +64,7 @@ def view(
                 f"{program}: there is no such file, and no job of that name; jobs are {', '.join(PROGRAMS)}"
             )
         machine: ArmName = arm or "none"
-        check_machine(machine, seed=seed, left=None, sense=sense)
+        check_machine(machine, seed=seed, sense=sense)
         source = read_source(file)
         if not reported(source, first=None, left=None):
             return 2

@@ -92,18 +92,18 @@ def axes_of(arm: ArmSpec, holding: tuple[str, ...] = _HOLDING) -> tuple[AxisSpec
 LEFT: Final = ArmSpec(
     side="left",
     motors=(
-        MotorSpec(number=2, axis="z", lower=-6000, upper=6000, peak=1200, output=1),
-        MotorSpec(number=3, axis="y", lower=-16_000, upper=16_000, peak=2400, output=2),
-        MotorSpec(number=4, axis="x", lower=-8000, upper=8000, peak=2400, output=3),
-        MotorSpec(number=8, axis="roll", unit=ROTARY, lower=-18_000, upper=18_000, peak=4500, output=4),
-        MotorSpec(number=9, axis="yaw", unit=ROTARY, lower=-9000, upper=9000, peak=4500, output=5),
-        MotorSpec(number=10, axis="pitch", unit=ROTARY, lower=-9000, upper=9000, peak=4500, output=6),
+        MotorSpec(number=2, axis="z", lower=-5905, upper=5905, peak=1200, output=1),
+        MotorSpec(number=3, axis="y", lower=-7874, upper=7874, peak=2400, output=2),
+        MotorSpec(number=4, axis="x", lower=-7874, upper=7874, peak=2400, output=3),
+        MotorSpec(number=8, axis="roll", unit=ROTARY, lower=-17_000, upper=17_000, peak=4500, output=4),
+        MotorSpec(number=9, axis="yaw", unit=ROTARY, lower=-17_000, upper=17_000, peak=4500, output=5),
+        MotorSpec(number=10, axis="pitch", unit=ROTARY, lower=-17_000, upper=17_000, peak=4500, output=6),
         MotorSpec(
             number=11,
             axis="opening",
             unit=LINEAR,
             lower=0,
-            upper=round(50 * MILLIMETRE / LINEAR),
+            upper=round(48 * MILLIMETRE / LINEAR),
             peak=1000,
             output=7,
         ),
@@ -114,4 +114,6 @@ LEFT: Final = ArmSpec(
     wand=(1, 1),
     every=2,
 )
-"""A left arm of very dissimilar design: fewer motors, other travels, half the speed, and a period of two cycles."""
+"""A left arm of very dissimilar design, the Purbrick arm: fewer motors, other travels, lower speeds, and a period of
+two cycles.
+"""

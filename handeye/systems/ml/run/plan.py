@@ -96,10 +96,8 @@ def sound(plan: MlPlan) -> None:
             raise BadFile(f"{plan.name} has no statement {number}")
     if plan.arm != "none" and (plan.stimuli or plan.outline):
         raise BadFile(f"{plan.name} has stimuli or an outline, which apply only to perfect motors")
-    if plan.arm != "none" and plan.left is not None:
-        raise BadFile(
-            f"{plan.name} has a program for the left arm, but the rectilinear machine has only one arm"
-        )
+    if plan.job and plan.left is not None:
+        raise BadFile(f"{plan.name} has a program for the left arm, but no job has a left arm")
     channels = {source.channel for source in RIGHT.analog.values()}
     channels |= {name for names in (*RIGHT.digital.values(), RIGHT.interlocks) for name in names}
     for stimulus in plan.stimuli:
