@@ -22,6 +22,7 @@ trials train = handeye.systems.ml.cli.toys:train_trials: Couple a toy train by t
 trials support = handeye.systems.ml.cli.support:support_trials: Assemble the rail support in many worlds: success rate, depths, forces.
 trials orient = handeye.systems.ml.cli.parts:orient_trials: Turn a bar into a known attitude by touch in many worlds: success rate, errors.
 trials bin = handeye.systems.ml.cli.parts:bin_trials: Take parts out of a bin and judge them by touch in many worlds: success rate.
+trials typewriter = handeye.systems.ml.cli.support:typewriter_trials: Take a bar out of a bin, orient it, and assemble the rail support with it: success rate.
 """,  # noqa: E501 - a command a line
     tasks={
         "ml": "handeye.systems.ml.run.task:ML_TASK",
@@ -32,6 +33,7 @@ trials bin = handeye.systems.ml.cli.parts:bin_trials: Take parts out of a bin an
         "support": "handeye.systems.ml.support.task:SUPPORT",
         "orient": "handeye.systems.ml.orient.task:ORIENT",
         "bin": "handeye.systems.ml.bin.task:BIN",
+        "typewriter": "handeye.systems.ml.typewriter.task:TYPEWRITER",
     },
     languages={
         ".ml": "handeye.systems.ml.language.language:LANGUAGE",
@@ -44,6 +46,7 @@ trials bin = handeye.systems.ml.cli.parts:bin_trials: Take parts out of a bin an
         "support": "handeye.systems.ml.run.job_trials:SUPPORT_TRIALS",
         "orient": "handeye.systems.ml.run.job_trials:ORIENT_TRIALS",
         "bin": "handeye.systems.ml.run.job_trials:BIN_TRIALS",
+        "typewriter": "handeye.systems.ml.run.job_trials:TYPEWRITER_TRIALS",
     },
     faults="handeye.systems.ml.run.fault_trials:fault_trials",
     events="handeye.systems.ml.happenings:EVENTS",

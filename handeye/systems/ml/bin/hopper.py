@@ -7,7 +7,9 @@ import mujoco
 
 from handeye.systems.ml.bench.bars import turned
 from handeye.systems.ml.machine.spec import LINEAR
+from handeye.tasks.stanford_cell.screws import Place
 
+ORIGIN: Final = Place(0, 0)
 FLOOR: Final = 0.002  # m: height of the flat middle of the hopper over the table
 HALF: Final = 0.048  # m: half the side of the flat middle
 SLOPE: Final = radians(25)  # rad: slope of the hopper's four sides
@@ -20,11 +22,11 @@ _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
-def add_hopper(spec: mujoco.MjSpec, friction: float) -> None:
-    """Add the hopper at the place that the hand has when the x and y slides are at 0. For a part that slides in the
-    hopper, the friction of the hopper counts, not the part's own.
+def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN) -> None:
+    """Add the hopper at a place of the scene (m). For a part that slides in the hopper, the friction of the hopper
+    counts, not the part's own.
     """
-    hopper = spec.worldbody.add_body(name="hopper")
+    hopper = spec.worldbody.add_body(name="hopper", pos=[*place, 0])
 
     def plate(size: list[float], pos: list[float], quat: list[float]) -> None:
         hopper.add_geom(
@@ -52,10 +54,15 @@ def add_hopper(spec: mujoco.MjSpec, friction: float) -> None:
 def add_boxes(spec: mujoco.MjSpec) -> None:
     """Add the boxes for good and for bad parts."""
     for name, x in BOXES.items():
-        box = spec.worldbody.add_body(name=f"{name}_box", pos=[x * LINEAR, 0, 0])
-        for way in (-1, 1):
-            for size, pos in (
-                ([_THIN, BOX, _HIGH / 2], [way * (BOX + _THIN), 0, _HIGH / 2]),
-                ([BOX, _THIN, _HIGH / 2], [0, way * (BOX + _THIN), _HIGH / 2]),
-            ):
-                box.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=pos, rgba=_COLOURS[name], group=1)
+        add_bin_box(spec, name, Place(x * LINEAR, 0))
+
+
+def add_bin_box(spec: mujoco.MjSpec, name: str, place: Place) -> None:
+    """Add the box for good or for bad parts at a place of the scene (m)."""
+    box = spec.worldbody.add_body(name=f"{name}_box", pos=[*place, 0])
+    for way in (-1, 1):
+        for size, pos in (
+            ([_THIN, BOX, _HIGH / 2], [way * (BOX + _THIN), 0, _HIGH / 2]),
+            ([BOX, _THIN, _HIGH / 2], [0, way * (BOX + _THIN), _HIGH / 2]),
+        ):
+            box.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=pos, rgba=_COLOURS[name], group=1)

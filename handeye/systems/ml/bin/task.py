@@ -23,14 +23,16 @@ from handeye.systems.ml.bench.reporting import Printed, ReportingHardware
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.bin.faults import EMPTY, FAULTS, TROUBLES
-from handeye.systems.ml.bin.hopper import BOX, BOXES, RIM, add_boxes, add_hopper
+from handeye.systems.ml.bin.hopper import BOX, BOXES, ORIGIN, RIM, add_boxes, add_hopper
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.tasks.interface import Words
+from handeye.tasks.stanford_cell.screws import Place
 
 if TYPE_CHECKING:
     import mujoco
 
+    from handeye.cell.bench import Bench
     from handeye.cell.truth import Truth
     from handeye.core.pose import Array
     from handeye.systems.ml.run.plan import MlPlan
@@ -45,10 +47,10 @@ _STEEL: Final = 2.9  # weight of a steel part, as a multiple of that of an alumi
 LIGHT: Final = 0.5  # weight of a light part, as a share of a good one's
 _ASIDE: Final = 0.028  # m of the poured parts from the middle, along x and y
 _LAYER: Final = 0.055  # m from one layer of four parts to the next
+_SETTLING: Final = 2000  # steps of 1 ms
 _LOWEST: Final = 0.045  # m: height of the lowest layer over the table
-_WRONG, _SIZE, _FRICTION, _SMOOTH = "parts.wrong", "parts.size", "parts.friction", "hopper.friction"
-VARIATION: Final = Variation(
-    *ARM,
+_WRONG, _SIZE, _FRICTION, SMOOTH = "parts.wrong", "parts.size", "parts.friction", "hopper.friction"
+PARTS: Final = (
     quantity(
         _WRONG,
         "",
@@ -59,7 +61,7 @@ VARIATION: Final = Variation(
     quantity(_SIZE, "mm", Noise(0.05), 0.2, "Standard deviation of a part's width. No source: our choice."),
     quantity(_FRICTION, "", Range(0.3, 0.4), 2.0, "Friction between parts. No source: our choice.", 0.35),
     quantity(
-        _SMOOTH,
+        SMOOTH,
         "",
         Range(0.10, 0.18),
         2.0,
@@ -68,6 +70,7 @@ VARIATION: Final = Variation(
         0.14,
     ),
 )
+VARIATION: Final = Variation(*ARM, *PARTS)
 
 
 class Poured(Record, frozen=True, kw_only=True):
@@ -124,26 +127,14 @@ class Bin(ArmTask):
     def station(self, parts: int, world: ArmWorld) -> Station:
         """Return the station with two boxes and a hopper, into which the parts fall when the simulation begins."""
         spec = scene(world, wand=False)
-        add_hopper(spec, world.value(_SMOOTH))
+        add_hopper(spec, world.value(SMOOTH))
         add_boxes(spec)
         if world.fault(EMPTY) is not None:
             parts = 0
-        qualities = tuple(_quality(world, number) for number in range(1, parts + 1))
-        places = product((_LOWEST + n * _LAYER for n in range(3)), (-1, 1), (-1, 1))
-        for number, (quality, (z, x, y)) in enumerate(zip(qualities, places, strict=False), 1):
-            wide = WIDE + world.normal(f"part_{number}.size", _SIZE) - NARROW * (quality == "narrow")
-            wide += _WIDER * (world.fault(f"part_{number}.wide") or 0.0)
-            heavy = _STEEL if world.fault(f"part_{number}.heavy") is not None else 1.0
-            turn = world.numbers(f"part_{number}.turned").standard_normal(4)
-            at = np.array([x * _ASIDE, y * _ASIDE, z])
-            add_bar(
-                spec, f"part_{number}", at, turn / np.linalg.norm(turn), world.value(_FRICTION), wide=wide,
-                density=DENSITY * heavy * (LIGHT if quality == "light" else 1.0),
-            )  # fmt: skip
-        return Station(spec, world, at={4: BOXES["good"]}, others=(Pile(Poured(qualities=qualities)),))
+        return Station(spec, world, at={4: BOXES["good"]}, others=(poured(spec, world, parts),))
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        return self.station(USUAL, self.world(spec)).bench.model
+        return settled(self.station(USUAL, self.world(spec)).bench)
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
         from handeye.systems.ml.run.plan import decode
@@ -175,6 +166,36 @@ class Bin(ArmTask):
                 "for either box, greatest difference between the printed number of parts and the true number",
             ),
         }  # fmt: skip
+
+
+def poured(spec: mujoco.MjSpec, world: ArmWorld, parts: int, place: Place = ORIGIN) -> Pile:
+    """Put parts above a hopper, into which they fall when time begins.
+
+    Args:
+        place: of the middle of the hopper in the scene (m).
+    """
+    qualities = tuple(_quality(world, number) for number in range(1, parts + 1))
+    places = product((_LOWEST + n * _LAYER for n in range(3)), (-1, 1), (-1, 1))
+    for number, (quality, (z, x, y)) in enumerate(zip(qualities, places, strict=False), 1):
+        wide = WIDE + world.normal(f"part_{number}.size", _SIZE) - NARROW * (quality == "narrow")
+        wide += _WIDER * (world.fault(f"part_{number}.wide") or 0.0)
+        heavy = _STEEL if world.fault(f"part_{number}.heavy") is not None else 1.0
+        turn = world.numbers(f"part_{number}.turned").standard_normal(4)
+        at = np.array([place.x + x * _ASIDE, place.y + y * _ASIDE, z])
+        add_bar(
+            spec, f"part_{number}", at, turn / np.linalg.norm(turn), world.value(_FRICTION), wide=wide,
+            density=DENSITY * heavy * (LIGHT if quality == "light" else 1.0),
+        )  # fmt: skip
+    return Pile(Poured(qualities=qualities))
+
+
+def settled(bench: Bench) -> mujoco.MjModel:
+    """Return the scene of a bench with its parts where they come to rest, for pictures."""
+    import mujoco
+
+    mujoco.mj_step(bench.model, bench.data, _SETTLING)
+    bench.model.qpos0[:] = bench.data.qpos
+    return bench.model
 
 
 def told(count: str) -> tuple[int, int]:

@@ -16,7 +16,7 @@ from handeye.core.files import check_new, write_whole
 from handeye.core.source import Source, read_source
 from handeye.systems.ml.cli.follow import follow
 from handeye.systems.ml.cli.parts import orient, take_from_bin
-from handeye.systems.ml.cli.support import support
+from handeye.systems.ml.cli.support import support, typewriter
 from handeye.systems.ml.cli.tables import tables
 from handeye.systems.ml.cli.touch import touch
 from handeye.systems.ml.cli.toys import blocks, train
@@ -124,7 +124,7 @@ def check(
 def assemble(
     file: Annotated[Path, Parameter(help="A symbolic program, `.sym`.")],
     /,
-    *,
+    *others: Annotated[Path, Parameter(help="Files that are assembled together with it, after it.")],
     out: Annotated[
         Path | None,
         Parameter(name=["--out", "-o"], help="File for the program in ML. Default: print the program."),
@@ -135,9 +135,9 @@ def assemble(
 
     Exit code 0: it was assembled; 2: bad input, or a program with errors.
     """
-    from handeye.systems.ml.language.assembler import assembled
+    from handeye.systems.ml.language.assembler import assembled, decks
 
-    source = read_source(file)
+    source = decks([file, *others])
     text, found = assembled(source)
     if not shown_without_errors(found, source):
         return 2
@@ -208,7 +208,9 @@ def _session(file: Path | None, *typed: str, left: bool = False) -> int:
     return converse(begin, "READY ", typed, echo=True)
 
 
-_COMMANDS: Final = (run, check, assemble, words, tables, view, touch, follow, blocks, train, support, orient)
+_COMMANDS: Final = (
+    run, check, assemble, words, tables, view, touch, follow, blocks, train, support, orient, typewriter,
+)  # fmt: skip
 ml.default(console)
 for _command in _COMMANDS:
     ml.command(_command)

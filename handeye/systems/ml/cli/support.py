@@ -1,5 +1,10 @@
 """The commands of the rail support, for one world and for many worlds."""
 
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import WholeNumber
 from handeye.cli.judged_jobs import ANY_FAULTY_RUN, FaultyJobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
@@ -45,3 +50,56 @@ def support_trials(
     return carry_out_trials(
         SUPPORT_TRIALS, job_plan("support"), n, seed, errors, options, title="the rail support"
     )
+
+
+Bars = Annotated[WholeNumber, Parameter(help="Number of bars in the bin, from 1 to 12.")]
+
+
+def typewriter(
+    *,
+    bars: Bars = 4,
+    seed: JobSeed = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: FaultyJobOptions = ANY_FAULTY_RUN,
+) -> int:
+    """Take a bar out of a bin, orient it, put it into the frame of the rail support, and assemble the support.
+
+    `plans/typewriter.sym` does in one program what `bin`, `orient` and `support` do: it takes bars out of the bin until
+    one is neither too narrow nor too light, learns the bar's attitude and place by touch, and puts it into the frame.
+    Then it runs on into `plans/support.sym`. A referee checks the 22 parts and the bar.
+
+    Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
+    input; 130: interrupted.
+    """
+    from handeye.systems.ml.bin.task import parts_of
+    from handeye.systems.ml.run.jobs import job_plan
+
+    parts_of(plan := job_plan("typewriter", str(bars)))
+    return carry_out(plan, seed, errors, options)
+
+
+def typewriter_trials(
+    *,
+    n: NumberOfWorlds = 10,
+    seed: FirstSeed = 0,
+    bars: Bars = 4,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: SweepOptions = ANY,
+) -> int:
+    """Take a bar out of a bin, orient it and assemble the rail support with it, in many worlds.
+
+    Each trial does what `handeye ml typewriter` does. Ctrl-C ends the batch and prints what has finished; with --out it
+    can be continued.
+
+    Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
+    the referee disagrees.
+    """
+    from handeye.systems.ml.bin.task import parts_of
+    from handeye.systems.ml.run.job_trials import TYPEWRITER_TRIALS
+    from handeye.systems.ml.run.jobs import job_plan
+
+    parts_of(plan := job_plan("typewriter", str(bars)))
+    return carry_out_trials(
+        TYPEWRITER_TRIALS, plan, n, seed, errors, options, title="the rail support with its bar",
+        again=f"--bars {bars}",
+    )  # fmt: skip

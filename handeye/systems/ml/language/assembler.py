@@ -7,14 +7,18 @@ sensors.
     AGAIN: SENSOR WAND -1 1
     BRANCH HOME AGAIN WAND
 
-Statements are numbered 5, 10, 15 and so on. Remarks, which begin with `*`, are copied.
+Statements are numbered 5, 10, 15 and so on. Remarks, which begin with `*`, are copied. A program can consist of several
+texts, like decks of cards that are read one after the other.
 """
 
 import re
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import Final, NamedTuple
 
 from handeye.core.diagnostics import Diagnostic, alternatives, arranged, quoted
-from handeye.core.source import Source, Span
+from handeye.core.source import Source, Span, read_source
 from handeye.systems.ml.language.codes import mistake
 from handeye.systems.ml.language.commands import COMMANDS
 from handeye.systems.ml.language.parser import parsed_line
@@ -42,19 +46,30 @@ class _Mistaken(Exception):
         self.diagnostic = diagnostic
 
 
+def decks(files: Sequence[Path]) -> Source:
+    """Read the texts of a symbolic program, in their order. Raises BadFile if one is unreadable."""
+    first, *others = files
+    after = (replace(read_source(file), key=f"{n} {file}") for n, file in enumerate(others))
+    return replace(read_source(first), required=tuple(after))
+
+
 def assembled(source: Source) -> tuple[str, list[Diagnostic]]:
-    """Assemble a symbolic program. Returns the program in ML, and the mistakes of the symbolic text."""
+    """Assemble a symbolic program with the texts that follow it. Returns the program in ML, and the mistakes of the
+    symbolic texts.
+    """
     assembler = _Assembler()
-    for text, start in _rows(source.text):
-        try:
-            assembler.take(text, start)
-        except _Mistaken as stop:
-            assembler.found.append(stop.diagnostic)
+    for part in source.texts:
+        for text, start in _rows(part.text, source.begins[part.key]):
+            try:
+                assembler.take(text, start)
+            except _Mistaken as stop:
+                assembler.found.append(stop.diagnostic)
     return assembler.text(), arranged(assembler.found)
 
 
-def _rows(text: str) -> list[tuple[str, int]]:
-    rows, start = [], 0
+def _rows(text: str, start: int) -> list[tuple[str, int]]:
+    """Return the rows of a text that begins at an offset, each with its offset."""
+    rows = []
     for row in text.split("\n"):
         rows.append((row.removesuffix("\r"), start))
         start += len(row) + 1

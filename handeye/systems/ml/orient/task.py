@@ -41,6 +41,14 @@ _OFF: Final = 0.003  # m by which a wrong bar is too narrow or too wide
 _SHORTER: Final = 0.004  # m by which a short bar is too short
 _PLATE: Final = (0.0025, 0.004, 0.0015)  # m: half sizes of the two plates on which the ends of the bar lie
 _LIP: Final = (0.0025, 0.0015, 0.004)  # m: half sizes of the lip at the lower end
+STOP_PLACE: Final = quantity(
+    _STOP,
+    "mm",
+    Noise(0.05),
+    1.0,
+    "Standard deviation of the stop's position along x and y. No source: our choice, for a stop that is screwed "
+    "on.",
+)
 VARIATION: Final = Variation(
     *ARM,
     quantity(
@@ -65,14 +73,7 @@ VARIATION: Final = Variation(
         "Standard deviation of the cradle's position along x and y. No source: our choice, for a cradle placed by "
         "hand.",
     ),
-    quantity(
-        _STOP,
-        "mm",
-        Noise(0.05),
-        1.0,
-        "Standard deviation of the stop's position along x and y. No source: our choice, for a stop that is screwed "
-        "on.",
-    ),
+    STOP_PLACE,
     quantity(
         _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of bar, table and cradle. No source: our choice.", 0.4
     ),
@@ -103,12 +104,8 @@ class Orient(ReportingTask):
         if world.fault(faults.MISSING) is not None:
             put_away(spec, "bar")
         moved = world.fault(faults.STOP) or 0.0
-        stop = np.array(STOP) * LINEAR + [
-            world.normal("stop.x", _STOP),
-            world.normal("stop.y", _STOP) + moved,
-        ]
         if world.fault(faults.NO_STOP) is None:
-            _add_stop(spec, stop)
+            add_stop(spec, world, STOP, moved)
         return Station(spec, world)
 
     def judge(self, truth: Truth) -> Findings:
@@ -166,10 +163,18 @@ def _matrix(quat: Array) -> Array:
     return flat.reshape(3, 3)
 
 
-def _add_stop(spec: mujoco.MjSpec, at: Array) -> None:
-    """Add the stop, an upright pin, at x and y of the slides (m)."""
+def add_stop(spec: mujoco.MjSpec, world: ArmWorld, place: tuple[int, int], moved: float = 0.0) -> None:
+    """Add the stop, an upright pin, at a place of the slides, with its error in the world.
+
+    Args:
+        moved: by how much it stands farther along y (m).
+    """
     import mujoco
 
+    at = np.array(place) * LINEAR + [
+        world.normal("stop.x", _STOP),
+        world.normal("stop.y", _STOP) + moved,
+    ]
     spec.worldbody.add_geom(
         name="stop", type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=[STOP_RADIUS, 0.02, 0], pos=[at[0], -at[1], 0.02],
         rgba=[0.62, 0.55, 0.30, 1], group=1,

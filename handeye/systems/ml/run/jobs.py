@@ -3,11 +3,10 @@
 from typing import Final
 
 from handeye.core.resources import plans
-from handeye.core.source import read_source
 from handeye.core.variation import WorldSpec
 from handeye.runs.setup import Setup
 from handeye.systems.ml import ENTRY
-from handeye.systems.ml.language.assembler import assembled
+from handeye.systems.ml.language.assembler import assembled, decks
 from handeye.systems.ml.run.plan import MlPlan
 
 PROGRAMS: Final = {
@@ -17,16 +16,17 @@ PROGRAMS: Final = {
     "support": "support.sym",
     "orient": "orient.ml",
     "bin": "bin.ml",
-}
+    "typewriter": "typewriter.sym support.sym",
+}  # files that are assembled together are separated by a blank
 SYMBOLIC: Final = ".sym"  # file extension of symbolic programs, which are assembled before a run
 FEW: Final = {"bin": "3"}  # variants of jobs that have little work, for trials of faults
-USUAL: Final = {"follow": "square", "bin": "8"}  # variants of jobs if none is named
+USUAL: Final = {"follow": "square", "bin": "8", "typewriter": "4"}  # variants of jobs if none is named
 
 
 def job_plan(job: str, variant: str = "") -> MlPlan:
     """Return the plan of a job's own program."""
-    name = PROGRAMS[job]
-    source = read_source(plans() / name)
+    name, *others = PROGRAMS[job].split()
+    source = decks([plans() / each for each in (name, *others)])
     text = assembled(source)[0] if name.endswith(SYMBOLIC) else source.text
     return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant or USUAL.get(job, ""))
 

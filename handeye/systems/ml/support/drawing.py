@@ -73,8 +73,7 @@ _PLAY, _TURNED, _FIXTURE, _FRICTION, _HOLE, _CURRENT = (
     "support.hole",
     "support.torque_noise",
 )
-VARIATION: Final = Variation(
-    *ARM,
+PARTS_VARY: Final = (
     quantity(
         _PLAY,
         "mm",
@@ -122,6 +121,7 @@ VARIATION: Final = Variation(
         "choice.",
     ),
 )
+VARIATION: Final = Variation(*ARM, *PARTS_VARY)
 
 
 class Lie(NamedTuple):

@@ -106,7 +106,7 @@ def _part(
     return body
 
 
-def _ridge(
+def add_ridge(
     shaper: Shaper, body: mujoco.MjsBody, mesh: str, style: str, at: Place, size: tuple[float, ...], lead: float,
     low: float, *, across: bool = False,
 ) -> None:  # fmt: skip
@@ -130,12 +130,12 @@ def _add_frame(shaper: Shaper, drawing: Drawing) -> None:
     add_box(shaper, body, "face", MIDDLE, (long, wide, 10), high - 10)
     thick = (RIBS[1] - RIBS[0]) * UNIT - SADDLE[1] - 2 * RIB_PLAY
     for y in RIBS:
-        _ridge(shaper, body, "rib", "rib", mm(0, y), (RIB[0], thick, RIB[1]), RIB_LEAD, high)
+        add_ridge(shaper, body, "rib", "rib", mm(0, y), (RIB[0], thick, RIB[1]), RIB_LEAD, high)
     away = RAIL[0] / 2 + WALL_PLAY + WALL[0] / 2
     for side in (-1, 1):
         for way in (-1, 1):
             at = Place(side * RAIL_X * UNIT + way * away, 0)
-            _ridge(shaper, body, "wall", "rib", at, (RAIL[1], *WALL), WALL_LEAD, high, across=True)
+            add_ridge(shaper, body, "wall", "rib", at, (RAIL[1], *WALL), WALL_LEAD, high, across=True)
     for number, (x, y) in enumerate(PIN_PLACES):
         at = drawing.hole(f"frame.pin_{number}", mm(x, y))
         add_ring(shaper, body, "pin_hole", "bore", at, high, PIN_BORE, PIN_DEPTH)
@@ -158,9 +158,9 @@ def _add_nest(shaper: Shaper, drawing: Drawing) -> None:
     for side in (-1, 1):
         for way in (-1, 1):
             across = Place(at.x + side * (long / 2 + NEST_PLAY + thick / 2), at.y + way * 60)
-            _ridge(shaper, nest, "stop_y", "fixed", across, (20, thick, high), STOP_LEAD, 0, across=True)
+            add_ridge(shaper, nest, "stop_y", "fixed", across, (20, thick, high), STOP_LEAD, 0, across=True)
             along = Place(at.x + way * 30, at.y + side * (wide / 2 + NEST_PLAY + thick / 2))
-            _ridge(shaper, nest, "stop_x", "fixed", along, (20, thick, high), STOP_LEAD, 0)
+            add_ridge(shaper, nest, "stop_x", "fixed", along, (20, thick, high), STOP_LEAD, 0)
 
 
 def _add_saddles(shaper: Shaper, drawing: Drawing) -> None:

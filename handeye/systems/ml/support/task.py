@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final
 
 from handeye.cell.physics_stepper import allow
 from handeye.cell.threads import ThreadFigures, Threads
@@ -29,6 +29,7 @@ from handeye.tasks.interface import Words
 if TYPE_CHECKING:
     import mujoco
 
+    from handeye.cell.mechanism import Mechanism
     from handeye.cell.truth import Truth
     from handeye.systems.ml.run.plan import MlPlan
 
@@ -36,8 +37,10 @@ if TYPE_CHECKING:
 class SupportHardware(ReportingHardware):
     """The station with the parts of the rail support."""
 
-    def __init__(self, station: Station, gauge: ForceGauge, tell: Tell) -> None:
-        super().__init__(station, tell, TROUBLES)
+    def __init__(
+        self, station: Station, gauge: ForceGauge, tell: Tell, troubles: Mapping[str, str] = TROUBLES
+    ) -> None:
+        super().__init__(station, tell, troubles)
         self._gauge, self._tell = gauge, tell
 
     def hear(self, text: str) -> None:
@@ -71,28 +74,12 @@ class Support(ArmTask):
 
     def station(self, world: ArmWorld) -> tuple[Station, ForceGauge]:
         """Return the station with its parts."""
-        spec, drawing, driver = scene(world, wand=False), Drawing(world), PowerScrewdriver()
-        add_support(spec, drawing)
+        spec = scene(world, wand=False)
+        add_support(spec, Drawing(world))
         for part in MAY_LACK:
             if world.fault(f"{part}.missing") is not None:
                 put_away(spec, part)
-        station = Station(spec, world, tools={"screwdriver": driver.turn, "reverse": driver.reverse})
-        bench = station.bench
-        for name in ("frame", "driver"):
-            allow(bench.model, int(bench.model.body_treeid[bench.model.body(name).id]))
-        station.arm.torque = ScrewdriverCurrent(
-            bench.model, bench.data, world.numbers("torque"), drawing.torque_noise
-        )
-        bench.add(
-            Threads(
-                bench.model,
-                bench.data,
-                driver,
-                ThreadFigures(phases=drawing.phases, friction=drawing.friction),
-            )
-        )
-        bench.add(gauge := ForceGauge(bench.model, bench.data, driver))
-        return station, gauge
+        return screwing(spec, world)
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         return self.station(self.world(spec))[0].bench.model
@@ -103,6 +90,29 @@ class Support(ArmTask):
     def judge(self, truth: Truth) -> Findings:
         """Judge what the program has assembled, and the number of parts that it printed last."""
         return judge(truth, counted(truth.states[Listener.name]))
+
+
+def screwing(
+    spec: mujoco.MjSpec, world: ArmWorld, others: Sequence[Mechanism[Any]] = ()
+) -> tuple[Station, ForceGauge]:
+    """Return the station of a scene with the parts of the support. Screws and screwdriver work.
+
+    Args:
+        others: mechanisms of a job that do not act as time passes.
+    """
+    drawing, driver = Drawing(world), PowerScrewdriver()
+    tools = {"screwdriver": driver.turn, "reverse": driver.reverse}
+    station = Station(spec, world, tools=tools, others=others)
+    bench = station.bench
+    for name in ("frame", "driver"):
+        allow(bench.model, int(bench.model.body_treeid[bench.model.body(name).id]))
+    station.arm.torque = ScrewdriverCurrent(
+        bench.model, bench.data, world.numbers("torque"), drawing.torque_noise
+    )
+    figures = ThreadFigures(phases=drawing.phases, friction=drawing.friction)
+    bench.add(Threads(bench.model, bench.data, driver, figures))
+    bench.add(gauge := ForceGauge(bench.model, bench.data, driver))
+    return station, gauge
 
 
 SUPPORT: Final = Support()
