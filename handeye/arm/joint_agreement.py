@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.converters import position_step, rate_step
+from handeye.arm.converters import position_step, rate_step, torque_step
 from handeye.arm.dynamics import Dynamics
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
@@ -104,14 +104,17 @@ def swings_unevenly(arm: ArmModel, M: Array, dither: Array, rates: Array) -> boo
     return bool((change > UNEVEN * swing + 2 * rate_step(arm)).any())
 
 
-def scattered(arm: ArmModel, rates: Array) -> Scatter | None:
+def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter | None:
     """Find the joint whose rate readings, shape (N, n), scatter most while the arm holds still. Returns None if all
     scatter is tolerable.
 
-    The median ignores a single jerk, as when a held part slips.
+    The median ignores a single jerk, as when a held part slips. A joint whose friction, shape (n,), in N m or N, is
+    less than half a step of its torque converter may swing at rest: its torque then alternates between two
+    neighbouring steps. `M` is the mass matrix, shape (n, n).
     """
     scatter = np.median(np.abs(rates - np.median(rates, axis=0)), axis=0)
-    limit = STILL_STEPS * rate_step(arm)
+    swing = np.diag(np.linalg.inv(M)) * torque_step(arm) / 2 * arm.servo.period
+    limit = STILL_STEPS * rate_step(arm) + np.where(friction < torque_step(arm) / 2, swing, 0.0)
     joint = int((scatter / limit).argmax())
     if scatter[joint] <= limit[joint]:
         return None

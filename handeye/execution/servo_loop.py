@@ -296,7 +296,7 @@ class ServoLoop(Servo):
         for _ in range(2 * self.arm.servo.settle):
             yield from self._approach(here, self.state.q, estimate=False)
             rates.append(self.sensed.qd)
-        return scattered(self.arm, np.array(rates[-self.arm.servo.settle :]))
+        return scattered(self.arm, here.M, self.state.friction, np.array(rates[-self.arm.servo.settle :]))
 
     # -- stopping -----------------------------------------------------------------------------------
 

@@ -78,11 +78,24 @@ def test_a_joint_that_is_struck_in_a_servo_period_has_not_jumped() -> None:
 
 
 def test_a_joint_that_is_struck_once_while_the_arm_holds_still_does_not_scatter() -> None:
+    M, friction = at_rest(STANFORD, HELD).M, np.array(STANFORD.compliance.friction)
     rates = np.zeros((8, len(REST)))
     rates[3:5, ROLL] = 0.5, -0.4
-    assert scattered(STANFORD, rates) is None
+    assert scattered(STANFORD, M, friction, rates) is None
     rates[:, ROLL] = np.resize((0.02, -0.02), 8)
-    said = scattered(STANFORD, rates)
+    said = scattered(STANFORD, M, friction, rates)
+    assert said is not None
+    assert said.joint == ROLL
+
+
+def test_a_joint_may_swing_by_a_step_of_its_torque_if_its_friction_is_less_than_half_a_step() -> None:
+    """Seed 947101 at the high level: the hand roll, with a friction of .0244 N m, swung by .0264 rad/s."""
+    M, friction = at_rest(STANFORD, HELD).M, np.array(STANFORD.compliance.friction)
+    friction[ROLL] = 0.0244
+    rates = np.zeros((8, len(REST)))
+    rates[:, ROLL] = np.resize((0.0264, -0.0264), 8)
+    assert scattered(STANFORD, M, friction, rates) is None
+    said = scattered(STANFORD, M, friction, 2 * rates)
     assert said is not None
     assert said.joint == ROLL
 
