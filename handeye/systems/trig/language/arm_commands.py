@@ -10,7 +10,7 @@ from handeye.systems.trig.language.step_commands import check_no_opposite
 
 
 def free(session: Session, given: Arguments) -> None:
-    """FREE: let the user move the arm with the teach box, until the user presses its save button."""
+    """FREE: let the user move the arm with the teach box, until the user presses its record button."""
     session.taught()
 
 

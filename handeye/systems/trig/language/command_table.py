@@ -38,7 +38,7 @@ RUNS: Final = "run, save, leave"
 
 TABLE: Final = (
     TrigCommand(
-        usage="FREE", group=ARM, act=arm_commands.free, help="drive the arm with the teach box until you press save"
+        usage="FREE", group=ARM, act=arm_commands.free, help="drive the arm with the teach box until you press record"
     ),
     TrigCommand(
         usage="GOPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.go, help="go to a position"
