@@ -141,9 +141,10 @@ def happenings() -> Iterator[str]:
     """The events, as a table."""
     yield from ("### Events", "", *told(PACKAGE["program.events.Event"]))
     yield from paragraph(
-        "The seconds since a run began are `event.time - run.events[0].time`. A guard trips at the end of the servo "
-        "period in which its condition was met, so its `value` exceeds its `limit` (N or N m). A guard on touch is "
-        "different: its `value` is the mask of the closed finger switches, and its `limit` the mask of those selected."
+        "To get the seconds since the run began, calculate `event.time - run.events[0].time`. A guard trips at the end "
+        "of the servo period in which its condition was met, so its `value` exceeds its `limit` (N or N m). A guard "
+        "on touch is different: its `value` is the mask of the closed finger switches, and its `limit` the mask of those "
+        "selected."
     )
     yield from ("", "| `handeye.program.events` | fields | what happened |", "|---|---|---|")
     for event in get_args(events.CommonEvent):
@@ -270,7 +271,7 @@ def sentence(named: griffe.Object) -> str:
         if isinstance(section, griffe.DocstringSectionText):
             said.append(section.value.partition(">>> ")[0])
         elif isinstance(section, griffe.DocstringSectionRaises):
-            said += [f"Raises {each.annotation}: {each.description}" for each in section.value]
+            said += [f"Raises {each.annotation} if {each.description}" for each in section.value]
     return " ".join(" ".join(said).split())
 
 

@@ -61,7 +61,7 @@ class RunEnding:
 
 
 class Run:
-    """A run of a plan in a world, which pauses where you ask. `handeye.begin` starts a run.
+    """The execution of a plan in a world. A run pauses where you ask. `handeye.begin` starts a run.
 
     Methods that advance the run return the `State` in which the run pauses; `State.why` gives the reason for the
     pause. The run is closed when its `with` block ends.
@@ -142,7 +142,7 @@ class Run:
         return self._stand("went back")
 
     def undo(self, steps: Place = 1) -> State:
-        """Have the arm undo its work with guarded motions, the last step first. The program can then continue from
+        """Make the arm undo its work with guarded motions, the last step first. The program can then continue from
         there.
 
         `back` resets the simulator; `undo` moves the arm, as on a real machine. The undone steps stay in the
@@ -175,8 +175,8 @@ class Run:
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
-        """Have the arm undo all its work and end the run. `result.apart` then gives the referee's verdict on the
-        undone work.
+        """Make the arm undo all its work and end the run. The referee then checks that every part
+        is back in its place; `result.apart` gives its verdict.
 
         Raises:
             InvalidInput: there is nothing to undo.

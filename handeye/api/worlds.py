@@ -65,8 +65,8 @@ class World:
             task: name of the task.
 
         Raises:
-            InvalidInput: a seed, level, quantity, fault, unit or value does not exist; the message suggests the
-                nearest name.
+            InvalidInput: a name or unit is unknown, or a seed, level or value is not allowed; for an unknown name,
+                the message suggests the nearest one.
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:

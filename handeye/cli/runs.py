@@ -57,7 +57,7 @@ OnStop = Annotated[
     str | None,
     Parameter(
         help="How to answer when the program calls the operator. `abort` ends the run. `retry:N` repeats the "
-        "failed stage, each stage at most N times. `unwind:STAGE` has the arm undo its work back to the "
+        "failed stage, each stage at most N times. `unwind:STAGE` makes the arm undo its work back to the "
         "beginning of STAGE and try again, at most once for each stage that fails; `unwind` alone goes back "
         "to the beginning of the failed stage. `ask` asks you. Default: `ask` on a terminal, `abort` "
         "elsewhere."

@@ -101,8 +101,9 @@ ERRORS: Final[dict[int, str]] = {
     JOINT_LIMIT: "a joint would move beyond its limit",
     NOTHING_HELD: "the fingers closed beyond the minimum gap: there is nothing between them, or the object is too thin",
     NO_SOLUTION: "the position is out of the arm's reach",
-    SERVO_LAG: "the arm did not follow its set-points: something is in the way, or a joint is stiff, weak or late",
-    WATCHDOG: "the computer missed a servo period: drives cut, brakes set",
+    SERVO_LAG: "the arm did not follow its set-points: something is in the way, or a joint is stiff, weak or slow to "
+    "respond",
+    WATCHDOG: "the computer missed a servo period; the drives were switched off, and the brakes set",
     SEARCH_EXHAUSTED: "the search has tried all its places",
     WRONG_THICKNESS: "the object between the fingers is thicker than the maximum",
     WRONG_TRAVEL: "the last CHANGE, PLACE or CENTER moved the hand too far or not far enough",

@@ -120,7 +120,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="undo [N|stage]", group=_BACK, act=acts.undo,
-        help="have the arm undo the last step, the last N steps or the stage (`back` resets the simulator instead)",
+        help="make the arm undo the last step, the last N steps or the stage (`back` resets the simulator instead)",
     ),
     Command(
         usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause at a place each time the run reaches it"

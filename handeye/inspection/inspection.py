@@ -120,8 +120,8 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     error: int | None
     """The error for which the step tests."""
     raised: int | None
-    """The step that follows if that error was raised. None if that is the end of the program, or if the step does
-    not test.
+    """The step that follows if the tested error was raised. None if the program then ends, or if the step tests for
+    no error.
     """
     counter: str | None = None
     """The counter that the step counts down."""
@@ -137,7 +137,7 @@ class InspectedStage(Record, frozen=True, kw_only=True):
     number: int
     name: str
     seconds: float
-    """Duration of the planned motions (s). Each step counts once."""
+    """Duration of the planned motions (s). Each step counts once, even in a loop."""
     steps: tuple[InspectedStep, ...]
 
 

@@ -26,12 +26,12 @@ class Finding:
 
     @property
     def refuses(self) -> bool:
-        """True if the finding makes the work wrong."""
+        """True if the referee rejects the work because of this finding."""
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
         """Return the same measurement with another limit in the same unit. If the value exceeds the limit, the
-        work is wrong."""
+        referee rejects the work."""
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)
 
@@ -45,8 +45,8 @@ Findings = Mapping[str, Finding]  # by the name of the point that was checked
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
-    """Return a finding that is right if the value is at most `limit`. With `caution`, a greater value is only a
-    warning, and does not make the work wrong.
+    """Return a finding whose `ok` is True if the value is at most `limit`. With `caution`, a greater value is only a
+    warning, for which the referee does not reject the work.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True
@@ -55,7 +55,7 @@ def at_most(value: float, limit: float, unit: str, subject: str, *, caution: boo
 
 
 def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
-    """Return a finding that is right if the value is at least `limit`.
+    """Return a finding whose `ok` is True if the value is at least `limit`.
 
     >>> handeye.at_least(70, 40, "N", "smallest clamping force").ok
     True
@@ -72,7 +72,7 @@ def worse(one: Findings, other: Findings) -> Findings:
 
 
 def all_right(findings: Findings) -> bool:
-    """Return True if there are findings and none of them makes the work wrong."""
+    """Return True if there are findings, and the referee rejects the work because of none of them."""
     return bool(findings) and not any(finding.refuses for finding in findings.values())
 
 

@@ -259,8 +259,8 @@ class CameraStarted(Event, frozen=True, kw_only=True):
 
 
 class CameraBusy(Event, frozen=True, kw_only=True):
-    """The arm stood still for the camera for `seconds` (s), either to `wait` for its mechanism or to `digitise` a
-    picture.
+    """The arm stood still for `seconds` (s) because of the camera: `action` is `wait` (for its mechanism) or `digitise`
+    (a picture).
     """
 
     action: str
@@ -325,7 +325,9 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm begins to undo a step, or all the rounds of a loop that led back to the step."""
+    """The arm begins to undo a step, or several executed steps at once, such as the rounds of a loop. `steps` is their
+    number.
+    """
 
     steps: int = 1  # executed steps that are undone at once
 

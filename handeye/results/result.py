@@ -31,8 +31,8 @@ class Stage(Record, frozen=True, kw_only=True):
 class Timing(Record, frozen=True, kw_only=True):
     """Simulated and computing times of a run. No field mixes the two. The working phase is the execution of the plan.
 
-    Equal runs have equal simulated times. Fields that end in `_cpu_s` (CPU seconds) or `_wall_s` (wall-clock
-    seconds) are computing times, which differ each time that a run is executed. For a resumed run, computing
+    Runs of the same plan in the same world have equal simulated times. Fields that end in `_cpu_s` (CPU seconds) or
+    `_wall_s` (wall-clock seconds) are computing times, which differ from run to run. For a resumed run, computing
     times are summed over all sessions.
     """
 
@@ -95,7 +95,7 @@ class Check(Record, frozen=True, kw_only=True):
 
     @property
     def refuses(self) -> bool:
-        """True if the finding makes the work wrong."""
+        """True if the referee rejects the work because of this finding."""
         return not self.ok and not self.caution
 
     @property
@@ -105,7 +105,7 @@ class Check(Record, frozen=True, kw_only=True):
 
     def limited(self, limit: float) -> "Check":
         """Return the same measurement with another limit in the same unit. If the value exceeds the limit, the
-        work is wrong."""
+        referee rejects the work."""
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
 
@@ -130,7 +130,8 @@ class CameraReport(Record, frozen=True, kw_only=True):
 class Result(Record, frozen=True, kw_only=True):
     """The result of a run.
 
-    Equal runs have equal events, but their results differ in `timing`, which includes computing time.
+    Runs of the same plan in the same world have equal events, but their results differ in `timing`, which includes
+    computing time.
     """
 
     assembled: bool | None
@@ -138,7 +139,7 @@ class Result(Record, frozen=True, kw_only=True):
     completed: bool
     """True if the program ended, or if the arm finished the requested undoing."""
     paused: bool
-    """True if the run has not ended: it pauses on request, was interrupted, or is running."""
+    """True if the run has not ended: you paused it, it was interrupted, or it is still in progress."""
     stopped_at: str | None
     error: int | None
     message: str
@@ -186,7 +187,7 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def cautions(self) -> tuple[str, ...]:
-        """Findings that are only warnings, and do not make the work wrong, one sentence each."""
+        """Findings that are only warnings, for which the referee does not reject the work; one sentence each."""
         return tuple(check.told for check in self.checks if not check.ok and check.caution)
 
     @property

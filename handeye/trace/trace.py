@@ -250,9 +250,9 @@ class Trace:
 
     @cached_property
     def unseen(self) -> int:
-        """Number of events that precede the first message recorded between events. Usually, these are the events
-        that start the run and its first stage. A run resumed from a checkpoint has more, because its earlier events
-        are copied without the messages between them. 0 for a system that moves no arm.
+        """Number of events before the first servo period or picture in the trace. Usually, these are the events
+        that start the run and its first stage. A run resumed from a checkpoint has more, because the trace has its
+        earlier events, but not the servo periods and pictures between them. 0 for a system that moves no arm.
         """
         if not self.head.arm:
             return 0

@@ -41,7 +41,7 @@ def beams(
         step: least difference of mean intensity between the 3 points ahead of the edge and the 3 points behind it.
         reach: greatest length of the beams, points; one number for all, or one for each, shape (n,).
         wide: average over three points across the beam, to reduce noise.
-        beyond: least intensity beyond the edge; edges to lower intensities are passed over.
+        beyond: least intensity beyond the edge; edges to lower intensities are ignored.
 
     Raises:
         BadArgument: an argument has the wrong type or shape, or is not finite.
@@ -78,7 +78,7 @@ def localise(
 
     Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box grows
     from this area until all its sides are in the background. A blob that reaches the border of the window or of the
-    picture is passed over. The window applies to this call only.
+    picture is ignored. The window applies to this call only.
 
     Args:
         window: a convex quadrilateral, as its corners (u, v) in order, shape (4, 2), points; its border must lie on

@@ -55,7 +55,7 @@ ACTIONS = ["CHANGE [0 0 -1] 2", "STOP 40\nCHANGE [0 0 1] 2", "MOVE PARK", "CENTE
 def test_row_34_a_missed_servo_period_aborts_the_action(script: str) -> None:
     run = late_in(script, 20, PumpWorld.sample(1))
     assert run.errors == [WATCHDOG]
-    assert run.told == "the computer missed a servo period: drives cut, brakes set"
+    assert run.told == "the computer missed a servo period; the drives were switched off, and the brakes set"
 
 
 @pytest.mark.row(34, nominal=1)

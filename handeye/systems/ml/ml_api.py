@@ -150,7 +150,7 @@ class Ml:
             speed: speed of the slide (mm/s).
             limit: limit of the strain gauge (grams).
             phase: when in the period the contact occurs. 0 is just after a reading; a value near 1 is just before the
-            next.
+                next.
 
         Returns:
             when the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the

@@ -97,7 +97,7 @@ class Mal:
 
     @property
     def line(self) -> int | None:
-        """Number of the line that is executed next; None if none can be."""
+        """Number of the line that is executed next; None if no line can be executed."""
         turn = self._vm.turn
         return self._program.line_of(self._vm.memory.tasks[turn].pc).number if turn else None
 

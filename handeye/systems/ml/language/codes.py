@@ -108,7 +108,8 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
     ),
     "bad-name": Mistake(
         meaning="a name is the name of a command or a table, or contains characters other than letters, digits and `_`",
-        example="STOP EQU 5", cure="choose another name, which begins with a letter",
+        example="STOP EQU 5",
+        cure="choose a name of letters, digits and `_` that begins with a letter and is not a command or a table",
     ),
     "name-twice": Mistake(
         meaning="a name is defined twice", example="A EQU 5\nA VAR", cure="give each value a different name",

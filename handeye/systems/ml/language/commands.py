@@ -79,9 +79,9 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "flow": (
         ("BAL", "v n", "Put the number of the next statement into variable v and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
-        ("BRANCH", "n1 [n2 [s ...]]", "Go to n1. If n2 is given, go to n1 only if the flag of any listed sensor is on "
-                                      "(for -s: off), otherwise to n2. Without a list, the flags of all sensors "
-                                      "count.",
+        ("BRANCH", "n1 [n2 [s ...]]", "With n1 alone: go to n1. With n2: go to n1 if the flag of any listed sensor is "
+                                      "on (for -s: off), otherwise to n2. Without a list of sensors, the flags of all "
+                                      "sensors count.",
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or, without n2, to the "
                               "next statement.",
@@ -180,7 +180,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored program.", "CMSLOAD FOLLOW"),
         ("DHAND", "x11 [x12]", "Change the separation of the fingers by x11, and the angle between them by x12.",
          "30 DHAND -50"),
-        ("GOLINE", "n1 n2", "Go to a position on the line through two POINTs: the one nearest to the present goals.",
+        ("GOLINE", "n1 n2", "Go to the position on the line through two POINTs that is nearest to the present "
+                             "goals.",
          "40 GOLINE 5 10"),
         ("GOMEAN", "n1 n2", "Go to the position halfway between two POINTs.", "40 GOMEAN 5 10"),
         ("GROT", "x [y [z]]", "Rotate the gripper about its own axes by yaw x, pitch y and roll z, in .01 degree.",

@@ -39,14 +39,14 @@ WORDS: Final[dict[str, Word]] = {
     "NEXT": Word("statement", "NEXT name", "The end of the lines that FOR repeats.", "90 NEXT I"),
     "PRINT": Word(
         "statement", "PRINT [item {(,|;) item}]",
-        "Print texts and numbers. `,` moves to the next zone of 14 columns, `;` does not. If the statement ends with "
-        "`,` or `;`, the next PRINT continues the same line.",
+        "Print texts and numbers. After `,`, the next item begins in the next zone of 14 columns; after `;`, it "
+        "follows directly. If the statement ends with `,` or `;`, the next PRINT continues the same line.",
         '60 PRINT "PIECES", PIECES',
     ),
     "INPUT": Word("statement", "INPUT name", "Wait for a number from the console.", "10 INPUT HEIGHT"),
     "STOP": Word(
         "statement", "STOP [text]",
-        "End the program with all its tasks. With a text, the program stops as failed, and the text says why.",
+        "End the program with all its tasks. With a text, the program counts as failed, and the text says why.",
         '90 STOP "NO PIECE IS FOUND"',
     ),
     "END": Word("statement", "END", "End this task. The program ends with its last task.", "70 END"),
