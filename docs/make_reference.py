@@ -132,7 +132,12 @@ def reference() -> str:
 def findings() -> Iterator[str]:
     """The findings of the task's referee, as a table."""
     judged = handeye.assemble(script="OPEN 1\n", camera="ray").result.referee
-    yield from ("### Findings of the water pump's referee", "", "| name | finding |", "|---|---|")
+    yield from ("### Findings of the water pump's referee", "")
+    yield from paragraph(
+        "In `overlap_bores` and `overlap`, the names after the colon are those of the two bodies that overlap most; "
+        "they differ from run to run."
+    )
+    yield from ("", "| name | finding |", "|---|---|")
     yield from (f"| `{name}` | {check.sentence} |" for name, check in judged.items())
     yield ""
 
@@ -143,8 +148,8 @@ def happenings() -> Iterator[str]:
     yield from paragraph(
         "To get the seconds since the run began, calculate `event.time - run.events[0].time`. A guard trips at the end "
         "of the servo period in which its condition was met, so its `value` exceeds its `limit` (N or N m). A guard "
-        "on touch is different: its `value` is the mask of the closed finger switches, and its `limit` the mask of those "
-        "selected."
+        "on touch is different: its `value` is the mask of the closed finger switches, and its `limit` the mask of "
+        "those selected."
     )
     yield from ("", "| `handeye.program.events` | fields | what happened |", "|---|---|---|")
     for event in get_args(events.CommonEvent):

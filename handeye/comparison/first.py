@@ -148,9 +148,7 @@ class First:
     period: int | None = None  # servo period of the step, from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """If the events differ: the next event of each run, or None for a run in which the step continued or the run
-    ended.
-    """
+    """The next event of each run, if these events differ. None for a run that ended, or whose step continued."""
 
     @property
     def place(self) -> Place | None:

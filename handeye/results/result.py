@@ -59,9 +59,9 @@ class Timing(Record, frozen=True, kw_only=True):
     user.
     """
     real_time_factor: float
-    """Simulated seconds, including preparation, per second of `run_wall_s`; differs each time."""
+    """Simulated seconds, including preparation, per second of `run_wall_s`; differs from run to run."""
     host_from_step: int
-    """Number of steps done before computing time was recorded; 0: the computing times cover the whole run."""
+    """Number of steps done before computing time was recorded. If it is 0, the computing times cover the whole run."""
 
 
 class Check(Record, frozen=True, kw_only=True):
@@ -70,7 +70,7 @@ class Check(Record, frozen=True, kw_only=True):
     ok: bool
     subject: str
     value: float
-    """The measured value, in `unit`, like `limit`. JSON has null for a value that is not finite."""
+    """The measured value. Both `value` and `limit` are in `unit`. JSON has null for a value that is not finite."""
     relation: Relation
     limit: float
     unit: str

@@ -33,17 +33,17 @@ class Forces(Brief):
     estimated: NDArray[np.bool_]  # True where force was estimated, shape (n,)
     guard: NDArray[np.str_]
     """Kind of the active guard (the first, if there are several), shape (n,): `force`, `against`, `moment`,
-    `torque`, `touch`; empty: no guard.
+    `torque`, `touch`; empty if there is no guard.
     """
     axis: Array
-    """Unit vector along which, or about which, the guard watches, shape (n, 3); NaN: the guard watches no force or
+    """Unit vector along which, or about which, the guard watches, shape (n, 3); NaN if the guard watches no force or
     moment.
     """
     value: Array
     """Reading of the guard, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver
-    (N m), or finger switches as a mask; NaN: no guard, or no record of the reading.
+    (N m), or finger switches as a mask; NaN if there is no guard or no record of the reading.
     """
-    limit: Array  # limit of the guard, shape (n,); NaN: no guard
+    limit: Array  # limit of the guard, shape (n,); NaN if there is no guard
 
     def within(self, spans: Sequence[Span]) -> "Forces":
         """Return the forces within some time spans."""

@@ -29,9 +29,9 @@ class QuantityDifference(Record, frozen=True, kw_only=True):
     """A quantity that has different values in two runs."""
 
     quantity: tuple[str, ...]  # parts of the quantity's name, such as `("joint", "boom", "position")`
-    unit: str = ""  # SI unit of the values; empty: none, or unknown
-    a: Value  # value in the first run; None: no value
-    b: Value  # value in the second run; None: no value
+    unit: str = ""  # SI unit of the values; empty if they have none, or if it is unknown
+    a: Value  # value in the first run; None if it has no value
+    b: Value  # value in the second run; None if it has no value
 
     @property
     def name(self) -> str:

@@ -125,7 +125,7 @@ def characterise(
         seed: a position (u, v) inside the blob, points.
         step: least difference of intensity across the border.
         reach: greatest distance of the border from the current centre, points.
-        polarity: BRIGHTER: the surroundings are brighter than the blob.
+        polarity: BRIGHTER if the surroundings are brighter than the blob, otherwise DARKER.
         wide: average over three points across each beam.
         beyond: least intensity outside the border, so that the edge of a shadow inside a hole is not taken for the
             border of the hole.
