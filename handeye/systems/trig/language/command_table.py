@@ -45,7 +45,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="GOGPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.feel,
-        help="go to a position slowly, until a force stops the arm",
+        help="go to a position slowly; a force on the finger stops the arm",
     ),
     TrigCommand(usage="GOGRASP", group=ARM, act=arm_commands.close, help="close the hand"),
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
