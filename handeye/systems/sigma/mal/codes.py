@@ -64,7 +64,8 @@ CODES: Final[dict[str, Mistake]] = {
         cure="jump only to lines of the same task; to start another task, use START",
     ),
     "reserved-word": Mistake(
-        meaning="a name is a word of the language", example="10 SPEED = 5", cure="use another name, such as `SPEED1`"
+        meaning="a name is the same as a word of the language", example="10 SPEED = 5",
+        cure="use another name, such as `SPEED1`",
     ),
     "resume-without-abort": Mistake(
         meaning="a task has RESUME but no ON ABORT", example="10 RESUME", cure="write ON ABORT GOTO before RESUME"
