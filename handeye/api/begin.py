@@ -51,7 +51,7 @@ def begin(
         script: a script or plan, as for `handeye.plan`; by default the script of the task. To resume a run, give a
             checkpoint, or the folder of a run to continue from its newest checkpoint.
         seed: seed from which the world is generated; 0 by default.
-        at: the stage before which the run pauses: its name, a unique part of its name, or its number from 1.
+        at: the stage before which the run pauses: its name, a unique part of its name, or its number (the first is 1).
             Earlier stages are executed first; if `script` is the folder of a run, they are executed from the
             nearest earlier checkpoint on.
         world: a world, instead of a seed.

@@ -26,8 +26,8 @@ class Diagnostic:
     severity: Severity  # `error` or `warning`
     message: str
     file: str  # name of the script, or of the required file, that has the mistake
-    line: int  # line of the mistake, from 1
-    column: int  # column of the first character, from 1
+    line: int  # line of the mistake, counted from 1
+    column: int  # column of the first character, counted from 1
     end: int  # column after the last character
     help: str | None  # a suggestion for correcting the mistake
     shown: str = field(repr=False)  # the diagnostic as text, with the line of the script

@@ -80,7 +80,8 @@ class Plan:
 
     Two plans are equal if their steps and motions agree, apart from rounding errors.
 
-    A notebook shows the stages with their times, the warnings about the script and, for a short plan, the flow.
+    A notebook shows the stages with their times, the warnings about the script and, for a short plan, a drawing of
+    the flow.
 
     >>> plan = handeye.plan('STAGE "a hand"\\nOPEN 1\\nOPEN 2\\n')
     >>> plan
@@ -100,7 +101,7 @@ class Plan:
 
     @property
     def stages(self) -> tuple[InspectedStage, ...]:
-        """Stages of the plan, each with `number` from 1, `name`, `seconds` of planned motion, and `steps`."""
+        """Stages of the plan, each with `number` (the first is 1), `name`, `seconds` of planned motion, and `steps`."""
         return Several(self._laid_open.stages)
 
     @property
@@ -144,7 +145,7 @@ class Plan:
         goes after an error.
 
         Args:
-            stage: draw only this stage: its number from 1, its name, or a unique part of its name.
+            stage: draw only this stage: its number (the first is 1), its name, or a unique part of its name.
 
         Raises:
             InvalidInput: there is no such stage.

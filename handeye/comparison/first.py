@@ -145,7 +145,7 @@ class First:
 
     a: Place | None  # step of the first run; None before its first step, or after its end
     b: Place | None  # step of the second run, likewise
-    period: int | None = None  # servo period of the step, from 1; None outside servo periods
+    period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """The next event of each run, if these events differ. None for a run that ended, or whose step continued."""

@@ -132,7 +132,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
 
 
 class InspectedStage(Record, frozen=True, kw_only=True):
-    """A stage of a plan, with its number from 1."""
+    """A stage of a plan, with its number (the first is 1)."""
 
     number: int
     name: str
