@@ -148,7 +148,7 @@ def test_an_event_list_that_is_not_of_the_run_is_left_out(command: Command, take
     code, _, err = command("dismantle", "other")
     assert code == 0
     assert (
-        "left out: other/events.jsonl, which belongs to a different run from the checkpoints in other" in err
+        "left out: other/events.jsonl, which does not belong to the run of the checkpoints in other" in err
     )
 
 

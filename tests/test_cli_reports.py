@@ -143,7 +143,7 @@ def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command,
 def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
     code, _, err = command("assemble", "--report", "--no-keep")
     sentence = (
-        "handeye: --report writes a page into the folder of the run, but --no-keep keeps no folder; "
+        "handeye: --report writes a page into the folder of the run, but with --no-keep there is no folder; "
         "leave out one of them\n"
     )
     assert (code, err) == (2, sentence)

@@ -616,7 +616,7 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("found", "code", "said"),
     [
-        (Repetition(), 0, "it repeats: the same"),
+        (Repetition(), 0, "it repeats exactly: the same"),
         (Repetition(rounded="A"), 0, "it repeats except for rounding, on another kind of processor: the "
             "same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),

@@ -189,8 +189,8 @@ _STEP_WHY = (
     " side"
 )
 SEARCH_STEP: Final = replace(number("step", IN, MIN_POSITIVE), high=MAX_STEP_IN, why=_STEP_WHY)
-STEPS: Final = count("number", 1, 20, "a search extends 1 to 20 steps to each side", word="STEPS")
-TIMES: Final = count("number", 1, 100, "a stage can be undone 1 to 100 times", word="TIMES")
+STEPS: Final = count("number", 1, 20, "a search must extend 1 to 20 steps to each side", word="STEPS")
+TIMES: Final = count("number", 1, 100, "the number of times must be from 1 to 100", word="TIMES")
 ALONG: Final = Operand(
     name="direction", takes=(Number,), units=(DEG,), word="ALONG", optional=True, ours=True
 )

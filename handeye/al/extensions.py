@@ -12,7 +12,7 @@ from handeye.core.diagnostics import Diagnostic, arranged, problem, quoted
 from handeye.core.source import Source, Span
 
 _ours = partial(problem, "extension-used")
-_AGAINST = "in 1973, a stop is a vector: `STOP [0 0 -50]`"
+_AGAINST = "write a vector, as in 1973: `STOP [0 0 -50]`"
 
 
 def extensions(source: Source) -> list[Diagnostic]:

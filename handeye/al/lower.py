@@ -235,9 +235,9 @@ class _Lowerer:
             return False
         if modifier is not first:
             other = Label(span=_word(first).span, text="the other modifier")
-            message = f"`{motion.word.text}` has both `{_word(first).text}` and `{word.text}`"
+            message = f"`{motion.word.text}` cannot have both `{_word(first).text}` and `{word.text}`"
             if _word(first).text == word.text:
-                message = f"`{motion.word.text}` has `{word.text}` twice"
+                message = f"`{motion.word.text}` cannot have `{word.text}` twice"
             self.problem("modifier-twice", message, word, other)
         return modifier is first
 

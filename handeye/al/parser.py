@@ -159,7 +159,7 @@ class _Parser:
     def parameter(self, token: Token) -> None:
         """Add a parameter to the open macro. Raises Mistake if the token cannot be a parameter."""
         if token.kind is not NAME:
-            said = "the macro names its parameters; a call gives the numbers and vectors"
+            said = "give numbers and vectors in the calls of the macro"
             message = f"a parameter must be a name, not {quoted(token.text)}"
             raise Mistake("wrong-operand", message, token.span, help=said)
         name = _name(token)
@@ -230,7 +230,7 @@ class _Parser:
         if word.text in self.known:
             return
         if word.text in _CONSOLE_WORDS:
-            alone = "a script runs from its first line to its last without such commands"
+            alone = "a script needs no console commands"
             if rest and rest[0].text.upper() in INSTRUCTIONS:
                 alone += f"; write only the instruction: {quoted(free_text(rest))}"
             message = f"`{word.text}` is a console command, not an instruction of a script"

@@ -83,7 +83,7 @@ class _Phrases:
                 return self.at_position(found, message, help=help, notes=(note,))
             case BelowTable():
                 return self.at_position(
-                    found, f"{note} on its way to {name}", help="add a position on the way with `VIA`"
+                    found, f"{note} on its way to {name}", help="use `VIA` to add a position on the way"
                 )
         message = f"the {arm} arm cannot put the hand at {name}"
         return self.at_position(found, message, help=help, notes=(note,))
@@ -116,7 +116,7 @@ class _Phrases:
             help = help or "turn the hand: other angles O, A, T can be within the limits"
             return self.at_position(found, message, help=help)
         help = (
-            "shorten the motion" if self.goal(found.step) is None else "add a position on the way with `VIA`"
+            "shorten the motion" if self.goal(found.step) is None else "use `VIA` to add a position on the way"
         )
         return self.at_position(found, message, help=help, notes=(f"the joint reaches its limit {place}",))
 
@@ -126,9 +126,8 @@ class _Phrases:
         for angle in () if position is None else position.at[3:]:
             parts = angle / DEGREE / (math.pi / 4)
             if 1 <= abs(round(parts)) <= _EIGHTHS and abs(parts - round(parts)) < _TOLERANCE:
-                return (
-                    f"O, A and T are in degrees; {angle / DEGREE:g} is {round(parts) * 45} degrees in radians"
-                )
+                turned = f"{round(parts) * 45} degrees"
+                return f"O, A and T are in degrees, but {angle / DEGREE:g} looks like {turned} in radians"
         return None
 
     def counted(self, name: str) -> str:
@@ -151,7 +150,7 @@ class _Phrases:
             into = f"would go {depth} into {quoted(found.fixture)}"
         place, help = (
             self.along(found.step, found.along),
-            "add a position on the way that leads the hand around the obstacle or over it",
+            "add a position on the way, so that the hand goes around the obstacle or over it",
         )
         if self.goal(found.step) is None:
             place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place
@@ -188,11 +187,11 @@ class _Phrases:
         vector, turning = found.exerted
         what, si, unit = ("moment", OUNCE_INCH, "oz-in") if turning else ("force", OUNCE_FORCE, "oz")
         there = "about this axis" if turning else "in this direction"
-        stop = f"a stop on a {what} of {math.hypot(*vector) / si:g} {unit}"
+        hidden = f"a {what} of {math.hypot(*vector) / si:g} {unit}"
         felt = found.felt / si
         return problem(
             found.code,
-            f"{stop} is hard to distinguish from joint friction here",
+            f"the arm can hardly distinguish {hidden} from joint friction here",
             self.modifier_span(found.step, "STOP"),
             notes=(
                 f"in free air, joint friction that the arm cannot measure can feel like a {what} of up to "

@@ -190,8 +190,8 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
     except HoldsRun:
         name = repr(str(path))
         raise CannotWrite(
-            f"{path} holds a run: overwrite=True replaces it, another folder keeps it, and "
-            f"handeye.begin({name}, out={name}) continues it"
+            f"{path} holds a run: overwrite=True replaces it, handeye.begin({name}, out={name}) continues it; to keep "
+            "it, choose another folder"
         ) from None
 
 

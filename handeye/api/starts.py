@@ -132,7 +132,7 @@ def _again(given: FileName, wanted: RunRequest) -> Start:
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)
     if has_ended(path, start, judged=start.setup.judged):
-        raise Refused(f"the run in {path} has ended; omit `out=...` to open it and go back")
+        raise Refused(f"the run in {path} has ended; omit `out=...` to open the run and go back in it")
     _check_same(path, start.setup, wanted)
     if wanted.replaced or wanted.limits not in (None, start.setup.limits):
         raise Refused(

@@ -72,11 +72,10 @@ class World:
         if not isinstance(level, str) or level not in SPREADS:
             raise NoSuchName(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
         if not isinstance(set, Mapping | None):
-            raise BadArgument(f"`set` must be a dictionary of values by the names of quantities, not {set!r}")
+            raise BadArgument(f"`set` must be a dictionary from names of quantities to values, not {set!r}")
         if not isinstance(scale, Mapping | None):
             raise BadArgument(
-                "`scale` must be a dictionary whose keys are names of quantities and whose values are factors, "
-                f"not {scale!r}"
+                f"`scale` must be a dictionary from names of quantities to factors, not {scale!r}"
             )
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._scale = dict(scale or {})

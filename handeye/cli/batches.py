@@ -123,10 +123,10 @@ def assembly_trials(
     where = (
         f"worlds from {world} on"
         if following(chosen)
-        else f"{counted(len(chosen), 'world')} by name, from {world} on"
+        else f"{counted(len(chosen), 'world')} given by --seeds, beginning with {world}"
     )
     lacking = f", without {', '.join(spared)}" if spared else ""
-    answered = "" if on_stop == "abort" else f", with {on_stop} when the program calls the operator"
+    answered = "" if on_stop == "abort" else f", with {on_stop} as the answer to each call to the operator"
     command = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     return carry_out_sweep(
         ASSEMBLY,
@@ -169,7 +169,7 @@ def dismantling_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble in many worlds, have the arm take each pump apart again, and count how often every part is back in
+    """Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in
     place.
 
     Trials that built nothing are listed but not counted.

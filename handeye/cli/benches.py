@@ -57,21 +57,22 @@ def insertion(
     clearance: Annotated[
         float | None,
         Parameter(
-            help="Diametral clearance between hole and pin, mm: .05 to 1. Default if --chamfer or --sd is given: "
-            ".114."
+            help="Diametral clearance between hole and pin, mm: .05 to 1. Default: .114 if --chamfer or --sd is "
+            "given, otherwise the clearances of the grid."
         ),
     ] = None,
     chamfer: Annotated[
         float | None,
         Parameter(
-            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default if --clearance or --sd is given: 1."
+            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default: 1 if --clearance or --sd is given, "
+            "otherwise the chamfers of the grid."
         ),
     ] = None,
     sd: Annotated[
         float | None,
         Parameter(
-            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default if "
-            "--clearance or --chamfer is given: 1."
+            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default: 1 "
+            "if --clearance or --chamfer is given, otherwise the deviations of the grid."
         ),
     ] = None,
     search: Annotated[

@@ -28,7 +28,7 @@ def dismantle(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Make the arm undo the steps of a run: take the pump apart again.
+    """Make the arm undo the steps of a run, and so take the pump apart again.
 
     The arm undoes every step, from the last to the first, by moving back along its own path. If the hand meets
     more force than expected, or no longer holds the part that it held when the step was executed, the arm brakes
@@ -87,7 +87,7 @@ def _newest(path: Path) -> "Checkpoint":
         return start
     more = done_since(start, events)
     if more is None:
-        note(f"left out: {path / EVENTS}, which belongs to a different run from the checkpoints in {path}")
+        note(f"left out: {path / EVENTS}, which does not belong to the run of the checkpoints in {path}")
     elif more:
         note(f"repeating {counted(more, 'step')} that came after the last checkpoint in {path}")
     return caught_up(start, events, str(path))

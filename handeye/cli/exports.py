@@ -118,7 +118,7 @@ def plot(
     kind = KINDS.get(output.suffix.lower())
     if kind is None:
         raise BadArgument(
-            f"the name of a plot must end in {', '.join(KINDS)}, which {quoted(output.name)} does not"
+            f"the name of a plot must end in {', '.join(KINDS)}, but {quoted(output.name)} does not"
         )
     check_place(output, kind, overwrite=overwrite)
     recorded = read_recorded(run_or_newest(run))

@@ -51,8 +51,8 @@ def faults(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder for one run without faults in each world, created if missing. A run with a fault "
-            "that begins at a later stage then starts from a checkpoint of the run without faults. By "
+            help="Folder that keeps, for each world, one run without faults; what is missing is created. A run with "
+            "a fault that begins at a later stage then starts from a checkpoint of the run without faults. By "
             "default, each fault is tried in a whole run. The outcomes are the same either way."
         ),
     ] = None,

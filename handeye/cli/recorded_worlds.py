@@ -58,7 +58,7 @@ def _check_drawing(path: Path, begun: RunStarted) -> None:
     if world.drawing != DRAWING:
         raise Refused(
             f"the world of {path} comes from another version of handeye: seed {world.seed} gives a different world "
-            f"here (rules for drawing worlds: version {world.drawing} there, version {DRAWING} here)"
+            f"here (rules that generate worlds: version {world.drawing} there, version {DRAWING} here)"
         )
 
 

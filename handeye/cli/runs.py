@@ -84,8 +84,8 @@ def assemble(
         list[Then] | None,
         Parameter(
             consume_multiple=False,
-            help="Continue after a pump that the referee accepts: `dismantle` has the arm take it apart, and "
-            "`assemble` assembles it again. Repeat the option to alternate.",
+            help="What to do after the referee has accepted the pump: `dismantle` makes the arm take the pump apart, "
+            "and then `assemble` assembles it again. Repeat the option to do both in turn.",
         ),
     ] = None,
 ) -> int:
@@ -103,8 +103,8 @@ def assemble(
     check_kept(no_keep, out)
     if report and no_keep:
         raise BadArgument(
-            "--report writes a page into the folder of the run, but --no-keep keeps no "
-            "folder; leave out one of them"
+            "--report writes a page into the folder of the run, but with --no-keep "
+            "there is no folder; leave out one of them"
         )
     started = time.process_time()
     plan = plan_or_own(None, world.task)
@@ -282,8 +282,8 @@ def resume(
     if path.is_dir():
         if out is not None:
             raise BadArgument(
-                f"{path} is the folder of a run, which resumes in the same folder; --out is for checkpoint "
-                "files"
+                f"leave out --out: {path} is the folder of a run, and a run resumes in its own folder; --out is for "
+                "checkpoint files"
             )
         folder, start, faults = open_again(path)
         for fault in faults:

@@ -148,7 +148,7 @@ def carry_out_sweep(
         again_later = sum(row.to_be_tried_again for row in ordered)
         if folder is not None and again_later:
             note(
-                f"failures of this computer ended {counted(again_later, 'trial')}; run the same command again to "
+                f"{counted(again_later, 'trial')} ended because this computer failed; run the same command again to "
                 "repeat them"
             )
     return found.exit_code

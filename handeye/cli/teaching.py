@@ -135,7 +135,7 @@ def repl(
     cell: CellOptions = ANY_CELL,
     json: Json = False,
 ) -> int:
-    """Type instructions to collect and check them; DO runs them. HELP lists the commands.
+    """Type instructions, which are checked and collected; DO runs them. HELP lists the commands.
 
     Exit code 0: you left; 1: the last program called the operator; 2: bad input, or a piped line was refused;
     130: interrupted.

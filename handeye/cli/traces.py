@@ -139,7 +139,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     ended = "" if count == len(events) else " up to the step that was interrupted"
     same = f"the same {counted(count, 'event')}{ended}"
     if found.rounded is None:
-        say(f"{file} repeats: {same}, byte for byte")
+        say(f"{file} repeats exactly: {same}, byte for byte")
     else:
         why = elsewhere or (", with other versions" if changed else ", as on another kind of processor")
         say(f"{file} repeats except for rounding{why}: {same}; the first difference: {found.rounded}")

@@ -88,8 +88,8 @@ def base_vision_trials(
     n: Annotated[
         WholeNumber,
         Parameter(
-            help="Number of poses of the base to try: the first is the one drawn for the world, the others are "
-            "random."
+            help="Number of poses of the base to try: the first is the pose that the base has in the world, the "
+            "others are random."
         ),
     ] = 100,
     attempts: AttemptOptions = ATTEMPTS,
@@ -179,7 +179,7 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
 
 def chaos_trials(
     *,
-    count: Annotated[WholeNumber, Parameter(name="--n", help="Number of schedules to draw.")] = 100,
+    count: Annotated[WholeNumber, Parameter(name="--n", help="Number of random schedules (tests) to try.")] = 100,
     seed: FirstSeed = 0,
     worlds: Annotated[
         WholeNumber,

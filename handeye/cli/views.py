@@ -65,7 +65,7 @@ def view(
         raise BadArgument("--demo brings its own program; give either a plan or --demo")
     if teach is not None:
         if demo or file is not None or out is not None or overwrite:
-            raise BadArgument("--teach runs no plan and keeps no run; leave out the plan, --demo and --out")
+            raise BadArgument("--teach runs no plan and saves no run; leave out the plan, --demo and --out")
         return _teach(teach, port, world, fault, camera)
     if file is not None and (file.is_dir() or file.suffix in _RECORDED):
         made_known(world.task)

@@ -27,8 +27,8 @@ Faults = Annotated[
         group=WORLD,
         consume_multiple=False,
         help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. "
-        "`handeye faults --list` lists the faults of the pump, and with `--task JOB` those of a job. May be "
-        "repeated.",
+        "`handeye faults --list` lists the faults of the pump; with `--task NAME`, it lists those of another task. "
+        "May be repeated.",
     ),
 ]
 

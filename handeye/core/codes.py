@@ -185,7 +185,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
-        "a motion moves away from the surface that its STOP should meet", "STOP [0 0 -50]\nCHANGE Z 1"
+        "a motion moves away from the surface on which its STOP should end it", "STOP [0 0 -50]\nCHANGE Z 1"
     ),
     "stop-beyond-arm": _planning(
         "the force or moment of a STOP is greater than the arm can exert",

@@ -115,7 +115,7 @@ ERRORS: Final[dict[int, str]] = {
     FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
     GASKET_WRONG: "the gasket is not in place",
     PART_ASTRAY: "the part has moved since the earlier picture",
-    SWITCH_WRONG: "a finger switch does not show what its finger touches, or the fingers press too weakly",
+    SWITCH_WRONG: "a finger switch does not show whether its finger touches anything, or the fingers press too weakly",
     GAP_WRONG: "the gap differs from the commanded gap: its potentiometer fails, something holds or forces the "
     "fingers, or the held part has slipped",
     FORCE_WRONG: "the hand feels a force in free air: something touches it, the load differs from the declared one, "

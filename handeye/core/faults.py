@@ -115,7 +115,7 @@ class FaultKind:
                 f"the fault {quoted(self.name)} cannot begin during a run, only before it; leave out `@{fault.stage}`"
             )
         if self.size is None and fault.value is not None:
-            raise BadArgument(f"the fault {quoted(self.name)} has no value")
+            raise BadArgument(f"the fault {quoted(self.name)} takes no value")
         if self.size is not None:
             low, high = (limit * self.measure.size for limit in self.limits)
             if fault.value is None or not low <= fault.value <= high:

@@ -139,14 +139,14 @@ def _value(kind: FaultKind, text: str) -> float | None:
     if not text:
         return kind.usual().value
     if kind.size is None:
-        raise BadArgument(f"the fault {quoted(kind.name)} has no value; leave out {quoted(f'={text}')}")
+        raise BadArgument(f"the fault {quoted(kind.name)} takes no value; leave out {quoted(f'={text}')}")
     return value_of(kind, text)
 
 
 def by_number(text: str) -> int:
     """Parse the number of a stage, from 1, where the names of the stages are not known."""
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
-        raise BadArgument(f"{quoted(text)} is not the number of a stage, which starts at 1")
+        raise BadArgument(f"{quoted(text)} is not the number of a stage; stages are numbered from 1")
     return int(text)
 
 

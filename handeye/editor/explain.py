@@ -228,7 +228,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "The first guarded motion after a MOVE feels a force although the hand should touch nothing. Declare the "
         "weight in the hand with LOAD, and LOAD 0 after the release. If the declared weight is right, an object "
         "leans on the hand, or a drive or a tachometer fails.",
-        "MOVE P\nCLOSE .1\nLOAD 30 ;else it would be felt\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
+        "MOVE P\nCLOSE .1\nLOAD 30 ;else the stop feels the weight\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
     ),
     errors.JOINT_SENSE_WRONG: Remedy(
         "The arm does not know where it is. Either do not test for the error, or test for it and call the "
@@ -250,7 +250,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_STIFF: Remedy(
         "One joint needs far more torque than its friction explains, and no force at the hand could cause this. "
         "Either do not test for the error, or test for it and call the operator with a WAIT.",
-        'MOVE T\nSKIPN 57 ;each joint takes what it took at first\nWAIT "SEE TO THE ARM\'S DRIVES"\nMOVE P',
+        'MOVE T\nSKIPN 57 ;each joint needs the same torque as at the start\nWAIT "SEE TO THE ARM\'S DRIVES"\nMOVE P',
     ),
 }
 

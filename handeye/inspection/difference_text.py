@@ -57,6 +57,6 @@ def _motion(change: MotionChange) -> str:
         return time
     by = inches(change.moved) if change.kind == "prismatic" else degrees(change.moved)
     return (
-        f"{time}, joint {change.joint} ({change.name}) ends {by if change.moved < 0 else '+' + by} from where it "
-        "ended before"
+        f"{time}, the end position of joint {change.joint} ({change.name}) changes by "
+        f"{by if change.moved < 0 else '+' + by}"
     )

@@ -55,8 +55,8 @@ class HoldsRun(CannotWrite):
 
     def __init__(self, path: Path) -> None:
         super().__init__(
-            f"{path} holds a run: `handeye resume {path}` resumes it, --overwrite replaces it, "
-            "and another folder keeps it"
+            f"{path} holds a run: `handeye resume {path}` resumes it, --overwrite replaces it; to "
+            "keep it, choose another folder"
         )
         self.path = path
 

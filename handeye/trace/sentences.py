@@ -196,7 +196,7 @@ def _rubbing(event: happened.FrictionMeasured) -> str:
 def _faint(event: happened.GuardFaint) -> str:
     si, unit = (OUNCE_INCH, "ounce-inches") if event.guard is GuardKind.MOMENT else (OUNCE_FORCE, "ounces")
     limit, felt = f"{event.limit / si:.1f}", f"{event.friction / si:.1f}"
-    hard = f"a stop on {limit} {unit} is hard to distinguish from joint friction"
+    hard = f"the arm can hardly distinguish a stop on {limit} {unit} from joint friction"
     return f"{hard}: up to {felt} {unit} can be felt here in free air"
 
 

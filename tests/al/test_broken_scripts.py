@@ -54,7 +54,7 @@ MISTAKES = {
     "b11": (
         "faint-moment",
         9,
-        "a stop on a moment of 0.2 oz-in is hard to distinguish from joint friction here",
+        "the arm can hardly distinguish a moment of 0.2 oz-in from joint friction here",
     ),
     "b12": ("load-beyond-arm", 9, "the arm cannot carry 900 oz"),
     "b13": ("joint-limit", 10, "`MOVE STUD` would take joint 5 (wrist bend) 25.4 degrees beyond"),
@@ -96,7 +96,7 @@ MISTAKES = {
     "c17": ("never-saved", 9, "no `SAVE` saves a difference `El`"),
     "c18": ("unknown-label", 15, "label `TRY` belongs to a macro"),
     "c19": ("number-out-of-range", 6, "`7` is too large for the step of `SEARCH`"),
-    "c20": ("faint-force", 4, "a stop on a force of 0.2 oz is hard to distinguish from joint friction here"),
+    "c20": ("faint-force", 4, "the arm can hardly distinguish a force of 0.2 oz from joint friction here"),
     "d02": ("label-splits-modifier", 6, "label `DOWN` is between `STOP` and its motion"),
     "d03": ("search-stands-still", 12, "there is no `MOVE` between the label and this `AOJ`"),
     "d04": ("search-begun-anew", 25, "`AOJ` jumps back to a label before the `SEARCH`"),
@@ -116,7 +116,7 @@ MISTAKES = {
     "d10": ("malformed-number", 6, "a comma separates two operands"),
     "d11": ("wrong-operand", 6, "`VIA` takes a name as position, not a vector"),
     "d12": ("carries-through-fixture", 7, "`SCREWDRIVER` in the hand would go 0.36 in into `RACK`"),
-    "d13": ("faint-force", 9, "a stop on a force of 1 oz is hard to distinguish from joint friction here"),
+    "d13": ("faint-force", 9, "the arm can hardly distinguish a force of 1 oz from joint friction here"),
     "d15": (
         "torque-without-tool",
         20,
@@ -126,7 +126,7 @@ MISTAKES = {
     "d17": ("travel-too-long", 10, "`TRAVEL` needs at least 1.6 in, but the motion is at most 1.3 in"),
     "d18": ("touch-while-closed", 9, "this motion waits for a touch, but the fingers are closed"),
     "d19": ("unknown-position", 10, "`FOUND` is a saved difference, not a position"),
-    "d20": ("compared-without-hold", 15, "picture `AFTER` is taken at a different target voltage"),
+    "d20": ("compared-without-hold", 15, "picture `AFTER` is not taken at the target voltage of picture `BEFORE`"),
     "d21": ("part-not-described", 5, "`GENERAL` cannot find `PUMP` without its `region`"),
     "d22": ("macro-ends-early", 2, "macro `SETDOWN` ends with `STOP`, but its motion is outside the macro"),
     "d23": ("unreadable-file", 1, "`water_pump.toml` is a taught file"),
@@ -146,7 +146,11 @@ MISTAKES = {
     "e09": ("unterminated-macro", 3, "macro `TAP` has no end"),
     "e10": ("unexpected-character", 5, "`:` is not part of the language"),
     "e11": ("unknown-position", 6, "position `P1_UP` is not in the taught file, and no `TRANS` defines it"),
-    "e12": ("stop-away-from-motion", 11, "the hand moves away from the surface that the `STOP` should meet"),
+    "e12": (
+        "stop-away-from-motion",
+        11,
+        "the hand moves away from the surface on which the `STOP` should end the motion",
+    ),
     "e13": (
         "search-begun-anew",
         20,

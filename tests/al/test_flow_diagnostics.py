@@ -77,20 +77,20 @@ def test_error_the_action_can_raise_may_be_tested(text: str) -> None:
     [
         (
             "CHANGE [0 0 -1] 1\nSKIPE 23\nPARK",
-            "a motion raises error 23 if it follows a `STOP` and does not meet the force",
+            "a motion after a `STOP` raises error 23 if the hand never presses with the force of the `STOP`",
         ),
         (
             f"{DOWN}SKIPE 24\nPARK",
-            "a motion raises error 24 if it follows a `TORQUE` and does not meet the torque",
+            "a motion after a `TORQUE` raises error 24 if the screwdriver never reaches the torque",
         ),
         (
             f"{DOWN}SKIPE 25\nPARK",
-            "a motion raises error 25 if it follows a `TOUCH` and no finger touches anything",
+            "a motion after a `TOUCH` raises error 25 if no finger touches anything",
         ),
-        ("CLOSE .1\nSKIPE 7\nPARK", "`CLOSE` raises error 7 if it has a maximum"),
+        ("CLOSE .1\nSKIPE 7\nPARK", "only a `CLOSE` with a maximum raises error 7"),
         (
             "CLOSE .1\nSKIPE 23\nPARK",
-            "a motion raises error 23 if it follows a `STOP` and does not meet the force",
+            "a motion after a `STOP` raises error 23 if the hand never presses with the force of the `STOP`",
         ),
         ("CLOSE .1\nSKIPE 8\nPARK", "errors that can occur here: 2, 5, 50, 51"),
     ],

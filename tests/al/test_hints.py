@@ -122,7 +122,7 @@ def test_a_wait_with_words_is_not(text: str) -> None:
 
 def test_a_saved_difference_is_not_mixed_up_with_a_position() -> None:
     (told,) = diagnose("MOVE T\nRESTORE P")
-    assert told.help == "`P` is a position; `SAVE` saves a difference"
+    assert told.help == "`P` is a position, not a saved difference"
 
 
 def test_listing_of_1973_needs_no_help() -> None:

@@ -89,7 +89,7 @@ def test_macro_without_a_blank_line_is_reported() -> None:
         (
             "DEFINE GRASP S 50",
             "a parameter must be a name, not `50`",
-            "the macro names its parameters; a call gives the numbers and vectors",
+            "give numbers and vectors in the calls of the macro",
         ),
     ],
 )

@@ -196,11 +196,11 @@ def test_warning_leaves_a_program() -> None:
 @pytest.mark.parametrize(
     ("text", "help"),
     [
-        ("GO", "a script runs from its first line to its last without such commands"),
-        ("DO PUMP", "a script runs from its first line to its last without such commands"),
+        ("GO", "a script needs no console commands"),
+        ("DO PUMP", "a script needs no console commands"),
         (
             "do CHANGE [0 0 -1] 1",
-            "a script runs from its first line to its last without such commands; write only the instruction: "
+            "a script needs no console commands; write only the instruction: "
             "`CHANGE [0 0 -1] 1`",
         ),
     ],

@@ -162,7 +162,7 @@ def test_two_pictures_in_the_wrong_order_are_told_so() -> None:
     (told,) = diagnose("LOOK A\nLOOK B HOLD\nINSPECT BASE B A")
     assert (told.code, told.message) == (
         "compared-without-hold",
-        "`B` is taken with `HOLD`, after `A`",
+        "picture `B` is named as the earlier one, but is taken with `HOLD`, after picture `A`",
     )
 
 
@@ -208,10 +208,10 @@ def planned(text: str) -> list[str | None]:
 
 def test_angles_in_radians_are_known_where_they_lead_nowhere() -> None:
     assert planned("TRANS A [26 36 5 1.5708 1.571 0]\nMOVE A") == [
-        "O, A and T are in degrees; 1.5708 is 90 degrees in radians"
+        "O, A and T are in degrees, but 1.5708 looks like 90 degrees in radians"
     ]
     assert planned("TRANS A [26 36 5 3.14 2 0]\nMOVE A") == [
-        "O, A and T are in degrees; 3.14 is 180 degrees in radians"
+        "O, A and T are in degrees, but 3.14 looks like 180 degrees in radians"
     ]
 
 

@@ -64,7 +64,7 @@ def test_the_page_of_a_world_has_a_row_a_quantity() -> None:
         ({"set": {"arm.friction": None}}, r"^arm\.friction\.1 cannot be `None`, which is not a number$"),
         (
             {"set": ["arm.friction"]},
-            r"^`set` must be a dictionary of values by the names of quantities, not ",
+            r"^`set` must be a dictionary from names of quantities to values, not ",
         ),
     ],
 )

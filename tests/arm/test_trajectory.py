@@ -190,7 +190,7 @@ def test_set_points_beyond_a_limit_are_found() -> None:
     assert isinstance(check_samples(STANFORD, samples, floor=3 * INCH).reason, BelowTable)
     samples.q[5, 2] = 51 * INCH
     assert check_samples(STANFORD, samples).message(STANFORD) == (
-        "joint 3 (boom) would have to be 51.0 in; it ends at 50.0 in"
+        "joint 3 (boom) would have to be at 51.0 in; its limit is 50.0 in"
     )
 
 

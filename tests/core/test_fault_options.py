@@ -46,11 +46,11 @@ def test_a_stage_may_have_any_name() -> None:
             "there is no fault `bell`; known: `base.removed`, `gap.off`, `gasket.missing`, `lamp.dead`",
         ),
         (["lamp"], "`lamp` is a group of faults: `lamp.dead`"),
-        (["lamp.dead=3"], "the fault `lamp.dead` has no value; leave out `=3`"),
+        (["lamp.dead=3"], "the fault `lamp.dead` takes no value; leave out `=3`"),
         (["gap.off=wide"], "gap.off cannot be `wide`, which is not a number"),
         (["gap.off=5in"], "gap.off cannot be `5in`; it must be between -4 and 4 in"),
         (["gap.off=5N"], "gap.off is not measured in `N`; known: `in`, `m`, `mm`"),
-        (["lamp.dead@0"], "`0` is not the number of a stage, which starts at 1"),
+        (["lamp.dead@0"], "`0` is not the number of a stage; stages are numbered from 1"),
         (["lamp.dead@"], "`lamp.dead@` is not a fault; write NAME, NAME=VALUE or NAME@STAGE"),
         (["gap.off="], "`gap.off=` is not a fault; write NAME, NAME=VALUE or NAME@STAGE"),
         (["lamp.dead", "lamp.dead@2"], "the fault `lamp.dead` is given twice"),
@@ -83,5 +83,5 @@ def test_a_fault_is_told_as_it_would_be_typed() -> None:
 def test_a_recorded_fault_of_another_size_than_it_can_have_is_refused() -> None:
     with pytest.raises(InvalidInput, match=r"^the fault `gap.off` must have a value between -0\.1016 and"):
         CATALOGUE.check([Fault(name="gap.off", value=7.0)])
-    with pytest.raises(InvalidInput, match=r"^the fault `lamp.dead` has no value$"):
+    with pytest.raises(InvalidInput, match=r"^the fault `lamp.dead` takes no value$"):
         CATALOGUE.check([Fault(name="lamp.dead", value=7.0)])

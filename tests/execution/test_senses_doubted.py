@@ -330,7 +330,7 @@ STARTS = [0.05] * 4 + [0.0] * 20
         ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "the motor turns too slowly"),
         (
             [0.05] * 6 + [0.0] * 999,
-            "took more than 1.5 times its usual time to reach its speed: it turns too fast",
+            "was still speeding up after 1.5 times the usual time, so it turns too fast",
         ),
     ],
 )
@@ -366,7 +366,7 @@ def test_a_current_that_ends_below_the_torque_stop_is_told_of_a_motor_that_is_he
     run.cell.arm.walls = [Wall(point=(0.0, 0.0, (5.8 if stands else 0) * INCH))]
     assert run.go().errors == [error]
     if error == errors.CURRENT_WRONG:
-        assert "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in" in run.told
+        assert "the sensor shows only 30.0 of the commanded 42.0 oz-in" in run.told
 
 
 @pytest.mark.parametrize(("running", "told"), [(5.0, ""), (20.0, "the thread is hard to turn")])

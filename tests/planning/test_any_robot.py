@@ -68,9 +68,9 @@ def refused(arm: ArmModel, position: str) -> Diagnostic:
 @pytest.mark.parametrize(
     ("arm", "position", "note"),
     [
-        (GANTRY, f"[55 {Y} 4 90 90 0]", "joint 3 (carriage) would have to be 45.2 in; it ends at 39.4 in"),
-        (GANTRY, f"[30 {Y} 45 90 90 0]", "joint 4 (mast) would have to be -3.7 in; it begins at 0.0 in"),
-        (CARTESIAN, "[30 2 4 90 90 0]", "joint 2 (y) would have to be 2.0 in; it begins at 3.9 in"),
+        (GANTRY, f"[55 {Y} 4 90 90 0]", "joint 3 (carriage) would have to be at 45.2 in; its limit is 39.4 in"),
+        (GANTRY, f"[30 {Y} 45 90 90 0]", "joint 4 (mast) would have to be at -3.7 in; its limit is 0.0 in"),
+        (CARTESIAN, "[30 2 4 90 90 0]", "joint 2 (y) would have to be at 2.0 in; its limit is 3.9 in"),
         (
             CARTESIAN,
             f"[30 {Y} 4 60 90 0]",
@@ -110,7 +110,7 @@ def test_a_motion_that_comes_out_otherwise_is_told_by_the_robot_s_own_joints() -
     plans = [planned(GANTRY, f"{HEAD}TRANS C [{x} {Y} 4 90 90 0]\nMOVE C\n")[0] for x in (30, 31)]
     assert plans[0] is not None
     assert plans[1] is not None
-    assert "joint 3 (carriage) ends +1 in from where it ended before" in "\n".join(
+    assert "the end position of joint 3 (carriage) changes by +1 in" in "\n".join(
         difference_text(difference(*plans))
     )
 

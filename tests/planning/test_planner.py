@@ -69,7 +69,7 @@ def test_a_straight_motion_through_the_table_is_found_in_planning() -> None:
 
 def test_a_goal_out_of_reach_names_the_joint_and_the_amount() -> None:
     problem = only("TRANS T [25 38 4 90 90 0]\nTRANS FAR [53 53 4 90 90 0]\nMOVE T\nMOVE FAR")
-    assert problem.notes[0] == "joint 3 (boom) would have to be 54.5 in; it ends at 50.0 in"
+    assert problem.notes[0] == "joint 3 (boom) would have to be at 54.5 in; its limit is 50.0 in"
 
 
 def test_a_stop_beyond_the_arm_is_found_in_planning() -> None:

@@ -15,7 +15,7 @@ from handeye.core.units import INCH
 def test_a_goal_beyond_the_boom_says_how_far() -> None:
     (problem,) = said("TRANS FAR [25 60 4 90 90 0]\nMOVE FAR")
     assert problem.message == "FAR is 0.56 in beyond the reach of the Stanford arm"
-    assert problem.notes == ("joint 3 (boom) would have to be 50.6 in; it ends at 50.0 in",)
+    assert problem.notes == ("joint 3 (boom) would have to be at 50.6 in; its limit is 50.0 in",)
     assert problem.help == "move the position at least 0.56 in closer to the arm"
 
 
@@ -47,7 +47,7 @@ def test_a_straight_motion_says_where_it_leaves_the_reach() -> None:
     (problem,) = said("MOVE T\nCHANGE [0 1 0] 30")
     assert problem.code == "path-leaves-reach"
     assert problem.message == "the hand would leave the arm's reach 21.5 in along this `CHANGE`"
-    assert problem.notes == ("joint 3 (boom) would have to be 58.5 in; it ends at 50.0 in",)
+    assert problem.notes == ("joint 3 (boom) would have to be at 58.5 in; its limit is 50.0 in",)
 
 
 def test_a_turn_says_where_it_comes_to_the_limit_of_a_joint() -> None:
@@ -65,7 +65,7 @@ def test_a_free_motion_that_swings_beyond_a_limit_on_its_way_says_where() -> Non
         problem.message == "`MOVE` would take joint 1 (column) 1.2 degrees beyond its limit of -170 degrees"
     )
     assert problem.notes == ("the joint reaches its limit 159.1 in along its way to B",)
-    assert problem.help == "add a position on the way with `VIA`"
+    assert problem.help == "use `VIA` to add a position on the way"
 
 
 def test_a_straight_motion_through_the_singularity_is_found() -> None:

@@ -102,17 +102,17 @@ def test_a_moment_that_no_joint_can_bring_up_is_found_in_planning(modifier: str,
     [
         (
             "[0 0 -5]",
-            "a stop on a force of 5 oz is hard to distinguish from joint friction here",
+            "the arm can hardly distinguish a force of 5 oz from joint friction here",
             "write at least 6 oz",
         ),
         (
             "NIL [19 0 0]",
-            "a stop on a moment of 19 oz-in is hard to distinguish from joint friction here",
+            "the arm can hardly distinguish a moment of 19 oz-in from joint friction here",
             "95 oz-in",
         ),
         (
             "NIL [0 0 10]",
-            "a stop on a moment of 10 oz-in is hard to distinguish from joint friction here",
+            "the arm can hardly distinguish a moment of 10 oz-in from joint friction here",
             "16 oz-in",
         ),
     ],

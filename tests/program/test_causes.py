@@ -31,7 +31,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.BeyondArm(reason=JointLimit(1, 100 * DEGREE, 90 * DEGREE), arm=ARM),
-        "joint 2 (wrist) would have to be 100.0 degrees; it ends at 90.0 degrees",
+        "joint 2 (wrist) would have to be at 100.0 degrees; its limit is 90.0 degrees",
     ),
     (c.JointBehind(joint="boom"), "boom lags behind its set-point"),
     (
@@ -89,7 +89,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
-        "the switch of the +y finger is still closed after the hand moved 0.06 in towards it, away from the "
+        "the switch of the +y finger is still closed after the hand moved 0.06 in towards this side, away from the "
         "part: the two switches are swapped, or the switch of the other finger stays open",
     ),
     (
@@ -112,12 +112,12 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.CurrentShort(torque=30 * OUNCE_INCH, asked=42 * OUNCE_INCH),
-        "the sensor shows 30.0 oz-in of the commanded 42.0 oz-in while the motor is stalled: the current "
+        "the sensor shows only 30.0 of the commanded 42.0 oz-in while the motor is stalled: the current "
         "sensor reads no higher, or the motor is weak",
     ),
     (
         s.MotorFast(times=1.5),
-        "the motor took more than 1.5 times its usual time to reach its speed: it turns too fast",
+        "the motor was still speeding up after 1.5 times the usual time, so it turns too fast",
     ),
     (
         s.ScrewHard(torque=38 * OUNCE_INCH, limit=12.6 * OUNCE_INCH),
@@ -139,7 +139,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.MotorSlow(share=0.4),
-        "the motor took only 0.4 of its usual time to reach its speed: it turns too slowly",
+        "the motor stopped speeding up after only 0.4 of the usual time, so it turns too slowly",
     ),
     (
         s.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
@@ -246,7 +246,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.ScrewLost(way=0.002, force=6.0),
-        "the hand has lost the screw: it goes down 0.08 in without meeting 22 oz",
+        "the hand has lost the screw: the hand went down 0.08 in and felt less than 22 oz",
     ),
     (c.BackingOut(), "the step drove a screw out, which cannot be undone"),
     (c.UndoUnknown(), "the record for undoing this step cannot be used"),

@@ -45,7 +45,7 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
             continue
         (x, y, z), (f, g, h) = change.displacement, guard.force
         if x * f + y * g + z * h < 0:
-            message = "the hand moves away from the surface that the `STOP` should meet"
+            message = "the hand moves away from the surface on which the `STOP` should end the motion"
             help = "the vector of `STOP` is the force that the hand exerts: point the vector in the direction of motion"
             yield AlwaysFails("stop-away-from-motion", number, message, help)
 

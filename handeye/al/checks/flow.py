@@ -20,10 +20,10 @@ from handeye.program.operation import Operation
 from handeye.program.vision_operations import General, Specific
 
 _CURES = {
-    NO_FORCE: "a motion raises error 23 if it follows a `STOP` and does not meet the force",
-    NO_TORQUE: "a motion raises error 24 if it follows a `TORQUE` and does not meet the torque",
-    NO_TOUCH: "a motion raises error 25 if it follows a `TOUCH` and no finger touches anything",
-    WRONG_THICKNESS: "`CLOSE` raises error 7 if it has a maximum",
+    NO_FORCE: "a motion after a `STOP` raises error 23 if the hand never presses with the force of the `STOP`",
+    NO_TORQUE: "a motion after a `TORQUE` raises error 24 if the screwdriver never reaches the torque",
+    NO_TOUCH: "a motion after a `TOUCH` raises error 25 if no finger touches anything",
+    WRONG_THICKNESS: "only a `CLOSE` with a maximum raises error 7",
 }
 
 
@@ -92,7 +92,7 @@ _ORDERS = (
         of=Specific,
         needs=General,
         message="there is no `GENERAL` before this `SPECIFIC`, so the `SPECIFIC` would raise error 31",
-        help="`SPECIFIC` searches for holes where `GENERAL` has found the part",
+        help="`GENERAL` locates the part, and `SPECIFIC` then searches for its holes there",
     ),
 )
 

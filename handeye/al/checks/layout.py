@@ -89,5 +89,5 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
             f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, but its motion is outside the macro",
             modifier.span,
             Label(span=motion.span, text="this line is after the macro"),
-            help="a blank line ends a macro: remove the line, or write a comment on it",
+            help="remove the blank line, which ends the macro, or write a comment on it",
         )

@@ -120,7 +120,7 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
     help = names_sentence(meant)
     other = next((kind for kind, names in known.items() if name.text in names), None)
     if other is not None and refers is Refers.SAVED:
-        help, meant = f"{quoted(name.text)} is a {other.value}; `SAVE` saves a difference", None
+        help, meant = f"{quoted(name.text)} is a {other.value}, not a saved difference", None
     elif other is not None:
         message = f"{quoted(name.text)} is a {other.value}, not a {refers.value}"
     return problem(code, message, name.span, *uses(name), help=help, meant=meant)

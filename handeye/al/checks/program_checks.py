@@ -222,13 +222,16 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
         if not taken or any(held for _, held in taken):
             continue
         if any(held for _, held in looks.get(before.text, [])):
-            message = f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}"
+            message = (
+                f"picture {quoted(before.text)} is named as the earlier one, but is taken with `HOLD`, after picture "
+                f"{quoted(after.text)}"
+            )
             help = "name the earlier picture first"
             yield problem("compared-without-hold", message, across(before, after), help=help)
         else:
             yield problem(
                 "compared-without-hold",
-                f"picture {quoted(after.text)} is taken at a different target voltage",
+                f"picture {quoted(after.text)} is not taken at the target voltage of picture {quoted(before.text)}",
                 after.span,
                 Label(span=taken[0][0].span, text="the camera sets its target voltage again here"),
                 help=f"`LOOK {after.text} HOLD` keeps the voltage of the earlier picture",

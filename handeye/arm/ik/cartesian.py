@@ -37,7 +37,8 @@ def _build(arm: ArmModel) -> _Build:
     axes = R[slides, :, 2].T
     if any(joint.kind != "prismatic" for joint in arm.joints) or np.linalg.matrix_rank(axes) < len(slides):
         raise ValueError(
-            f"the {arm.name} arm needs one to three slides in different directions, and no other joints"
+            f"the {arm.name} arm is not a Cartesian arm: it must have one to three slides in different directions, "
+            "and no other joints"
         )
     return _Build(
         slides=slides, held=held, held_at=np.array([arm.held[arm.joints[i].name] for i in held]),

@@ -49,7 +49,9 @@ def _build(arm: ArmModel) -> _Build:
     kinds = [joint.kind for joint in arm.joints]
     square = all(abs(math.cos(joint.alpha)) < _COLLINEAR for joint in arm.joints[-3:-1])
     if kinds != ["prismatic"] * wrist + ["revolute"] * 3 or len(slides) != 3 or not square:
-        raise ValueError(f"the {arm.name} arm needs three free slides that carry a wrist of three joints")
+        raise ValueError(
+            f"the {arm.name} arm is not a gantry: it must have three free slides that carry a wrist of three joints"
+        )
     R, _ = chain(arm, np.zeros(len(arm.joints)))
     return _Build(
         slides=slides, held=held, held_at=np.array([arm.held[arm.joints[i].name] for i in held]), wrist=wrist,

@@ -132,7 +132,7 @@ def _undo_stopped(cause: c.UndoCause) -> str:
             )
         case c.ScrewLost():
             force = f"{cause.force / OUNCE_FORCE:.0f} oz"
-            return f"the hand has lost the screw: it goes down {inches(cause.way)} without meeting {force}"
+            return f"the hand has lost the screw: the hand went down {inches(cause.way)} and felt less than {force}"
         case c.BackingOut():
             return "the step drove a screw out, which cannot be undone"
         case c.UndoUnknown():

@@ -89,8 +89,8 @@ class TooWeak(Record, frozen=True, kw_only=True):
 
 
 class TooFaint(Record, frozen=True, kw_only=True):
-    """The limit of a guard is hard to distinguish from joint friction: where the motion begins, the arm may sense up to
-    `felt` (N or N m) even in free air.
+    """The arm can hardly distinguish the limit of a guard from joint friction: where the motion begins, the arm may
+    sense up to `felt` (N or N m) even in free air.
     """
 
     step: int

@@ -200,7 +200,6 @@ def _unit(arm: NamedArm, joint: int) -> tuple[float, str]:
 
 
 def _beyond(arm: NamedArm, reason: OutOfReach | TooNear | JointLimit) -> str:
-    begins = "ends" if reason.amount > reason.limit else "begins"
     scale, unit = _unit(arm, reason.joint)
     amount, limit = distinct_digits([reason.amount / scale, reason.limit / scale], 1)
-    return f"{named(arm, reason.joint)} would have to be {amount} {unit}; it {begins} at {limit} {unit}"
+    return f"{named(arm, reason.joint)} would have to be at {amount} {unit}; its limit is {limit} {unit}"

@@ -25,8 +25,8 @@ class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` stay closed although the hand has moved by `moved` (m) towards the side of that
-    finger.
+    """The switch of one of the `fingers` stays closed although the hand has moved by `moved` (m) towards the side of
+    that finger, away from the part.
     """
 
     fingers: tuple[bool, bool]
@@ -145,13 +145,13 @@ class CurrentShort(CauseRecord, frozen=True, kw_only=True):
 
 
 class MotorSlow(CauseRecord, frozen=True, kw_only=True):
-    """The motor took only the fraction `share` of its usual time to reach its speed."""
+    """The motor stopped speeding up after the fraction `share` of the usual time, so it turns too slowly."""
 
     share: float
 
 
 class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor ran free, but took more than `times` times its usual time to reach its speed."""
+    """The motor runs free, but was still speeding up after `times` times the usual time, so it turns too fast."""
 
     times: float
 

@@ -19,7 +19,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             held = f"something {inches(cause.gap)} thick holds the fingers apart"
             return f"{_switches(cause.fingers)} open although {held}: {_untouched(cause)}"
         case s.SwitchesCrossed():
-            still = f"still closed after the hand moved {inches(cause.moved)} towards it, away from the part"
+            still = f"still closed after the hand moved {inches(cause.moved)} towards this side, away from the part"
             return (
                 f"{_switches(cause.fingers)} {still}: the two switches are swapped, or the switch of the other "
                 "finger stays open"
@@ -54,14 +54,15 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             return f"the sensor shows {told:.1f} oz-in, but the motor takes {known:.1f} oz-in{times}"
         case s.CurrentShort():
             shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
-            short = f"the sensor shows {shown:.1f} oz-in of the commanded {asked:.1f} oz-in while the motor is stalled"
+            short = f"the sensor shows only {shown:.1f} of the commanded {asked:.1f} oz-in while the motor is stalled"
             return f"{short}: the current sensor reads no higher, or the motor is weak"
         case s.MotorSlow():
-            return f"the motor took only {cause.share:.1f} of its usual time to reach its speed: it turns too slowly"
+            return (
+                f"the motor stopped speeding up after only {cause.share:.1f} of the usual time, so it turns too slowly"
+            )
         case s.MotorFast():
             return (
-                f"the motor took more than {cause.times:.1f} times its usual time to reach its speed: "
-                "it turns too fast"
+                f"the motor was still speeding up after {cause.times:.1f} times the usual time, so it turns too fast"
             )
         case s.ScrewHard():
             takes, allowed = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))

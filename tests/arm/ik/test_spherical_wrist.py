@@ -88,13 +88,13 @@ def test_a_cause_holds_plain_numbers_whatever_a_solver_computed_with() -> None:
 def test_beyond_the_boom_is_out_of_reach() -> None:
     result = solve(STANFORD, at(20, 66, 3), PARK)
     assert isinstance(result.reason, OutOfReach)
-    assert result.message(STANFORD) == "joint 3 (boom) would have to be 56.4 in; it ends at 50.0 in"
+    assert result.message(STANFORD) == "joint 3 (boom) would have to be at 56.4 in; its limit is 50.0 in"
 
 
 def test_a_boom_too_short_begins_rather_than_ends() -> None:
     result = solve(STANFORD, at(20, 20, 14), PARK)
     assert isinstance(result.reason, TooNear)
-    assert result.message(STANFORD) == "joint 3 (boom) would have to be 8.1 in; it begins at 12.0 in"
+    assert result.message(STANFORD) == "joint 3 (boom) would have to be at 8.1 in; its limit is 12.0 in"
 
 
 def test_a_hand_that_would_point_at_its_own_arm_meets_a_joint_limit() -> None:
