@@ -79,7 +79,7 @@ def begin(
 
     Limits given as `referee` are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved;
     checkpoints, trace and result hold only the name of the function or class. `handeye resume` and `handeye trace
-    verify` refuse such a run; `handeye.begin` resumes it if you give it code with the same name.
+    verify` refuse such a run; `handeye.begin` resumes the run if you give code with the same name.
 
     Raises:
         ScriptError: the script has errors.
@@ -130,7 +130,7 @@ def assemble(
     overwrite: bool = False,
     on_stop: str = "abort",
 ) -> Run:
-    """Run a script to its end and have the referee judge the result, like the command `handeye assemble`.
+    """Run a script to its end and let the referee judge the result, like the command `handeye assemble`.
 
     Args:
         on_stop: what to do when the program calls the operator: `abort` ends the run; `retry:N` repeats the stage,
@@ -170,8 +170,8 @@ def assemble(
 
 
 def _rule(on_stop: object) -> Operator:
-    """Return the operator that follows the rule `on_stop`. Raises InvalidInput if the rule is unknown, or if it
-    would have to ask a person.
+    """Return the operator that follows the rule `on_stop`. Raises InvalidInput if there is no such rule, or if the
+    rule needs a person to answer.
     """
     operator = None
     with suppress(InvalidInput):  # the message of that error is about the command line

@@ -113,8 +113,8 @@ class Plan:
 
     @property
     def seconds(self) -> float:
-        """Total duration of the planned motions, in seconds. Each step counts once, even in a loop. Finger
-        motions and pictures are not included.
+        """Total duration of the planned motions, in seconds. A step in a loop counts once. Finger motions and pictures
+        are not included.
         """
         return self._laid_open.seconds
 

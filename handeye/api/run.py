@@ -175,8 +175,8 @@ class Run:
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
-        """Make the arm undo all its work and end the run. The referee then checks that every part
-        is back in its place; `result.apart` gives its verdict.
+        """Make the arm undo all its work and end the run. `result.apart` then gives the referee's verdict on the
+        undone work.
 
         Raises:
             InvalidInput: there is nothing to undo.
@@ -442,7 +442,8 @@ class Run:
 
 
 def _too_many(steps: int, done: int, how: str) -> Refused:
-    """Return the exception for a request to undo more steps than were executed; `how` is the verb of the sentence."""
+    """Return the exception for a request to undo more steps than were executed. `how` is the verb of its
+    message."""
     left = f"only {done} {'has' if done == 1 else 'have'}" if done else "none has"
     return Refused(f"{counted(steps, 'step')} cannot be undone: {left} been {how}")
 

@@ -154,8 +154,8 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
-    """Return the checkpoint, which from now on uses the caller's search pattern, camera and referee. Its setup and
-    its first event name these parts.
+    """Return the checkpoint with the caller's search pattern, camera and referee in place of its own. Its setup and
+    its first event then name these parts.
     """
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start
@@ -176,7 +176,7 @@ def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
 
 
 def _with_referee(setup: Setup, wanted: RunRequest) -> Setup:
-    """Return the setup of a run, to be judged by the caller's referee or limits instead of the original ones."""
+    """Return the setup of a run that the caller's referee or limits will judge, instead of the original ones."""
     if "referee" in wanted.replaced:
         return msgspec.structs.replace(setup, limits={})
     if wanted.limits is None:

@@ -30,14 +30,14 @@ tachometer does not show.
 One step for rounding, and five standard deviations of the noise (.2 steps per reading, .4 at the high level).
 """
 STRUCK: Final = 3.0
-"""A struck joint may move this many times as far in one servo period as half the change of its rate explains.
-Chosen.
+"""If a joint is struck, its path in one servo period is uncertain by half the change of its rate, times the period,
+times this factor. Chosen.
 """
 
 
 SINGULAR: Final = 0.05
-"""A direction in which the joints move the hand by less than this fraction of the largest movement cannot show a
-blow. Chosen.
+"""Directions in which the joints hardly move the hand, by less than this fraction of the largest movement, are left
+out when a blow is estimated from the joints. Chosen.
 """
 REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the

@@ -40,8 +40,8 @@ reached a ratio of 1.4.
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
 """Possible relative error of weight and inertia torques if a joint moved in one direction only. It allows for
-errors of masses, mass centres and drives up to six times their stated spreads: three times the spreads at the high
-level of errors, which are twice the stated ones.
+errors of masses, mass centres and drives up to three times their spreads at the high level, which is six times their
+stated spreads.
 """
 AT_HAND: Final = 0.15
 """Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Chosen: beyond

@@ -70,8 +70,8 @@ class SnapshotCell:
         """Restore the cell to a state. Whatever follows is then identical, byte for byte, no matter what happened
         before.
 
-        Sleep is not part of a state: everything wakes, and falls asleep again where it is at rest. If an
-        interrupted run is to equal an uninterrupted run, the cell must therefore restore its own state at every
+        Sleep is not part of a state: when a state is restored, all bodies wake, and those at rest fall asleep again.
+        If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own state at every
         point where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of cell
         or is not valid.
         """

@@ -99,7 +99,7 @@ STAND_INS: Final = {
     "‘": "'", "’": "'",
 }  # fmt: skip
 """Replacements for characters that an encoding lacks. Each has the width of the character it replaces, except the
-mark of a cut line.
+three points that replace an ellipsis.
 """
 _PLAIN: Final = "handeye.plain"
 

@@ -1,5 +1,5 @@
-"""The commands by name; each is imported when it is called or when its help is requested. Lists of commands import
-none.
+"""The commands by name. A command is imported when it is called or when its help is requested, but not when commands
+are listed.
 """
 
 from contextlib import suppress

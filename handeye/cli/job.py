@@ -100,7 +100,7 @@ class _StageKeeper(Observer):
 
 
 class _Forgiving(Observer):
-    """Keeps an unnamed run. If the disk is full, the run continues without being kept."""
+    """Saves a run for which the user named no folder. If the disk is full, the run continues without being saved."""
 
     def __init__(self, work: "_Work") -> None:
         self._work = work
@@ -151,7 +151,9 @@ class _Work:
         """The last checkpoint that was saved outside the folder of the run."""
 
     def _unnamed(self) -> UnnamedRun | None:
-        """A folder for an unnamed run; None if it cannot be made, in which case the run continues without one."""
+        """A folder for a run for which the user named none. If it cannot be made, None: the run then continues without
+        a folder.
+        """
         home = runs_folder()
         if home is None:
             return None
@@ -163,8 +165,8 @@ class _Work:
 
     @contextmanager
     def keeping(self) -> Iterator[Observer]:
-        """The observer that keeps the run. If the folder of an unnamed run can no longer be written, the run
-        continues without it.
+        """The observer that saves the run. If the user named no folder and the default folder can no longer be
+        written, the run continues without it.
         """
         try:
             yield Observer() if self.folder is None else self.folder
@@ -338,7 +340,7 @@ class _Work:
         return CheckpointStore(self.job.checkpoints).at_or_before(min(position, begun))
 
     def _keep(self, checkpoint: Checkpoint) -> Path | None:
-        """Save a state to the path given on the command line; None if there is no such path."""
+        """Save a state to the path given on the command line. Returns None if no path was given."""
         if self.folder is not None:
             self.folder.check_traced()
             return self.folder.kept.save(checkpoint)

@@ -120,7 +120,7 @@ def carry_out_job_trials(
     Args:
         settings: settings of all trials, recorded with each trial.
         title: heading that says what the trials do.
-        again: words of the command that repeats a trial, besides its seed and errors.
+        again: words of the command that repeats a trial; its seed and errors are added.
     """
     from handeye.trials.folder import head_of
     from handeye.trials.jobs import JobWork

@@ -22,7 +22,7 @@ Seeds = Annotated[
 
 
 def seeds_of(n: int | None, seed: int | None, seeds: str | None, *, usual: int) -> Sequence[int]:
-    """The seeds of a batch, `usual` of them by default; raises BadArgument if they are not valid."""
+    """The seeds of a batch; by default, `usual` seeds. Raises BadArgument if the options are not valid."""
     if seeds is None:
         first, count = seed or 0, usual if n is None else n
         positive(count, "trial")

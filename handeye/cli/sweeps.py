@@ -1,4 +1,6 @@
-"""Parts common to all commands for sweeps: options, progress, the folder, and the summary at the end."""
+"""Parts common to all commands that run a sweep, a series of trials: options, progress, the folder, and the summary
+at the end.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

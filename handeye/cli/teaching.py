@@ -207,8 +207,8 @@ def teacher_of(
     cell: CellOptions,
     observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Teacher":
-    """A teacher for a cell and a taught file, given directly or as the one next to a script; raises InvalidInput if
-    either cannot be used.
+    """A teacher for a cell and a taught file. `file` is the taught file, or the script next to it. Raises InvalidInput
+    if the cell or the file cannot be used.
     """
     from handeye.teaching.teacher import Teacher
 

@@ -268,7 +268,7 @@ def _own_setup(words: str | None, camera: str) -> Setup:
 
 
 def _drawn(setup: Setup, folder: Path, seed: int, count: int, worlds: int, jobs: int) -> "list[Schedule]":
-    """Draw schedules, after executing the fault-free runs from which they start."""
+    """Choose random schedules, after executing the fault-free runs from which they start."""
     from handeye.trials.chaos import trials
     from handeye.trials.sound_run import sound_runs
 

@@ -101,8 +101,8 @@ class ErrorOptions:
         return spec
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """The options with only their errors; and the senses and macros that the program is to do without, each
-        once.
+        """Split `--without`: the options with only the errors of the world, and the senses and macros that the program
+        must do without, each once.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -165,7 +165,7 @@ class WorldOptions:
         return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
 
     def of(self, name: str) -> Self:
-        """The same options for the task with a name."""
+        """The same options for the task called `name`."""
         return replace(self, errors=self.errors.of(name))
 
     @property
@@ -174,7 +174,9 @@ class WorldOptions:
         return self.errors.spec(self.seed or 0)
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """The options with only their world; and the senses and macros that the program is to do without."""
+        """Split `--without`: the options with only the errors of the world, and the senses and macros that the program
+        must do without.
+        """
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared
 

@@ -39,7 +39,7 @@ class Corrections(Record, frozen=True, kw_only=True):
 
     @property
     def alike(self) -> bool:
-        """True if the two corrections are too close together to be reported, or if only one was made."""
+        """True if the two corrections differ too little to be reported, or if only one was made."""
         return self.apart is None or self.apart <= ASTRAY
 
 

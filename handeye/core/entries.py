@@ -121,7 +121,7 @@ def entry_named(name: str) -> Entry:
 
 def loaded(place: str, what: str = "") -> Any:
     """Import the object at `module:NAME`. Raises BadFile if it cannot be imported; `what` precedes the location in
-    the sentence.
+    the error message.
     """
     module, _, name = place.partition(":")
     try:

@@ -181,7 +181,7 @@ class LineFile:
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
         """Open a file to append lines. An incomplete last line is cut off; with `again=False` a new file is
         started. Raises CannotWrite if another process has the file open; `writer` names that process in the
-        sentence.
+        error message.
         """
         self.path = path
         self.unlocked = ""

@@ -16,7 +16,7 @@ import numpy as np
 from handeye.core.brief import Brief
 
 _PLAIN: Final = frozenset((bool, int, float, str, type(None)))
-"""Types of most values, which are shared without a further check."""
+"""The most frequent types of values. Such values are shared without a further check."""
 _SHARED: Final = (bool, int, float, str, bytes, tuple, frozenset, type(None), np.generic)
 Kept = TypeVar("Kept", bound="MutableRecord")
 
@@ -28,8 +28,8 @@ class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def copied(record: Kept) -> Kept:
-    """Take a snapshot of a record, independent of later changes. Raises TypeError for a mutable value of another
-    type.
+    """Take a snapshot of a record, independent of later changes. Raises TypeError if a value is mutable and not of
+    one of the types that the module names.
     """
     return type(record)(
         **{

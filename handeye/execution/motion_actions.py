@@ -236,7 +236,9 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
 
 
 def _fast(drive: DriveState) -> MotorFast | None:
-    """Return the cause if the motor turns too fast: it now runs free, and took too long to start."""
+    """Return the cause if the motor turns too fast: it runs free now, but was still speeding up after the usual
+    time.
+    """
     late, free = drive.starting[STARTING_PERIODS:], drive.lately[FAST_PERIODS:]
     if len(late) < FAST_PERIODS - STARTING_PERIODS or not free or median(free) > 2 * CURRENT_NOISE:
         return None

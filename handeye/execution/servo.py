@@ -231,8 +231,9 @@ class Servo:
         return sensed
 
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
-        """Find a potentiometer that jumped in a servo period with torques `tau`, or under the brakes if `tau` is
-        None. A blow on the hand, which the other joints show, is no jump.
+        """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
+        is None. A blow on the hand also changes readings suddenly; it is recognised by the other joints, and does
+        not count.
         """
         moved = after.q - before.q
         found = jumped(self.arm, moved, before.qd, after.qd)

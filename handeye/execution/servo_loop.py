@@ -55,7 +55,7 @@ SWING = 0.3
 that is stopped is off only on one side. Chosen.
 """
 PRESS_TIME = 10.0
-"""Time (s) after which a pressing motion ends if it neither advances nor meets its guard. Chosen."""
+"""Time (s) after which a pressing motion ends if it neither advances nor trips its guard. Chosen."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

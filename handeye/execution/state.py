@@ -213,7 +213,7 @@ class ExecutionState(SystemState, kw_only=True):
     """
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
     """For each step of the present stage, the number of reversals that began at the step. A reversal does not
-    reduce it.
+    reduce this number.
     """
     drive: DriveState
 

@@ -137,7 +137,7 @@ class InspectedStage(Record, frozen=True, kw_only=True):
     number: int
     name: str
     seconds: float
-    """Duration of the planned motions (s). Each step counts once, even in a loop."""
+    """Duration of the planned motions (s). A step in a loop counts once."""
     steps: tuple[InspectedStep, ...]
 
 

@@ -90,7 +90,7 @@ class Save(Operation, frozen=True, kw_only=True):
     save only the part of it along the finger line, the line through both finger tips.
 
     If the goal already contains a Restore of the same name, the restored shift is part of the new difference.
-    Repeated saves under one name therefore follow a moving reference.
+    In repeated saves under one name, the difference thus follows a place that moves.
     """
 
     family: ClassVar = "search"

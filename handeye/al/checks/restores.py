@@ -1,7 +1,7 @@
 """Finds each RESTORE whose difference has not been saved on any path to it.
 
-Exception: a difference may be saved relative to the goal that it shifts. Such a difference follows a moving
-reference. Before its first SAVE, it may be used with the value zero.
+Exception: a difference may be saved relative to a goal that a RESTORE of the same difference has shifted. Each SAVE
+then changes the goal for the next one. Before its first SAVE, such a difference may be used with the value zero.
 """
 
 from collections.abc import Iterator

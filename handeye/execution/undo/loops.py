@@ -2,9 +2,9 @@
 
 Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is taken
 to be in the state in which it was after that step, under these conditions: since then no stage began and the
-operator was not called; the hand holds the same object; every object put down was taken up at the same place (or
-the other way round); and every screw driven in was backed out. Rounds that carry objects to another place do not
-meet the conditions and are reversed step by step.
+operator was not called; the hand holds the same object; every object was put down at the place where it was taken
+up, or taken up at the place where it was put down; and every screw driven in was backed out. Rounds that carry
+objects to another place do not meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a
 touch were reversed step by step, the hand would touch the object a second time. If the object has been pushed since
@@ -36,7 +36,8 @@ def loop_entry(
     The jump counts only if all motions since that step were in free air. If a MOVE to the next place of a search
     were reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes
     the index of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the
-    hand had not moved yet. `grasping` is True if the fingers were last closed; None means as before the last step.
+    hand had not moved yet. `grasping` is True if, after the last step, the fingers were last
+    closed and not opened; it is None if the last step did not change this.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
