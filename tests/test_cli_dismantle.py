@@ -247,4 +247,4 @@ def test_the_first_part_that_fails_gives_the_exit_code(
 def test_what_stands_is_dismantled_first(command: Command, parts: list[str]) -> None:
     code, _, err = command("assemble", *(word for part in parts for word in ("--then", part)))
     assert code == 2
-    assert "alternate, beginning with dismantle" in err
+    assert "in turn, beginning with dismantle" in err

@@ -167,7 +167,8 @@ class _Parser:
         if is_taken is not None:
             said = "write the instructions of a macro on the lines below"
             help = said if token.text.upper() in INSTRUCTIONS else None
-            raise Mistake("parameter-name-taken", is_taken, token.span, help=help)
+            message = f"{is_taken}, so it cannot be a parameter"
+            raise Mistake("parameter-name-taken", message, token.span, help=help)
         first = self.parameters.setdefault(name.text, name)
         if first is not name:
             message = f"parameter {quoted(name.text)} is named twice"

@@ -121,7 +121,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._ending = True
 
     def call_at(self, microseconds: int, name: str) -> None:
-        """Have the event `name` handled at the first physics step that begins at this time or later."""
+        """Schedule the event `name`: it is handled at the first physics step that begins at this time or later."""
         if name not in self.handlers:
             raise NoSuchName(f"the bench has no {name}; there are {', '.join(self.handlers)}")
         if microseconds >= _LATEST:

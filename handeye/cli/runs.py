@@ -99,7 +99,7 @@ def assemble(
     from handeye.runs.snapshot import Checkpoint
 
     if any(part != ("dismantle", "assemble")[n % 2] for n, part in enumerate(then or ())):
-        raise BadArgument("--then dismantle and --then assemble alternate, beginning with dismantle")
+        raise BadArgument("give --then dismantle and --then assemble in turn, beginning with dismantle")
     check_kept(no_keep, out)
     if report and no_keep:
         raise BadArgument(

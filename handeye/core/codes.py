@@ -219,7 +219,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
-    "unit-written": _error("a unit follows a number", "OPEN 1.5 in"),
+    "unit-written": _error("a number is written with a unit", "OPEN 1.5 in"),
     "unknown-axis": _error("an axis is not X, Y or Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
     "unknown-error-number": _warning(

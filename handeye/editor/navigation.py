@@ -59,7 +59,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
         raise Refused("there is no name here")
     places = [occurrence for occurrence, _ in _all(document, name)]
     if any(place.fixed for place in places) or (name.kind, name.name) == (POSITION, PARK):
-        raise Refused(f"{quoted(name.name)} is a word of the language")
+        raise Refused(f"{quoted(name.name)} is a word of the language, which cannot be renamed")
     if not any(place.makes for place in places):
         where = "in the taught file" if name.name in document.taught_of(name.kind) else "anywhere"
         raise Refused(f"the definition of {name.kind} {quoted(name.name)} is not found {where}")
@@ -77,9 +77,9 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
     if (
         name.kind in (MACRO, LABEL, PARAMETER) and new.upper() in (*INSTRUCTIONS, "DEFINE")
     ) or new.upper() in OPERAND_WORDS:
-        raise BadArgument(f"{quoted(new)} is a word of the language")
+        raise BadArgument(f"{quoted(new)} is a word of the language; choose another name")
     if name.kind == PARAMETER and new in AXES:
-        raise BadArgument(f"{quoted(new)} is an axis of the table")
+        raise BadArgument(f"{quoted(new)} is an axis of the table; choose another name")
     others = [*document.names, *document.taught_names, *(o for _, o in document.required_names)]
     if new != name.name and any(_meets(other, name, new) for other in others):
         raise Refused(f"there is already a {name.kind} {quoted(new)}")

@@ -45,7 +45,7 @@ MISTAKES = {
     "b02": ("search-begun-anew", 13, "`AOJ` jumps back to a label before the `SEARCH`"),
     "b03": ("unreachable-code", 12, "this line is never executed"),
     "b04": ("test-without-action", 11, "`SKIPN` follows no action"),
-    "b05": ("stop-away-from-motion", 9, "the hand moves away from the surface that the `STOP`"),
+    "b05": ("stop-away-from-motion", 9, "the hand moves away from the surface on which the `STOP`"),
     "b06": ("too-many-operands", 8, "`STOP` takes no more operands"),
     "b07": ("count-begun-anew", 12, "`SOJG` jumps back to a label before the `ASSIGN`"),
     "b08": ("modifier-misplaced", 10, "`SPIN` cannot modify `MOVE`"),

@@ -81,11 +81,11 @@ def test_macro_without_a_blank_line_is_reported() -> None:
     [
         (
             "DEFINE GRASP CLOSE .1",
-            "`CLOSE` is an instruction",
+            "`CLOSE` is an instruction, so it cannot be a parameter",
             "write the instructions of a macro on the lines below",
         ),
-        ("DEFINE GRASP Y", "`Y` is an axis of the table", None),
-        ("DEFINE GRASP nil", "`nil` is a word of the language", None),
+        ("DEFINE GRASP Y", "`Y` is an axis of the table, so it cannot be a parameter", None),
+        ("DEFINE GRASP nil", "`nil` is a word of the language, so it cannot be a parameter", None),
         (
             "DEFINE GRASP S 50",
             "a parameter must be a name, not `50`",

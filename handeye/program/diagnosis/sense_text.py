@@ -42,7 +42,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
         case s.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(
-                f"the drive of the {joint.name} {factor:.2f} times as much" for joint, factor in named
+                f"the drive of the {joint.name} gives {factor:.2f} times as much" for joint, factor in named
             )
             return (
                 "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque "
