@@ -66,7 +66,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         """Make a machine of joints in the scene, and add it to the bench.
 
         Args:
-            specs: the axes of the machine, by the names of their joints and servos. A servo without a joint of its
+            specs: the axes of the machine; an axis has the name of its joint and servo. A servo without a joint of its
                 name drives a tendon.
             period: time between two goals, in s.
             channels: the sensor channels, each with the function that reads it.

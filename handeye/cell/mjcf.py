@@ -26,8 +26,8 @@ _DIGITS: Final = 10  # places of a vertex, in m: finer than the single precision
 
 
 def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[str, bytes]:
-    """Return the files of a scene by their names in its folder. Raises Refused if this MuJoCo cannot write numbers
-    in full precision.
+    """Return the content of each file of a scene; the keys are the names of the files in their folder. Raises Refused
+    if this MuJoCo cannot write numbers in full precision.
 
     The specification is changed, because its meshes and textures become files. `mark` is a comment in the first
     line of the XML. `told` holds the texts of the element `<custom>`, by name.

@@ -14,9 +14,9 @@ step detected the contact, and would throw the part away.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. It leaves
 out the second-order term of the motion: half the acceleration times the square of the step. After long steps this
-term is therefore added to carried bodies; it is a few micrometres in a servo period. Grasps hold by friction alone,
-with or without the term: a part that slips goes on slipping. With the term, a held part creeps less than in short
-steps, which leave it out.
+term is therefore added to carried bodies; it is a few micrometres in a servo period. The term does not
+hold a part in the fingers; friction alone does, and a part that slips goes on slipping. With the term, a held part
+creeps less than in short steps, which leave it out.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. It
 wakes the tree when an awake body touches it, but not on a new command to a motor: code that drives a motor must

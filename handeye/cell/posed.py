@@ -18,15 +18,15 @@ a clock hand.
 
 
 def hand_poses(model: mujoco.MjModel, time: float) -> dict[str, Array]:
-    """Return the poses of the clock hands at a time (s) of the cell's clock, by names of their bodies, as in
-    `drawn_poses`.
+    """Return the pose of each clock hand at a time (s) of the cell's clock. The keys are the names of the bodies;
+    poses are as in `drawn_poses`.
     """
     return {name: rows[0] for name, rows in drawn_poses(model, _turns(model), np.array([time])).items()}
 
 
 def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> dict[str, Array]:
-    """Return, for times (s) of the cell's clock, the poses in W of bodies that are fixed in the world, by name. The
-    poses of each body have shape (n, 7).
+    """Return the poses in W, at times (s) of the cell's clock, of bodies that are fixed in the world. The keys are
+    the names of the bodies; the poses of each body have shape (n, 7).
 
     A pose is a position (m), then a unit quaternion w, x, y, z. Clock hands turn clockwise about their z axis, and
     point to twelve at time 0.
@@ -55,8 +55,8 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: flo
     """Make a copy of a scene with its bodies at given poses. The copy is only for viewing: joints stay as in the
     model.
 
-    `poses` gives, by names of bodies, a position in W (m) and a unit quaternion w, x, y, z. A body without a pose
-    stays as in the model, and bodies that appear only after an event stay hidden. Clock hands show `time` (s).
+    `poses` gives, for the name of each body, a position in W (m) and a unit quaternion w, x, y, z. A body without a
+    pose stays as in the model, and bodies that appear only after an event stay hidden. Clock hands show `time` (s).
     """
     model = copy.copy(scene)
     data = mujoco.MjData(model)

@@ -134,7 +134,7 @@ class SolidScene:
 
     spec: mujoco.MjSpec
     model: mujoco.MjModel  # the specification, compiled
-    bodies: Mapping[str, tuple[Solid, ...]]  # by the names of bodies, as in the scene
+    bodies: Mapping[str, tuple[Solid, ...]]  # the solids of each body, with the name that it has in the scene
 
     @classmethod
     def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:
@@ -154,8 +154,8 @@ class SolidScene:
         return tuple(dict.fromkeys(solid.name for solid in found))
 
     def weighed(self, densities: Mapping[str, float]) -> Iterator[WeighedBody]:
-        """Yield the masses of those bodies whose solids all have a density. Densities (kg/m3) are given by names of
-        solids.
+        """Yield the masses of those bodies whose solids all have a density. `densities` (kg/m3) has the names of
+        solids as keys.
         """
         for name, body in self.bodies.items():
             if body and all(solid.name in densities for solid in body):

@@ -23,7 +23,7 @@ BRIGHT: Final = 97  # percentile that counts as the bright parts
 signal chain in the vision study, section 0.1. They are placeholders that give a realistic picture.
 """
 GAIN_WINDOW: Final = 0.6
-"""The target voltage is adjusted for this fraction of the width and of the height of the picture, about its centre.
+"""The target voltage is adjusted to the middle of the picture: to this fraction of its width and of its height.
 Placeholder.
 """
 

@@ -321,7 +321,7 @@ def resume(
 
 
 def check_kept(no_keep: bool, out: Path | None) -> None:
-    """Raises InvalidInput if the options both keep the run and do not keep it."""
+    """Raises InvalidInput if both --no-keep and --out are given."""
     if no_keep and out is not None:
         raise BadArgument("--no-keep cannot be given with --out")
 
@@ -333,8 +333,8 @@ def _check_live(live: bool, step: bool) -> None:
 
 
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
-    """The conditions at which a run ends; breakpoints are only parsed, so that an invalid breakpoint is refused
-    before anything moves.
+    """The conditions at which a run ends. Breakpoints are not among them, but are parsed here, so that an invalid
+    one is refused before anything moves.
     """
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
     from handeye.runs.advance import AfterStage, BeforeStep

@@ -29,7 +29,9 @@ class Tally:
         silent: bool = False,
         kept: int = 0,
     ) -> None:
-        """Count `total` trials, of which `kept` are finished already; `silent`: the caller reports each trial."""
+        """Count `total` trials, of which `kept` are finished already. With `silent`, no lines are printed for trials,
+        because the caller reports each trial.
+        """
         self._silent, self._kept = silent, kept
         self._total, self._what, self._console, self._clock = total, what, console, clock
         self._ended, self._began = kept, clock()

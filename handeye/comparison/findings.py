@@ -121,7 +121,7 @@ def searches(runs: TwoRuns) -> tuple[Searches, ...]:
 
 
 def _searches(steps: Sequence[CarriedOut]) -> Mapping[Turn, Search]:
-    """Return the searches of a run, by the execution of the step that started the search."""
+    """Return the searches of a run. The key of a search is the execution of the step that started it."""
     found: dict[Turn, Search] = {}
     turn: Turn | None = None
     for each in steps:

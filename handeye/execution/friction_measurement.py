@@ -58,8 +58,8 @@ class JointMeasurement:
 
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
-"""The quick pass. Chosen: the rate is about twenty steps of a 12-bit tachometer, and joints move as slowly while
-the hand presses. The pass takes 3.3 s and a range of about 2 in.
+"""The quick pass. Chosen: the rate is about twenty steps of a 12-bit tachometer, and joints move at about this rate
+while the hand presses. The pass takes 3.3 s and a range of about 2 in.
 """
 
 

@@ -312,8 +312,8 @@ class ServoLoop(Servo):
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
-        """Set the reference of the hand along `direction` to its present place at rest, so that the hand is not
-        kicked back.
+        """Move the set-point of the hand along `direction` to the place where the hand now is at rest. Otherwise the
+        servo would kick the hand towards the old set-point.
         """
         self.state.met = self.chain.forward(self.state.q)[:3, 3]
         X_set, X_is = self.chain.forward(self.state.q), self.chain.forward(self.state.here)
