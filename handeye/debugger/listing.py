@@ -162,5 +162,5 @@ def named_place(text: str, program: Listing) -> Place | None:
         return "", line
     if not found:
         known = ", ".join(map(quoted, program.required)) or "none"
-        raise NoSuchName(f"the script requires no file {quoted(file)}; it requires: {known}")
+        raise NoSuchName(f"the script does not require a file {quoted(file)}; it requires: {known}")
     return (file if file in found else found[0]), line

@@ -84,7 +84,7 @@ def test_a_break_is_a_line_of_the_script_or_of_a_file(
     [
         (
             "feet.al:2",
-            r"the script requires no file `feet\.al`; it requires: `words\.al`, `lib/hand\.al`",
+            r"the script does not require a file `feet\.al`; it requires: `words\.al`, `lib/hand\.al`",
         ),
         ("hand.al:4", r"line lib/hand\.al:4 is after the last step, which is on line lib/hand\.al:3"),
         ("4", r"line 4 is after the last step, which is on line 2"),
