@@ -102,7 +102,7 @@ def test_a_run_is_kept_and_the_newest_is_what_commands_take(command: Command, pl
     plan = planned("OPEN 1\n")
     code, out, err = command("run", plan, "--camera", "ray", "--json")
     (run,) = (path for path in RUNS.iterdir() if path.is_dir())
-    assert (code, f"kept in {run} (" in err) == (0, True)
+    assert (code, f"saved in {run} (" in err) == (0, True)
     assert json.loads(out) == json.loads((run / "result.json").read_bytes())
     assert command("run", plan, "--camera", "ray", "--no-keep")[0] == 0
     assert command("show", "--json")[1:] == (out, f"using the newest run, {run}\n")
@@ -125,8 +125,8 @@ def test_a_disk_that_is_full_costs_a_sentence_and_not_the_run(
     monkeypatch.setattr(RunFolder, method, full)
     code, out, err = command("run", plan, "--camera", "ray")
     assert (code, out.splitlines()[0]) == (0, "The program finished.")
-    assert err.count("the rest of the run is not kept: no space left\n") == 1
-    assert "kept in" not in err
+    assert err.count("the rest of the run is not saved: no space left\n") == 1
+    assert "saved in" not in err
 
 
 @pytest.mark.slow
@@ -137,4 +137,4 @@ def test_a_place_that_cannot_be_had_costs_a_sentence_and_not_the_run(
     RUNS.write_text("a file")
     code, out, err = command("run", plan, "--camera", "ray")
     assert (code, out.splitlines()[0]) == (0, "The program finished.")
-    assert err.startswith("the run is not kept: runs cannot be written: ")
+    assert err.startswith("the run is not saved: runs cannot be written: ")

@@ -226,7 +226,7 @@ def test_a_run_without_a_folder_leaves_no_file_and_says_how_it_would(
     code, _, err = command("run", plan, *words, typed=typed)
     assert (code, err.splitlines()[-1]) == (
         0,
-        "the run is not kept and cannot be resumed; --out FOLDER would keep it",
+        "the run is not saved and cannot be resumed; --out FOLDER would save it",
     )
     assert sorted(Path().iterdir()) == before
 
@@ -367,7 +367,7 @@ def test_a_run_kept_in_a_folder_says_where_and_how_to_go_on(command: Command, pl
         "resume with: handeye resume 'my run'"
     )
     said = command("resume", "my run", "--no-judge")[2].splitlines()[-3:]
-    assert said[0].startswith("kept in my run (")
+    assert said[0].startswith("saved in my run (")
     assert said[1:] == ["see it:     handeye report 'my run'", "all tables: handeye show 'my run'"]
 
 

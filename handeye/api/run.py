@@ -124,8 +124,8 @@ class Run:
                 beginning of that stage.
 
         Raises:
-            InvalidInput: the run has not done that many steps or not reached that stage, or that earlier state is
-                no longer kept.
+            InvalidInput: the run has not done that many steps, or has not reached that stage, or the earlier state
+                is no longer stored.
         """
         self._check_open()
         if isinstance(steps, str):
@@ -154,7 +154,7 @@ class Run:
                 latest beginning of that stage.
 
         Raises:
-            InvalidInput: the run has executed fewer steps, or cannot continue.
+            InvalidInput: the run has executed fewer steps than `steps`, or cannot continue.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> run.until().why

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 Then = Literal["dismantle", "assemble"]  # Undo all the work, or do it again
 
 PANIC: Final = Pause(kind="panic")
-NOT_KEPT: Final = "the run is not kept and cannot be resumed; --out FOLDER would keep it"
+NOT_KEPT: Final = "the run is not saved and cannot be resumed; --out FOLDER would save it"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -160,7 +160,7 @@ class _Work:
         try:
             return UnnamedRun(home, self.job.start)
         except InvalidInput as fault:
-            note(f"the run is not kept: {fault}")
+            note(f"the run is not saved: {fault}")
         return None
 
     @contextmanager
@@ -173,7 +173,7 @@ class _Work:
         except (InvalidInput, OSError) as fault:
             if self.unnamed is None or self.folder is None:
                 raise
-            note(f"the rest of the run is not kept: {fault}")
+            note(f"the rest of the run is not saved: {fault}")
             self.folder = None
 
     def close(self) -> None:
@@ -291,7 +291,7 @@ class _Work:
         words = [*commands, *runner.kind.topics, *runner.listing.labels, *names]
         lines, live = self._lines(words)
         if self.folder is None and self.job.checkpoints is None:
-            note("without --out FOLDER the run is not kept; `checkpoint FILE` saves its present state")
+            note("without --out FOLDER the run is not saved; `checkpoint FILE` saves its present state")
         most = MAX_STEPS_SHOWN if screen.is_terminal else None
         try:
             write, prompt = put_line if self.job.json else say, sys.stdin.isatty()
@@ -387,7 +387,7 @@ class _Work:
             note("")
         self._report()
         if self.folder is not None:
-            note(f"kept in {self.folder.path} ({size(bytes_of(self.folder.path))})")
+            note(f"saved in {self.folder.path} ({size(bytes_of(self.folder.path))})")
         if self.folder is not None and pause.kind != "break" and not job.json:
             self._tell_what_next()
         if pause.kind in ("break", "operator"):

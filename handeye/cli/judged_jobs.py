@@ -73,7 +73,7 @@ def carry_out_run(
 
     Args:
         listening: observers of the run; not used if the run is stepped.
-        folder: where the run is kept, in place of --out.
+        folder: where the run is saved, in place of --out.
     """
     from handeye.cli.job import Job, work
     from handeye.runs.snapshot import Checkpoint

@@ -58,7 +58,7 @@ class SweepOptions:
 
     @property
     def folder(self) -> Path | None:
-        """The folder in which trials are kept; None if there is none."""
+        """The folder in which trials are saved; None if there is none."""
         return None if self.out is None or self.out.suffix.lower() in (".html", ROWS) else self.out
 
     def check(self) -> None:
@@ -134,7 +134,7 @@ def carry_out_sweep(
     except BaseException:
         if folder is not None:
             note(
-                f"{counted(len(folder.rows), 'trial')} kept in {options.out}; the same command continues "
+                f"{counted(len(folder.rows), 'trial')} saved in {options.out}; the same command continues "
                 "from there"
             )
         raise

@@ -206,9 +206,9 @@ def chaos_trials(
     command that repeats it.
 
     A schedule is one test. It starts somewhere in a fault-free run and continues for a few steps, or to the end of
-    the stage. It has up to two faults, and up to two interruptions: panic button, pause, going back, killed
-    process. After each interruption, the run resumes from disk. A simulated operator retries, skips, proceeds and
-    aborts. The same schedule then runs again without its interruptions.
+    the stage. It has up to two faults, and up to two interruptions: the panic button, a pause, going back, or a
+    killed process. After each interruption, the run resumes from disk. A simulated operator answers each call: it
+    retries, skips, proceeds or aborts. The same schedule then runs again without its interruptions.
 
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read

@@ -81,7 +81,7 @@ def newest_runs(number: int) -> list[Path]:
     home = runs_folder()
     if home is None:
         raise BadFile(
-            f"give the folder of a run: no run is kept in `runs`, because the variable {VARIABLE} is empty"
+            f"give the folder of a run: no run is saved in `runs`, because the variable {VARIABLE} is empty"
         )
     found = list(islice(_newest_first(_runs(home)), number))
     if len(found) < number:
