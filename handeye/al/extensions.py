@@ -1,4 +1,4 @@
-"""Finds words and operands that are our additions to the language of the 1970s."""
+"""Finds words and operands that handeye adds to the language of the 1970s."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -16,7 +16,7 @@ _AGAINST = "write a vector, as in 1973: `STOP [0 0 -50]`"
 
 
 def extensions(source: Source) -> list[Diagnostic]:
-    """Return an error for each word and operand that is our addition, including those in required texts."""
+    """Return an error for each word and operand that handeye adds, including those in required texts."""
     return arranged(_found(source))
 
 

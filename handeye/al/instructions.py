@@ -1,7 +1,8 @@
 """The table of instructions, from which the parser, the checks, the formatter and the manual are derived.
 
 Words and meanings of the period are from Bolles and Paul, AIM-220 (1973), and from the surviving parts of the
-manual of the arm program. Our additions, which no document of the period contains, have `ours` set.
+manual of the arm program. The additions of handeye, which no document of the period
+contains, have `ours` set.
 """
 
 from typing import Final

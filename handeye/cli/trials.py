@@ -241,7 +241,7 @@ def chaos_trials(
             [Case(trials=(k,), seed=seed + k, condition=str(each)) for k, each in enumerate(drawn)],
             head_of(CHAOS, WorldSpec(seed=seed), plan, settings, camera=camera),
             options,
-            title=f"schedules of faults and interruptions of {setup.task}, drawn from seed {seed}",
+            title=f"random schedules of faults and interruptions of {setup.task}, from seed {seed}",
             plan=plan,
         )
 

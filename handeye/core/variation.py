@@ -1,4 +1,4 @@
-"""The quantities that vary between worlds: a task's table of quantities, and the worlds drawn from it.
+"""The quantities that vary between worlds: a task's table of quantities, and the worlds generated from it.
 
 A quantity is one number with a dotted name such as `camera.place.x`; the parts of a name before a dot name groups
 (`camera.place`, `camera`). Each quantity is drawn from a separate random stream, made from the seed and the
@@ -25,13 +25,13 @@ from handeye.core.faults import Fault
 from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
 
-DRAWING: Final = 4  # version of the rules for drawing worlds; raised when a seed gives a different world
+DRAWING: Final = 4  # version of the rules that generate worlds; raised when a seed gives a different world
 
 LARGEST_SEED: Final = (
     1 << 53
 ) - 1  # the largest that every JSON reader keeps exactly, even one whose numbers are doubles
 Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
-"""Number from which a world is drawn. Neighbouring numbers give unrelated worlds."""
+"""Number from which a world is generated. Neighbouring numbers give unrelated worlds."""
 
 _LONG: Final = 10**40  # a number with more digits is not quoted in a message
 
@@ -81,7 +81,7 @@ class Quantity:
 
 
 class Overrides(Record, frozen=True, kw_only=True):
-    """Changes to a drawn world: quantities left at their nominal values, quantities set to values, and scaled
+    """Changes to a generated world: quantities left at their nominal values, quantities set to values, and scaled
     errors.
     """
 
@@ -100,7 +100,7 @@ class WorldSpec(Record, frozen=True, kw_only=True):
     level: Level = "nominal"
     overrides: Overrides = Overrides()
     faults: tuple[Fault, ...] = ()  # sorted by name
-    drawing: int = DRAWING  # version of the drawing
+    drawing: int = DRAWING  # version of these rules
 
     def __post_init__(self) -> None:
         """Raise BadArgument if the seed is out of range."""
@@ -193,7 +193,7 @@ class Variation:
         return tuple(there)
 
     def draw(self, spec: WorldSpec) -> World:
-        """Draw the world of a specification. Raises BadArgument if the specification does not fit this table."""
+        """Generate the world of a specification. Raises BadArgument if the specification does not fit this table."""
         self.check(spec)
         there = self.present(spec.overrides.set)
         return World(spec=spec, values={name: self.value(name, spec) for name in there})
@@ -224,12 +224,12 @@ class Variation:
         return found
 
     def check(self, spec: WorldSpec) -> None:
-        """Raise BadArgument unless a world can be drawn from this table."""
+        """Raise BadArgument unless a world can be generated from this table."""
         if spec.level not in SPREADS:
             raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
             raise Refused(
-                f"the world of seed {spec.seed} comes from another version of handeye; this version draws a "
+                f"the world of seed {spec.seed} comes from another version of handeye; this version makes a "
                 "different world from that seed, so start the run again"
             )
         for name in spec.overrides.without:
