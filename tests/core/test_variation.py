@@ -151,7 +151,7 @@ def test_a_specification_survives_the_disk(seed: int, level: Level, name: str) -
 
 def test_a_world_drawn_in_another_way_is_refused() -> None:
     sentence = (
-        "the world of seed 3 comes from another version of handeye; this version draws a different world from "
+        "the world of seed 3 comes from another version of handeye; this version makes a different world from "
         "that seed"
     )
     with pytest.raises(InvalidInput, match=sentence):
