@@ -116,7 +116,9 @@ class _Phrases:
             help = help or "turn the hand: other angles O, A, T can be within the limits"
             return self.at_position(found, message, help=help)
         help = (
-            "shorten the motion" if self.goal(found.step) is None else "use `VIA` to add a position on the way"
+            "shorten the motion"
+            if self.goal(found.step) is None
+            else "use `VIA` to add a position on the way"
         )
         return self.at_position(found, message, help=help, notes=(f"the joint reaches its limit {place}",))
 

@@ -179,7 +179,9 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
 
 def chaos_trials(
     *,
-    count: Annotated[WholeNumber, Parameter(name="--n", help="Number of random schedules (tests) to try.")] = 100,
+    count: Annotated[
+        WholeNumber, Parameter(name="--n", help="Number of random schedules (tests) to try.")
+    ] = 100,
     seed: FirstSeed = 0,
     worlds: Annotated[
         WholeNumber,

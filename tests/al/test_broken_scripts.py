@@ -126,7 +126,11 @@ MISTAKES = {
     "d17": ("travel-too-long", 10, "`TRAVEL` needs at least 1.6 in, but the motion is at most 1.3 in"),
     "d18": ("touch-while-closed", 9, "this motion waits for a touch, but the fingers are closed"),
     "d19": ("unknown-position", 10, "`FOUND` is a saved difference, not a position"),
-    "d20": ("compared-without-hold", 15, "picture `AFTER` is not taken at the target voltage of picture `BEFORE`"),
+    "d20": (
+        "compared-without-hold",
+        15,
+        "picture `AFTER` is not taken at the target voltage of picture `BEFORE`",
+    ),
     "d21": ("part-not-described", 5, "`GENERAL` cannot find `PUMP` without its `region`"),
     "d22": ("macro-ends-early", 2, "macro `SETDOWN` ends with `STOP`, but its motion is outside the macro"),
     "d23": ("unreadable-file", 1, "`water_pump.toml` is a taught file"),

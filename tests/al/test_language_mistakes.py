@@ -200,8 +200,7 @@ def test_warning_leaves_a_program() -> None:
         ("DO PUMP", "a script needs no console commands"),
         (
             "do CHANGE [0 0 -1] 1",
-            "a script needs no console commands; write only the instruction: "
-            "`CHANGE [0 0 -1] 1`",
+            "a script needs no console commands; write only the instruction: `CHANGE [0 0 -1] 1`",
         ),
     ],
 )

@@ -110,7 +110,10 @@ def test_a_finger_whose_switch_stays_open_may_stand_beside_something_where_the_g
 def test_a_finger_that_the_hand_does_not_come_off_has_no_switch_of_its_own() -> None:
     run = gripping("OPEN 2\nCENTER .1", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
     assert run.errors == [errors.SWITCH_WRONG]
-    assert "the switch of the +y finger is still closed after the hand moved 0.06 in towards this side" in run.told
+    assert (
+        "the switch of the +y finger is still closed after the hand moved 0.06 in towards this side"
+        in run.told
+    )
     assert run.told.endswith("the two switches are swapped, or the switch of the other finger stays open)")
 
 

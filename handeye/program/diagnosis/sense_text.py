@@ -58,12 +58,11 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             return f"{short}: the current sensor reads no higher, or the motor is weak"
         case s.MotorSlow():
             return (
-                f"the motor stopped speeding up after only {cause.share:.1f} of the usual time, so it turns too slowly"
+                f"the motor stopped speeding up after only {cause.share:.1f} of the usual time, "
+                "so it turns too slowly"
             )
         case s.MotorFast():
-            return (
-                f"the motor was still speeding up after {cause.times:.1f} times the usual time, so it turns too fast"
-            )
+            return f"the motor was still speeding up after {cause.times:.1f} times the usual time, so it turns too fast"
         case s.ScrewHard():
             takes, allowed = (torque / OUNCE_INCH for torque in (cause.torque, cause.limit))
             return (
