@@ -6,7 +6,7 @@ from typing import Final
 from handeye.core.diagnostics import LOOKALIKES
 
 _COMMENT: Final = "a comment begins with `;`"
-_BLANKS: Final = "a space separates an instruction from its operands"
+_BLANKS: Final = "use only spaces here: a space separates an instruction from its operands"
 _VECTOR: Final = "write a vector in brackets, such as `[0 0 -1]`"
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _PLAIN: Final = re.compile(_NUMBER, re.ASCII)

@@ -190,7 +190,7 @@ class _Reader(msgspec.Struct, gc=False):
             stand = ("no axis is", "one axis is", "two different axes are", "three different axes are")[
                 len(named)
             ]
-            message = f"the number of axes is {quoted(count.text)}, but {stand} named"
+            message = f"the statement says {quoted(count.text)} axes, but {stand} named"
             raise Mistake("axis-count", message, count.span, help=self.usage())
         self.at = len(self.tokens)
         return Vector(count.start, letters[-1].end, tuple(float(axis in named) for axis in AXES))
@@ -221,10 +221,11 @@ class _Reader(msgspec.Struct, gc=False):
         return vector
 
     def wrong(self, value: Value, operand: Operand) -> Mistake:
-        takes = f"{' or '.join(kind.what for kind in operand.takes)} as {operand.name}"
+        kinds = " or ".join(kind.what for kind in operand.takes)
+        message = f"the {operand.plain} of `{self.definition.op}` must be {kinds}, not {value.what}"
         if operand.is_vector:
             takes = f"a vector {operand.name}{' or its name' if Name in operand.takes else ''}"
-        message = f"`{self.definition.op}` takes {takes}, not {value.what}"
+            message = f"`{self.definition.op}` takes {takes}, not {value.what}"
         return Mistake("wrong-operand", message, value.span, help=self.cure(value, operand) or self.usage())
 
     def cure(self, value: Value, operand: Operand) -> str | None:

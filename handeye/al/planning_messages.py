@@ -89,16 +89,16 @@ class _Phrases:
         return self.at_position(found, message, help=help, notes=(note,))
 
     def off_the_way(self, found: NoConfiguration, place: str) -> Diagnostic:
-        message = f"the hand would leave the arm's reach {place}"
+        message = f"{place}, the hand would leave the arm's reach"
         help = "shorten the motion, or start from another place"
         match found.reason:
             case JointLimit() as reason:
                 return self.joint_limit(found, reason, self.word(found.step), place)
             case InLine():
-                message = f"the hand could not keep its angles {place}"
+                message = f"{place}, the hand could not keep its angles"
                 help = "tilt the hand a little, or use a `MOVE`, which is free to turn the hand on its way"
             case TooFast(joint=joint):
-                message = f"{named(self.arm, joint)} would have to move too fast {place}"
+                message = f"{place}, {named(self.arm, joint)} would have to move too fast"
                 help = "move more slowly, or start from another place"
         return self.at_position(found, message, help=help, notes=(reach_sentence(self.arm, found.reason),))
 
@@ -120,7 +120,7 @@ class _Phrases:
             if self.goal(found.step) is None
             else "use `VIA` to add a position on the way"
         )
-        return self.at_position(found, message, help=help, notes=(f"the joint reaches its limit {place}",))
+        return self.at_position(found, message, help=help, notes=(f"{place}, the joint reaches its limit",))
 
     def radians(self, name: str | None) -> str | None:
         """Return a hint for a position whose angles seem to be in radians."""
@@ -150,18 +150,17 @@ class _Phrases:
         into = f"would be {depth} below the table"
         if found.fixture is not None:
             into = f"would go {depth} into {quoted(found.fixture)}"
-        place, help = (
-            self.along(found.step, found.along),
-            "add a position on the way, so that the hand goes around the obstacle or over it",
-        )
+        message = f"{self.along(found.step, found.along)}, {what} {into}"
+        help = "add a position on the way, so that the hand goes around the obstacle or over it"
         if self.goal(found.step) is None:
-            place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place
+            if found.at_end:
+                message = f"{what} {into} at the end of this `{self.word(found.step)}`"
             help = "shorten the motion, or give it a `STOP` if it should touch something"
         elif found.position is not None:
-            place, help = f"at {found.position}", "raise or move the position"
+            message, help = f"{what} {into} at {found.position}", "raise or move the position"
         taken = None if found.held is None else found.grasp
         labels = () if taken is None else (Label(span=self.word_span(taken), text="grasped here"),)
-        return self.at_position(found, f"{what} {into} {place}", help=help, secondary=labels)
+        return self.at_position(found, message, help=help, secondary=labels)
 
     def too_heavy(self, found: TooHeavy) -> Diagnostic:
         message = f"the arm cannot carry {found.weight / OUNCE_FORCE:.0f} oz on this motion"

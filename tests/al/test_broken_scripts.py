@@ -92,7 +92,7 @@ MISTAKES = {
         "`WAIT` stops the run and calls the operator; it is not a delay",
     ),
     "c15": ("wrong-operand", 6, "another operand must come before `DIRECT`"),
-    "c16": ("wrong-operand", 4, "`CLOSE` takes a number as maximum, not a name"),
+    "c16": ("wrong-operand", 4, "the maximum of `CLOSE` must be a number, not a name"),
     "c17": ("never-saved", 9, "no `SAVE` saves a difference `El`"),
     "c18": ("unknown-label", 15, "label `TRY` belongs to a macro"),
     "c19": ("number-out-of-range", 6, "`7` is too large for the step of `SEARCH`"),
@@ -114,7 +114,7 @@ MISTAKES = {
     "d08": ("missing-operand", 14, "the force of `STOP` is missing"),
     "d09": ("joint-limit", 6, "`MOVE SHELF` would take joint 5 (wrist bend) 36.8 degrees beyond its limit"),
     "d10": ("malformed-number", 6, "a comma separates two operands"),
-    "d11": ("wrong-operand", 6, "`VIA` takes a name as position, not a vector"),
+    "d11": ("wrong-operand", 6, "the position of `VIA` must be a name, not a vector"),
     "d12": ("carries-through-fixture", 7, "`SCREWDRIVER` in the hand would go 0.36 in into `RACK`"),
     "d13": ("faint-force", 9, "the arm can hardly distinguish a force of 1 oz from joint friction here"),
     "d15": (

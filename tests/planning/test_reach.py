@@ -34,7 +34,7 @@ def test_a_goal_just_beyond_the_boom_is_told_with_digits_that_show_it(inches: fl
     assert beyond == pytest.approx(inches, rel=0.02)
     assert inches - 1e-7 <= least <= 1.04 * inches
     (note,) = problem.notes
-    assert "50.0 in; it ends at 50.0 in" not in note
+    assert "50.0 in; its limit is 50.0 in" not in note
 
 
 def test_a_wrist_beyond_its_limit_is_told_with_the_amount() -> None:
@@ -46,14 +46,14 @@ def test_a_wrist_beyond_its_limit_is_told_with_the_amount() -> None:
 def test_a_straight_motion_says_where_it_leaves_the_reach() -> None:
     (problem,) = said("MOVE T\nCHANGE [0 1 0] 30")
     assert problem.code == "path-leaves-reach"
-    assert problem.message == "the hand would leave the arm's reach 21.5 in along this `CHANGE`"
+    assert problem.message == "21.5 in along this `CHANGE`, the hand would leave the arm's reach"
     assert problem.notes == ("joint 3 (boom) would have to be at 58.5 in; its limit is 50.0 in",)
 
 
 def test_a_turn_says_where_it_comes_to_the_limit_of_a_joint() -> None:
     (problem,) = said("MOVE T\nTURN PEG 330")
     assert problem.code == "joint-limit"
-    assert problem.notes == ("the joint reaches its limit 50.7 in along this `TURN`",)
+    assert problem.notes == ("50.7 in along this `TURN`, the joint reaches its limit",)
     assert problem.help == "shorten the motion"
 
 
@@ -64,13 +64,13 @@ def test_a_free_motion_that_swings_beyond_a_limit_on_its_way_says_where() -> Non
     assert (
         problem.message == "`MOVE` would take joint 1 (column) 1.2 degrees beyond its limit of -170 degrees"
     )
-    assert problem.notes == ("the joint reaches its limit 159.1 in along its way to B",)
+    assert problem.notes == ("159.1 in along its way to B, the joint reaches its limit",)
     assert problem.help == "use `VIA` to add a position on the way"
 
 
 def test_a_straight_motion_through_the_singularity_is_found() -> None:
     assert message("TRANS AHEAD [13.937 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4") == (
-        "wrist-in-line: the hand could not keep its angles 1.4 in along this `CHANGE`"
+        "wrist-in-line: 1.4 in along this `CHANGE`, the hand could not keep its angles"
     )
 
 

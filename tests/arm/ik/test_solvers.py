@@ -79,4 +79,4 @@ def test_a_pose_beyond_a_slide_is_refused_with_the_joint_and_its_limit(arm: ArmM
         assert isinstance(result.reason, OutOfReach)
         assert (result.reason.joint, result.reason.excess) == (i, pytest.approx(0.1))
         assert f"joint {i + 1} ({joint.name}) would have to be" in result.message(arm)
-        assert "; it ends at" in result.message(arm)
+        assert "; its limit is" in result.message(arm)

@@ -104,7 +104,7 @@ def test_a_hand_that_would_point_at_its_own_arm_meets_a_joint_limit() -> None:
     assert isinstance(result.reason, JointLimit)
     assert result.reason.joint == 4
     assert "joint 5 (wrist bend) would have to be" in result.message(STANFORD)
-    assert "degrees; it ends at 110.0 degrees" in result.message(STANFORD)
+    assert "degrees; its limit is 110.0 degrees" in result.message(STANFORD)
 
 
 @pytest.mark.parametrize(
