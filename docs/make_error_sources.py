@@ -38,7 +38,7 @@ def _tables() -> Iterator[str]:
     yield "\n## Without a source\n\n| quantities | size | what | why there is none, and a bound |\n|---|---|---|---|\n"
     for those in _rows([quantity for quantity in there if quantity.unsourced]):
         yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} | {_sentence(those[0].unsourced)} |\n"
-    yield "\n## With a source, or with no size that could have one\n\n"
+    yield "\n## With a source, or with a size that needs none\n\n"
     yield "| quantities | size | what, and where from |\n|---|---|---|\n"
     for those in _rows([quantity for quantity in there if not quantity.unsourced]):
         yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} |\n"

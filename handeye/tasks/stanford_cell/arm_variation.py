@@ -123,11 +123,13 @@ def arm() -> Iterator[Quantity]:
             unsourced=f"no data sheet of the arm's motors is known. {DOUBLED}"),
         group("arm.link_mass", numbered(Normal, *[3.0] * 6), "%",
             "Relative deviation of a link's true mass from the controller's value.", least=-90.0,
-            unsourced=f"the masses were published without a tolerance. The arm weighs its links. {DOUBLED}"),
+            unsourced="the masses were published without a tolerance. To correct this error, the arm weighs its links. "
+                f"{DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
             "Relative deviation of the true distance between a link's centre of mass and its joint from the "
             "controller's value.", least=-90.0,
-            unsourced="the centres of mass were also published without a tolerance. The arm weighs its links. "
+            unsourced="the centres of mass were also published without a tolerance. To correct this error, the arm "
+                "weighs its links. "
                 f"{DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
             "True length of the hand minus the controller's value.",
@@ -140,13 +142,14 @@ def _friction() -> Iterator[Quantity]:
     """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, varied by a quarter. Without this error, a joint has its mean "
-        "friction; a value of 0 means no friction."
+        "Coulomb friction of the joints, varied by up to a quarter. If this error is switched off, a joint has its "
+        "mean friction; if the value is set to 0, it has none."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
-        unsourced=f"joint 1 carries no weight, so the paper says nothing about it. {DOUBLED}",
+        unsourced="the friction of the other joints is inferred from the paper, in which they hold their weight when "
+            f"the arm is released, but joint 1 carries no weight. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],

@@ -90,8 +90,8 @@ HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or t
 
 APART: Final = 3.0  # mm from where the run found a part: the next run must find the part there again
 APART_GASKET: Final = 6.0
-"""Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket in
-its tray draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was
+"""Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket on
+its stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was
 lifted; at 6.4 mm its holes would not let the fingers of the next run in.
 """
 APART_TURN: Final = (

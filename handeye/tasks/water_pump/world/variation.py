@@ -169,7 +169,7 @@ def _parts() -> Iterator[Quantity]:
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Rotation of the screwdriver in its guides: the play that the width of the guides allows, in "
+            "Rotation of the screwdriver, within the play that the width of its guides allows. This play is in "
             "addition to the play of its position.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
