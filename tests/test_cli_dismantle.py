@@ -1,4 +1,4 @@
-"""`handeye dismantle` has the arm undo a run, and tells what came of it."""
+"""`handeye dismantle` makes the arm undo a run, and tells what came of it."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""Commands that make the arm undo what it did: dismantle, and its trials."""
+"""Commands that make the arm undo its work: dismantle, and its trials."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -28,7 +28,7 @@ def dismantle(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Make the arm undo the steps of a run, and so take the pump apart again.
+    """Make the arm undo the steps of a run: take the pump apart again.
 
     The arm undoes every step, from the last to the first, by moving back along its own path. If the hand meets
     more force than expected, or no longer holds the part that it held when the step was executed, the arm brakes
