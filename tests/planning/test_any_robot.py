@@ -68,7 +68,11 @@ def refused(arm: ArmModel, position: str) -> Diagnostic:
 @pytest.mark.parametrize(
     ("arm", "position", "note"),
     [
-        (GANTRY, f"[55 {Y} 4 90 90 0]", "joint 3 (carriage) would have to be at 45.2 in; its limit is 39.4 in"),
+        (
+            GANTRY,
+            f"[55 {Y} 4 90 90 0]",
+            "joint 3 (carriage) would have to be at 45.2 in; its limit is 39.4 in",
+        ),
         (GANTRY, f"[30 {Y} 45 90 90 0]", "joint 4 (mast) would have to be at -3.7 in; its limit is 0.0 in"),
         (CARTESIAN, "[30 2 4 90 90 0]", "joint 2 (y) would have to be at 2.0 in; its limit is 3.9 in"),
         (

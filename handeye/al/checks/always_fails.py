@@ -64,9 +64,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
                 f"the grasp needs at least {grasp.minimum / INCH:g} in, but the hand is open only "
                 f"{max(opened) / INCH:g} in"
             )
-            help = (
-                "open the fingers wider or make the minimum smaller: as written, this grasp always raises error 2"
-            )
+            help = "open the fingers wider or lower the minimum: this grasp always raises error 2"
             yield AlwaysFails("opened-too-little", number, message, help, max(before))
 
 
@@ -86,7 +84,7 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
                 f"`TRAVEL` needs at least {travel.minimum / INCH:g} in, but the motion is at most "
                 f"{max(lengths) / INCH:g} in"
             )
-            help = "make the minimum smaller or the motion longer: as written, this `TRAVEL` always raises error 8"
+            help = "lower the minimum or lengthen the motion: this `TRAVEL` always raises error 8"
             yield AlwaysFails("travel-too-long", number, message, help, max(before))
 
 
