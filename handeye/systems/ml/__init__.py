@@ -12,7 +12,7 @@ ENTRY = Entry(
     can=("faults", "levels", "console", "video"),
     reasons={
         "plans": "`handeye ml run FILE.ml` runs its programs",
-        "undo": "its motions are not recorded; `back` in the stepper returns to an earlier state of the run",
+        "undo": "no record of its motions is kept; in the stepper, `back` returns the simulation to an earlier state",
     },
     commands="""
 ml = handeye.systems.ml.cli.commands:ml: ML (IBM, 1975): motions that stop when a sensor, read every 10 ms, passes a limit.

@@ -11,7 +11,8 @@ ENTRY = Entry(
     can=("faults", "levels", "video", "console", "chaos"),
     reasons={
         "plans": "`handeye sigma run FILE.mal` runs its programs",
-        "undo": "its motors cannot undo their motions; `back` in the stepper returns to an earlier state of the run",
+        "undo": "its arms cannot reverse their motions; in the stepper, `back` returns the simulation to an earlier "
+        "state",
     },
     commands="""
 sigma = handeye.systems.sigma.cli.commands:sigma: SUPERSIGMA (Milan, 1981): programs in MAL, whose tasks run in parallel and are synchronised by flags.

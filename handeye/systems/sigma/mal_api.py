@@ -55,7 +55,7 @@ class Mal:
         if arm not in get_args(Arm):
             raise NoSuchName(f"there is no arm {quoted(str(arm))}; choose `none` or `gantries`")
         if arm == "none" and (faults or seed is not None):
-            raise BadArgument("seed and faults are for the gantries; perfect motors have no errors")
+            raise BadArgument('seed and faults apply only to arm="gantries": perfect motors have no errors')
         self.text = text
         self._program = program_of(_NAME, text)
         self._events: list[SystemEvent] = []
@@ -147,7 +147,7 @@ class Mal:
     def status(self, axis: str) -> str:
         """Return the state of a motor: `free`, `busy`, or the reason of its abort: `rail` or `force`."""
         if axis not in AXES:
-            raise NoSuchName(f"there is no axis {quoted(axis)}; there are {', '.join(AXES)}")
+            raise NoSuchName(f"there is no axis {quoted(axis)}; the axes are {', '.join(AXES)}")
         return self._machine.status(NUMBERS[axis]).name.lower()
 
     def interleavings(self, most: int = 50_000) -> list[str]:

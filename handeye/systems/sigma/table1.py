@@ -177,7 +177,8 @@ def _claims(layer1: Sequence[Load], layer2: Sequence[Load], arithmetic: Sequence
     )
     busiest = max(layer2, key=lambda each: each.saturation)
     yield Claim(
-        claim=f"layer 2: no program uses more than {BUSIEST:.1%} of the bus (in the paper, at most 0.109 %)",
+        claim=f"layer 2: no program uses more than {BUSIEST:.1%} of what the bus can carry (in the paper, at most "
+        "0.109 %)",
         holds=busiest.saturation < 100 * BUSIEST,
         found=f"at most {busiest.saturation:.3f} %, by {busiest.name}",
     )

@@ -12,8 +12,8 @@ ENTRY = Entry(
     can=("undo", "compare", "faults", "levels", "video", "chaos"),
     reasons={
         "python": "`handeye resume` continues a run",
-        "plans": "its programs are taught in the world in which they run; use `handeye trig palletise`, "
-        "`handeye trig bucket` and `handeye trig run FILE`",
+        "plans": "each of its programs is taught in the world in which it runs; `handeye trig palletise`, "
+        "`handeye trig bucket` and `handeye trig run FILE` teach and run one",
     },
     commands="""
 trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by example, watch it grow, run it backwards.

@@ -184,7 +184,7 @@ def test_pieces_belong_to_gantries_and_a_plan_keeps_them() -> None:
     plan = job_plan("chess", 4)
     assert decode(encode(plan), "kept") == plan
     assert plan.task == "chess"
-    with pytest.raises(BadFile, match="has pieces on its board, but no gantries"):
+    with pytest.raises(BadFile, match="has pieces on its board, so its arm must be `gantries`, not `"):
         decode(encode(MalPlan(name="a.mal", text="10 STOP\n", pieces=2)), "kept")
 
 

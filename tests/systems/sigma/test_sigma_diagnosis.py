@@ -155,7 +155,8 @@ def test_a_wrong_accusation_loses_the_game() -> None:
     game, told = played(5, "accuse supply")
     assert (game.won, game.over) == (False, True)
     assert told == [
-        "Wrong: the low switch of X1 is stuck off. You used 0 tests; in the order of the paper, 11 tests find the part."
+        "Wrong: the low switch of X1 is stuck off. You used 0 tests; the order of tests in the paper finds the part "
+        "after 11 tests."
     ]
 
 

@@ -181,7 +181,7 @@ def test_supersigma_alone_refuses_a_program_for_the_line(command: Command, tmp_p
         code, _, err = command("sigma", *words)
         assert (
             code,
-            "line 110 of line.mal uses an axis or a hand that SUPERSIGMA alone does not have" in err,
+            "line 110 of line.mal uses an axis or a hand that only the assembly line has" in err,
         ) == (
             2,
             True,

@@ -191,7 +191,7 @@ def test_a_program_is_stepped_by_its_own_line_numbers_and_back(command: Command)
 def test_a_number_is_typed_for_a_task_in_the_stepper(command: Command, tmp_path: Path) -> None:
     (tmp_path / "ask.mal").write_text("10 INPUT A\n20 PRINT A * 2\n30 END", encoding="utf-8")
     code, out, _ = command("sigma", "run", "ask.mal", "--step", typed="c\ntype MAIN 21\nc\nquit\n")
-    assert "`type MAIN 5` in the stepper gives 5" in out
+    assert "in the stepper, `type MAIN 5` answers with 5" in out
     assert "MAIN prints: 42" in out
     assert code == 0
 

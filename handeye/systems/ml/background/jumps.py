@@ -127,7 +127,7 @@ def _after_end(mos: "Interpreter", code: str) -> int:
         if mos.program.statement(number).code == code:
             return mos.program.after(number)
         number = mos.program.after(number)
-    raise MlError("M13", f"the loop has no {code} after it")
+    raise MlError("M13", f"no {code} follows, so the loop has no end")
 
 
 JUMPS: Final[dict[str, Callable[..., None]]] = {

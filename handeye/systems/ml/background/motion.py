@@ -108,7 +108,9 @@ def joy(mos: "Interpreter", number: int) -> None:
         return
     if not mos.joystick and not mos.level.read("FK", 1, 1):
         raise MlError(
-            "M16", "there is no joystick here; JOY works only if a function key is pressed in the table FK"
+            "M16",
+            "there is no joystick here; without one, JOY works only after a function key has been written into the "
+            "table FK",
         )
     mos.memory.waits, mos.memory.joy, mos.memory.until = "joy", number, mos.level.now
 

@@ -138,7 +138,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     def signal(self, interlock: str, *, on: bool = True) -> None:
         """Switch the signal of an interlock on or off, as a person or a device of the room does."""
         if interlock not in INTERLOCKS:
-            raise NoSuchName(f"there is no interlock {interlock}; there are {', '.join(INTERLOCKS)}")
+            raise NoSuchName(f"there is no interlock {interlock}; the interlocks are {', '.join(INTERLOCKS)}")
         self._last = None
         self._signalled = tuple(sorted({*self._signalled} - {interlock} | ({interlock} if on else set())))
 
@@ -215,15 +215,15 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     def check(self, state: ArmState) -> None:
         slides = (state.goal, state.ways, state.motions, state.offsets)
         if any(len(each) != len(_SLIDE_NAMES) for each in slides):
-            raise BadFile("the saved arm has different slides")
+            raise BadFile("the saved arm has a different number of slides from this arm")
         if (
             not np.isfinite((*state.goal, *state.offsets, state.ranged)).all()
             or {*state.ways} - {-1, 0, 1}
             or min(state.motions) < 0
         ):
-            raise BadFile("the saved arm has an impossible motion")
+            raise BadFile("the saved state of the arm contains an impossible motion")
         if {*state.signalled} - {*INTERLOCKS}:
-            raise BadFile("the saved arm has different interlocks")
+            raise BadFile("the saved arm has interlocks that this arm lacks")
 
     def restore(self, state: ArmState) -> None:
         self._goal, self._ways = np.array(state.goal), np.array(state.ways, dtype=float)

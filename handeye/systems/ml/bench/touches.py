@@ -24,7 +24,7 @@ _CAPTIONS: Final = {
     "ways": "How far (in mm) the slide goes on after the contact, for each speed (in mm/s). There is a curve for each "
     "period.",
     "forces": "The greatest force (in N), for each speed (in mm/s). There is a curve for each period. A hollow point "
-    "means that the start of the motion trips the guard in the air.",
+    "means that the jolt at the start of the motion already trips the guard, in the air.",
 }
 _EXACT: Final = 0.5  # mm/s
 
@@ -64,8 +64,9 @@ def touches_page(touches: Sequence[Touch]) -> bytes:
             note(
                 "The hand of the rectilinear arm descends on a block, guarded by a limit of "
                 f"{touches[0].limit} g on a strain gauge in a finger. The sensors are read once per period. When a "
-                "reading is beyond the limit, the goal of the slide becomes its present position. For each choice, "
-                "contacts at four phases of the period were simulated; the page shows the one with the greatest force."
+                "reading is beyond the limit, the goal of the slide becomes its present position. For each period, "
+                "bandwidth and speed, contacts at four phases of the period were simulated; the page shows the contact "
+                "with the greatest force."
             ),
             _controls(),
             element("p", id="said", role="status"),

@@ -175,7 +175,8 @@ def console(
     left: Annotated[
         bool,
         Parameter(
-            help="Install a left arm, which LEFT and RIGHT choose. The left arm is slower and has fewer motors."
+            help="Install a left arm, too. LEFT and RIGHT then choose an arm. The left arm is slower and has fewer "
+            "motors."
         ),
     ] = False,
 ) -> int:

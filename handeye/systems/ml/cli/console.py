@@ -23,8 +23,7 @@ from handeye.systems.ml.realtime.happenings import EmergencyStopped, GoalRounded
 ENDING: Final = ".ml"
 _KEYS: Final = "type N to execute the statement, R to run on without asking, or A to abandon the program"
 _JOYSTICK: Final = (
-    "type the number of a motor and a distance to move the motor; RECORD stores the positions; CANCEL leaves the point "
-    "as it is"
+    "to move a motor, type its number and a distance; RECORD stores the positions; CANCEL leaves the point as it is"
 )
 
 

@@ -49,5 +49,5 @@ def carry_out_trials(
 
     return carry_out_job_trials(
         sweep, partial(job_setup, plan), n, seed, errors, options, settings={"variant": plan.variant},
-        title=f"{title}, in worlds from seed {seed} on", again=again,
+        title=f"{title}, in worlds with seeds from {seed} on", again=again,
     )  # fmt: skip

@@ -73,7 +73,7 @@ class Felt(Record, frozen=True, kw_only=True):
         if self.turns <= -2 * ROUND:
             return EVERYWHERE
         if self.missed >= ROUND * IDLE:
-            return f"the wand has touched nothing in {counted(self.missed // ROUND, 'square')}"
+            return f"the wand has gone around {counted(self.missed // ROUND, 'square')} of one step and touched nothing"
         if self.statements >= LONGEST:
             return f"the circuit is still open after {counted(self.statements, 'statement')}"
         return ""
@@ -83,7 +83,7 @@ class Felt(Record, frozen=True, kw_only=True):
         """The end of the run in words."""
         felt = (
             f"{counted(len(self.touches), 'touch')}, {counted(self.left, 'left turn')}, "
-            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} without a touch"
+            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} of one step without a touch"
         )
         if self.closed:
             return f"the circuit is closed: {felt}"

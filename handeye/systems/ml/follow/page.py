@@ -55,7 +55,7 @@ def follow_page(done: FollowReport, parts: Sequence[PagePart] = ()) -> bytes:
     facts = (
         f"MOS and ML, on the rectilinear arm in the world of {done.world}; {counted(len(felt.touches), 'touch')}, "
         f"{counted(felt.left, 'left turn')}, {counted(felt.right, 'right turn')}, {counted(felt.idle, 'square')} "
-        f"without a touch, in {counted(felt.statements, 'statement')}."
+        f"of one step without a touch, in {counted(felt.statements, 'statement')}."
     )
     body = element(
         "body",
@@ -173,5 +173,5 @@ def _read(data: bytes, name: str) -> FollowReport:
         raise BadFile(f"{name} is not a record of a follower: {error}") from None
     places = [place for point in (*done.true, *done.felt.touches) for place in point]
     if not done.true or any(abs(place) > _MAX_PLACE for place in places):
-        raise BadFile(f"{name} is not a record of a follower: a place is too far away")
+        raise BadFile(f"{name} is not a record of a follower: a place is impossibly far away")
     return done

@@ -111,7 +111,7 @@ class Tracker(Mechanism[Felt]):
 
     def check(self, state: Felt) -> None:
         if len(state.touches) > LONGEST or not np.isfinite(state.touches).all():
-            raise BadFile("a follower cannot have felt this")
+            raise BadFile("the saved touches of the follower are too many, or not finite numbers")
 
     def restore(self, state: Felt) -> None:
         self.felt = state

@@ -70,7 +70,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("DISABLE", "", "Freeze all motors, then switch the pump off.", "DISABLE"),
         ("EXIT", "", "Switch the pump off and leave MOS.", "EXIT"),
         ("LEFT", "", "All commands that follow are for the left arm.", "LEFT"),
-        ("RIGHT", "", "All commands that follow are for the right arm, as they are at the start.", "RIGHT"),
+        ("RIGHT", "", "All commands that follow are for the right arm. At the start, commands are for this arm.",
+         "RIGHT"),
         ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
         ("RUN", "[n]", "Run the stored program from statement n, or from its first statement.", "RUN 100"),
         ("TRY", "[n]", "Run the stored program one statement at a time: each statement waits for a key.", "TRY"),
@@ -79,8 +80,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "flow": (
         ("BAL", "v n", "Put the number of the next statement into variable v and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
-        ("BRANCH", "n1 [n2 [s ...]]", "With n1 alone: go to n1. With n2: go to n1 if the flag of any listed sensor is "
-                                      "on (for -s: off), otherwise to n2. Without a list of sensors, the flags of all "
+        ("BRANCH", "n1 [n2 [s ...]]", "Without n2, go to n1. With n2, go to n1 if the flag of any listed sensor is on "
+                                      "(for -s: off), and otherwise to n2. If no sensors are listed, the flags of all "
                                       "sensors count.",
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or, without n2, to the "
@@ -121,8 +122,9 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "sense": (
         ("CALIB", "[s ...]", "Take the mean of the last eight readings as the new zero of these sensors, or of all "
                              "analog sensors.", "20 CALIB 5 6 7"),
-        ("SENSOR", "[s [lo hi]]", "Expect the readings of a sensor to be above lo and below hi, and clear its flag. "
-                                  "Without limits, expect any reading; without s, do this for all sensors.",
+        ("SENSOR", "[s [lo hi]]", "Clear the flag of a sensor, and guard the sensor: if its reading is no longer above "
+                                  "lo and below hi, the flag comes on and all motors freeze. Without limits, the "
+                                  "sensor may read anything; without s, this applies to all sensors.",
          "200 SENSOR 5 -178 450"),
         ("WAND", "[s]", "Assign the wand to sensor s, by default sensor 1. From then on, the flag of this sensor comes "
                        "on if the wand touches.", "10 WAND"),
@@ -171,7 +173,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "test": (
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
-        ("TESTAO", "x y", "Set analog output x to y. No limit is checked, so the pump must be off.", "TESTAO 3 100"),
+        ("TESTAO", "x y", "Set analog output x to y. The pump must be off, because no limits are checked.",
+         "TESTAO 3 100"),
         ("TESTDO", "x y [mask]", "Set digital output word x to y, or only those of its bits that the mask "
                                    "selects. The pump must be off.", "TESTDO 1 1"),
     ),

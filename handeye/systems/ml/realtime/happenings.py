@@ -33,7 +33,7 @@ class Froze(LevelEvent, frozen=True, kw_only=True):
 
     def sentence(self, measures: Measures) -> str:
         places = ", ".join(f"motor {motor} at {self.positions[motor]}" for motor in self.moving)
-        return f"all motors of the {self.arm} arm freeze: {places or 'none was moving'}"
+        return f"all motors of the {self.arm} arm freeze" + (f": {places}" if places else "; none was moving")
 
 
 class Posted(LevelEvent, frozen=True, kw_only=True):

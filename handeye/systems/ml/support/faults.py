@@ -9,7 +9,7 @@ from handeye.systems.ml.bench.reporting import calls_of
 TROUBLES: Final = {
     "1": "the hand has met something on its way down",
     "2": "the hand holds no part, or the wrong part",
-    "3": "a part, or the screwdriver, is not down in its place",
+    "3": "a part, or the screwdriver, does not sit fully in its place",
     "4": "the bit finds no screw in the dispenser",
     "5": "a screw finds no thread",
     "6": "a screw does not become tight",

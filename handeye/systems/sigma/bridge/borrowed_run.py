@@ -104,5 +104,5 @@ def lines(found: BorrowedRun) -> list[str]:
         found.message or "all tasks have ended",
         f"{counted(found.commands, 'command')} in {found.seconds:.1f} s, none of them over a bus",
         f"the arm felt up to {found.most_n:.1f} N along an axis",
-        f"at the end, the tool is up to {found.error_mm:.1f} mm from where the counts of the axes put it",
+        f"at the end, the tool is up to {found.error_mm:.1f} mm from the position that the axes have counted",
     ]

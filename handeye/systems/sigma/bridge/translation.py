@@ -68,8 +68,8 @@ _WHY: Final = {
 
 
 _CURE: Final = (
-    f"a plan can have only one task, with {', '.join(_TURNED[:5])}, GOTO, and tests of FORCE right after a MOVE; "
-    "`handeye sigma run` runs any program"
+    f"a plan can have only one task, which uses only {', '.join(_TURNED[:5])}, GOTO, and tests of FORCE right after a "
+    "MOVE; `handeye sigma run` runs programs with any statements"
 )
 
 
@@ -275,8 +275,8 @@ class _Translation:
         if isinstance(way, Unknown):
             self._refuse(
                 line,
-                "ON ABORT leads to different lines for the axes of this motion, or on different paths through the "
-                "program",
+                "the line to which ON ABORT leads is not the same for all axes of this motion, or for all paths on "
+                "which the program reaches this line",
             )
             return []
         tested = _Draft(

@@ -88,8 +88,8 @@ class Layout(Record, frozen=True, kw_only=True):
                     "" if self.more_pages else "; with two more output bits, 256 microcomputers are possible"
                 )
                 raise BadArgument(
-                    f"{self.pages} pages of {PAGE} connect the status lines of microcomputers 0 to "
-                    f"{min(self.pages * PAGE, 256) - 1}, but not those of microcomputer {place.number}{more}"
+                    f"the status lines of microcomputer {place.number} are not connected: {self.pages} pages of "
+                    f"{PAGE} connect only microcomputers 0 to {min(self.pages * PAGE, 256) - 1}{more}"
                 )
         for segment in range(len(self.behind)):
             if (count := sum(place.segment == segment for place in self.places)) > FAN_OUT:

@@ -64,7 +64,8 @@ def _what(event: AnyBusEvent) -> str:
             return f"the computer takes {event.byte:02X}"
         case AnswerEnded():
             failed = f"; {event.failed}" if event.failed else ""
-            return f"the question to {name_of(event.number)} is over: {spaced(event.answer) or 'nothing'}{failed}"
+            told = spaced(event.answer) or "nothing"
+            return f"the wait for the answer of {name_of(event.number)} ends, with {told}{failed}"
         case StatusLines():
             status = Status(event.status)
             return f"{name_of(event.number)} shows {event.status >> 1}-{event.status & 1}, {status.name}"

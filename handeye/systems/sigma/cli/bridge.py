@@ -72,5 +72,5 @@ def bridge(
     write_plan(target, made.plan)
     program = made.plan.program
     told = ", ".join((counted(len(program.steps), "step"), counted(len(made.plan.motions), "motion")))
-    say(f"{target}: {told}; the plan has the motions of the arm, and no bus")
+    say(f"{target}: {told}; the plan has only motions of the arm, and uses no bus")
     return 0

@@ -37,7 +37,7 @@ StatementTime = Annotated[
     Parameter(
         name="--statement-us",
         help="Microseconds that the central computer takes for a statement; each calculation in the statement adds "
-        "a quarter.",
+        "a quarter of this time.",
     ),
 ]
 Arm = Annotated[
@@ -111,7 +111,7 @@ def check(
     interleavings: Annotated[
         bool,
         Parameter(
-            help="Try every order in which the tasks may run, and show what can go wrong in which order."
+            help="Try every order in which the tasks may run. Show what can go wrong, and an order in which it does."
         ),
     ] = False,
     most: Annotated[

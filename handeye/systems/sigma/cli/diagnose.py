@@ -25,15 +25,14 @@ def diagnose(
         bool,
         Parameter(
             negative=(),
-            help="Let the program play the game of `--seed`, with tests in the order of the paper.",
+            help="Let handeye play the game with the fault of `--seed`. It makes the tests in the order of the paper.",
         ),
     ] = False,
     seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Seed of the world: it determines the fault of a game, or the place of each fault. Default: 0 for "
-            "a game; "
-            "without a game, each fault is at its usual place."
+            help="Seed of the world. In a game, it determines the fault (default: 0). With --fault or --all, it "
+            "determines the place of each fault; by default, each fault is at its usual place."
         ),
     ] = None,
     json: Json = False,
@@ -86,7 +85,7 @@ def diagnose(
         say("")
         if there is not None:
             say(f"Planted: {there.told}.")
-        say(f"Found: {verdict.part}: {verdict.why}." if verdict.part else f"No part is found: {verdict.why}.")
+        say(f"Found: {verdict.part}: {verdict.why}." if verdict.part else f"No faulty part was found: {verdict.why}.")
     return 0 if right else 1
 
 

@@ -299,5 +299,5 @@ def _try_out(
     assert plan is not None
     return carry_out_job_trials(
         TRIALS[job], partial(job_setup, plan), n, seed, errors, options, settings={"pieces": plan.pieces},
-        title=f"{title}, on boards from seed {seed} on", again=again,
+        title=f"{title}, on boards with seeds from {seed} on", again=again,
     )  # fmt: skip

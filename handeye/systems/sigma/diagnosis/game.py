@@ -215,9 +215,9 @@ class Game:
         right = "Right" if self.won else "Wrong"
         usual = Strategy(Bench(self.planted, self.seed)).diagnose()
         paper = (
-            f"in the order of the paper, {counted(usual.tests, 'test')} find the part"
+            f"the order of tests in the paper finds the part after {counted(usual.tests, 'test')}"
             if usual.part == self.planted.part
-            else f"in the order of the paper, {counted(usual.tests, 'test')} do not find the part"
+            else f"the order of tests in the paper does not find the part, after {counted(usual.tests, 'test')}"
         )
         return [f"{right}: {self.planted.told}. You used {counted(self.tests, 'test')}; {paper}."]
 

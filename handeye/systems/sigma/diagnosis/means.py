@@ -125,9 +125,13 @@ class Strobe:
     def lines(self) -> Sequence[str]:
         if self.misread:
             often = f"in {self.misread} of {counted(self.tries, 'try')}"
-            return [f"{often}, a microcomputer that became free in mid-command obeyed a command never sent"]
+            return [
+                f"{often}, a microcomputer became free in the middle of a command, and obeyed a command that was never "
+                "sent"
+            ]
         return [
-            f"in {counted(self.tries, 'try')}, no microcomputer that became free in mid-command misread the command"
+            f"in {counted(self.tries, 'try')}, no microcomputer that became free in the middle of a command misread "
+            "the command"
         ]
 
 

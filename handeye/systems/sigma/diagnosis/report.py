@@ -65,4 +65,4 @@ def lines(found: Sequence[Diagnosed]) -> Iterator[str]:
     yield told(found)
     for each in found:
         if each.undecided:
-            yield f"{each.fault}, which no test can decide: {each.verdict.why}"
+            yield f"{each.fault}: no test can show which part is faulty: {each.verdict.why}"

@@ -104,7 +104,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
             vm.settle()
     _pass(bus)
     if endless_loop:
-        message = "nothing: the central computer hangs, and assumes that its command was executed"
+        message = "nothing, because the central computer hangs; it assumes that its last command was executed"
     else:
         message = vm.memory.fault.told if vm.memory.fault else f"ARRIVED AT {GOAL:g}"
     axes = tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS)

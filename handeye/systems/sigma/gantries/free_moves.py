@@ -67,6 +67,6 @@ def lines(found: Sequence[FreeMoves]) -> list[str]:
         worlds = counted(len(these), "world")
         out.append(
             f"{'with' if compensated else 'without'} accelerometers: the reflex stopped {tripped} of {moves} moves in "
-            f"{worlds}; the greatest force in a world was {span} N"
+            f"{worlds}; the greatest force per world was {span} N"
         )
     return out

@@ -85,7 +85,9 @@ class PerfectMotors(MicrobusPort):
 
     def begin(self, command: Command, answer: int = 0) -> None:
         if not self.free:
-            raise Refused("the bus already carries a command")
+            raise Refused(
+                "the bus still carries a command; wait until it has ended before sending the next command"
+            )
         self._memory.free_at = self._memory.now + COMMAND_BYTES * BYTE_US
         self._memory.answer = None
         if answer:
@@ -100,7 +102,7 @@ class PerfectMotors(MicrobusPort):
 
     def answer(self) -> bytes:
         if not self.free:
-            raise Refused("the answer is still being sent")
+            raise Refused("the answer is still being sent; wait until it has ended")
         number, came, wanted = self._memory.asked
         if self._memory.answer is None or came != wanted:
             raise NoAnswer(number, came, wanted)

@@ -264,7 +264,7 @@ def _meaning(command: Command) -> str:
         Op.ORIGIN: "search for the end of the rail",
         Op.LIMIT_SPEED: f"limit the speed to {counted(command.value, 'step')}/s",
         Op.POSITION: "where are you?",
-        Op.ABORT_POSITION: "where were you when you were aborted, or at the end of your rail?",
+        Op.ABORT_POSITION: "where were you when you were aborted, or when you reached the end of your rail?",
         Op.FORCE: f"what is the force along {protocol.COMPONENTS[command.detail % 3]}?",
         Op.PEAK_FORCE: f"what was the greatest force along {protocol.COMPONENTS[command.detail % 3]}?",
         Op.THRESHOLD: f"threshold along {protocol.COMPONENTS[command.detail % 3]}: "

@@ -187,7 +187,7 @@ class _Check:
                 continue
             name = statement.names[0]
             if name.text == MAIN:
-                told = "the lines before the first TASK are the task MAIN; choose another name"
+                told = "this name is taken: the lines before the first TASK are the task MAIN; choose another name"
                 yield mistake("task-twice", told, name.span)
             elif name.text in seen:
                 first = Label(span=seen[name.text].span, text="it begins here")

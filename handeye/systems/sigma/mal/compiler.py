@@ -103,8 +103,8 @@ class MalProgram:
         """
         if self.beyond is not None:
             raise BadFile(
-                f"line {self.beyond.number} of {self.name} uses an axis or a hand that SUPERSIGMA alone does not have; "
-                "`handeye sigma line FILE.mal` runs programs for the assembly line"
+                f"line {self.beyond.number} of {self.name} uses an axis or a hand that only the assembly line has; "
+                "`handeye sigma line FILE.mal` runs such programs"
             )
 
     @property

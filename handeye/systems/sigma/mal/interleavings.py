@@ -410,7 +410,7 @@ def told_orders(name: str, program: MalProgram, result: Interleavings) -> Iterat
     orders = (
         "all orders were tried"
         if result.complete
-        else "not all orders were tried; `--most` sets the number of states to try"
+        else "not all orders were tried; with a larger `--most`, more are tried"
     )
     found = counted(len(result.findings), "finding") if result.findings else "no deadlock and no race"
     ends = f"; the program ends in {counted(result.ends, 'different way')}" if result.ends > 1 else ""

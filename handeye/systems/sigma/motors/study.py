@@ -175,7 +175,7 @@ def verdict(found: AxisStudy) -> list[str]:
     ]
     if not found.starts:
         out.append(
-            "without its damping, the motor could not hold the rotor in the jump to the start/stop speed"
+            "without damping, the rotor would slip when the speed jumps to the start/stop speed"
         )
     if found.kept:
         out.append(

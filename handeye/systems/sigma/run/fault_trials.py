@@ -75,7 +75,7 @@ def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[MalFaultRow], MalFa
     """
     plan = SIGMA.own_plan(task)
     if not plan.pieces:
-        raise Refused(f"the task {quoted(task)} has no referee, so no outcome is right or wrong")
+        raise Refused(f"faults cannot be tried in the task {quoted(task)}: it has no referee to judge the outcome")
     return MAL_FAULTS, MalFaultWork(plan=plan, world=world)
 
 

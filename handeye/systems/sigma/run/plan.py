@@ -76,6 +76,6 @@ def decode(data: bytes, name: str) -> MalPlan:
 def sound(plan: MalPlan) -> None:
     """Raise BadFile unless the plan's program can be executed."""
     if plan.pieces and plan.arm != "gantries":
-        raise BadFile(f"{plan.name} has pieces on its board, but no gantries")
+        raise BadFile(f"{plan.name} has pieces on its board, so its arm must be `gantries`, not `{plan.arm}`")
     if not plan.program.lines:
         raise BadFile(f"{plan.name} has no line that can be executed")

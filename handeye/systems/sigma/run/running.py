@@ -150,7 +150,7 @@ class RunningMal(NumberedRun):
         """Call the operator if the program has stopped."""
         fault = self.vm.memory.fault
         if fault is not None:
-            more = f"; `type {fault.task} 5` in the stepper gives 5" if fault.kind == "input" else ""
+            more = f"; in the stepper, `type {fault.task} 5` answers with 5" if fault.kind == "input" else ""
             self._stop(f"{fault.told}{more}", self.vm.program.line_at[fault.address])
 
     def answer(self, choice: Choice) -> None:

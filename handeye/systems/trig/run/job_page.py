@@ -199,5 +199,5 @@ def _read_account(path: Path) -> JobReport:
         figure for blocks in done.lying.values() for each in blocks for figure in (*each.at, each.turned)
     ]
     if any(abs(figure) > _MAX_MEASURE for figure in (*lying, *(x for goal in done.goals for x in goal))):
-        raise BadFile(f"{path} is not a record of a job: a block is too far away")
+        raise BadFile(f"{path} is not a record of a job: a block is impossibly far away")
     return done
