@@ -180,7 +180,7 @@ SEED = "a seed must be a whole number from 0 to 9007199254740991 (2^53 - 1)"
         (("trials", "base", "--n", "9" * 20), "the number of worlds must be at most 1,000,000"),
         (("trials", "pallet", "--n", "9" * 20), "the number of trials must be at most 1,000,000"),
         (("bench", "insertion", "--n", "9" * 20), "the number of trials must be at most 1,000,000"),
-        (("faults", "--list", "--only", "rotr"), "there is no fault `rotr`; there are `finger_switch`"),
+        (("faults", "--list", "--only", "rotr"), "there is no fault `rotr`; choose from `finger_switch`"),
         (("faults", "--list", "--stage", "pins"), "--list runs nothing: leave out --stage and --out"),
         (("faults", "--list", "--out", "it"), "--list runs nothing: leave out --stage and --out"),
         (("faults", "--list", "--jobs", "0"), "the number of workers must be at least 1, not 0"),

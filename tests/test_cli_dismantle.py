@@ -138,7 +138,7 @@ def test_what_is_not_carried_out_again_as_it_was_is_not_undone(command: Command,
     events.write_text(f"{told[:last]}9{told[last + 1 :]}", encoding="utf-8")
     code, _, err = command("dismantle", "other")
     assert code == 2
-    assert "the steps of other after its newest checkpoint give a different result here" in err
+    assert "repeated here, the steps of other after its newest checkpoint give a different result" in err
 
 
 def test_an_event_list_that_is_not_of_the_run_is_left_out(command: Command, taken: Path) -> None:

@@ -133,7 +133,7 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
         ),
         (
             ("--without", "weather"),
-            "the world has no quantity `weather`; there are `pump`, `base`, `arm`",
+            "the world has no quantity `weather`; choose from `pump`, `base`, `arm`",
         ),
         (("--set", "part_mass"), "`part_mass` is not a setting; write NAME=VALUE"),
         (("--set", "part_mass=5kg"), "part_mass is not measured in `kg`; known: `%`"),

@@ -190,7 +190,7 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
     except HoldsRun:
         name = repr(str(path))
         raise CannotWrite(
-            f"{path} holds a run: overwrite=True replaces it, handeye.begin({name}, out={name}) continues it; to keep "
+            f"{path} holds a run: handeye.begin({name}, out={name}) continues it, overwrite=True replaces it; to keep "
             "it, choose another folder"
         ) from None
 

@@ -70,7 +70,7 @@ class World:
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:
-            raise NoSuchName(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
+            raise NoSuchName(f"there is no level {level!r}; the levels are {', '.join(SPREADS)}")
         if not isinstance(set, Mapping | None):
             raise BadArgument(f"`set` must be a dictionary from names of quantities to values, not {set!r}")
         if not isinstance(scale, Mapping | None):

@@ -123,7 +123,7 @@ class Bench(Clock, Mechanism[BenchTime]):
     def call_at(self, microseconds: int, name: str) -> None:
         """Schedule the event `name`: it is handled at the first physics step that begins at this time or later."""
         if name not in self.handlers:
-            raise NoSuchName(f"the bench has no {name}; there are {', '.join(self.handlers)}")
+            raise NoSuchName(f"the bench has no event {name}; its events are {', '.join(self.handlers)}")
         if microseconds >= _LATEST:
             raise BadArgument(
                 f"an event at {microseconds / MICROSECONDS:g} s is too late; it must be before "

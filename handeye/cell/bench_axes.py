@@ -286,7 +286,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
 
     def set(self, name: str, value: float) -> None:
         if name not in self._outputs:
-            raise NoSuchName(f"there is no output {name}; there are {', '.join(self._outputs)}")
+            raise NoSuchName(f"there is no output {name}; the outputs are {', '.join(self._outputs)}")
         if not np.isfinite(value):
             raise BadArgument(f"the output {name} is set to a value that is not a finite number")
         self._values[name] = float(value)

@@ -124,7 +124,7 @@ class ExposurePlan:
     def __post_init__(self) -> None:
         """Raise InvalidInput if the film is unknown or the number of exposures is out of range."""
         if self.film not in FILMS:
-            raise NoSuchName(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
+            raise NoSuchName(f"there is no film {quoted(self.film)}; the films are {', '.join(FILMS)}")
         whole = isinstance(self.exposures, (int, np.integer))
         if not whole or not 1 <= self.exposures <= MOST:
             raise BadArgument(f"{self.exposures} exposures are not possible; choose 1 to {MOST}")

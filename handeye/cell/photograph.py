@@ -102,7 +102,7 @@ def _number(model: mujoco.MjModel, camera: str) -> int:
     """Return the number of a camera of the scene. Raises InvalidInput if there is no such camera."""
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
-        there = f"there are {', '.join(names)}" if names else "the scene has no cameras"
+        there = f"the cameras are {', '.join(names)}" if names else "the scene has no cameras"
         raise NoSuchName(f"there is no camera {camera}; {there}")
     return names.index(camera)
 

@@ -115,7 +115,7 @@ def entry_named(name: str) -> Entry:
     if name in _broken:
         raise BadFile(f"the system {quoted(name)} cannot be loaded: {_broken[name]}")
     if name not in known:
-        raise NoSuchName(f"there is no system {quoted(name)} here; there are {', '.join(known)}")
+        raise NoSuchName(f"there is no system {quoted(name)} here; the systems are {', '.join(known)}")
     return known[name]
 
 

@@ -144,7 +144,7 @@ class Catalogue:
             raise BadArgument(f"{quoted(name)} is a group of faults: {', '.join(map(quoted, inside))}")
         first = dict.fromkeys(known.split(".")[0] for known in self.kinds)
         near = suggestion(name, self.kinds) or (
-            f"there are {', '.join(map(quoted, first))}" if first else "this task has none"
+            f"choose from {', '.join(map(quoted, first))}" if first else "this task has none"
         )
         raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 

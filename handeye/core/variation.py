@@ -188,7 +188,7 @@ class Variation:
         if not found:
             first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
             near = suggestion(name, {*self.quantities, *self.groups})
-            known = near or f"there are {', '.join(map(quoted, first))}"
+            known = near or f"choose from {', '.join(map(quoted, first))}"
             raise NoSuchName(f"the world has no quantity {quoted(name)}; {known}")
         return tuple(there)
 
@@ -226,7 +226,7 @@ class Variation:
     def check(self, spec: WorldSpec) -> None:
         """Raise BadArgument unless a world can be generated from this table."""
         if spec.level not in SPREADS:
-            raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
+            raise NoSuchName(f"there is no level {spec.level!r}; the levels are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
             raise Refused(
                 f"the world of seed {spec.seed} comes from another version of handeye; this version makes a "

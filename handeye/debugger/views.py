@@ -64,7 +64,7 @@ def write_picture(runner: Runner, file: Path) -> str:
 def _topic(what: str, topics: Collection[str]) -> str:
     found = [name for name in topics if name.startswith(what.casefold())]
     if what.casefold() not in topics and len(found) != 1:
-        near = meant(what, topics) or f"; there are {', '.join(topics)}"
+        near = meant(what, topics) or f"; the topics are {', '.join(topics)}"
         raise NoSuchName(f"there is no {quoted(what)} to show{near}")
     return found[0]
 

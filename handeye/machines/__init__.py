@@ -19,6 +19,6 @@ def find_machine(name: str) -> ArmMachine:
     """Return the machine called `name`. Raises NoSuchName if there is none."""
     places = {key: place for entry in entries().values() for key, place in entry.machines.items()} | _OWN
     if name not in places:
-        raise NoSuchName(f"there is no machine {quoted(name)}; there are {', '.join(places)}")
+        raise NoSuchName(f"there is no machine {quoted(name)}; the machines are {', '.join(places)}")
     machine: ArmMachine = loaded(places[name])
     return machine

@@ -106,7 +106,7 @@ def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
     exported = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
     parts = {**exported.parts, WHOLE: None}
     if part not in parts:
-        near = suggestion(part, parts) or f"there are {', '.join(map(quoted, parts))}"
+        near = suggestion(part, parts) or f"the parts are {', '.join(map(quoted, parts))}"
         raise NoSuchName(f"there is no part {quoted(part)} to export; {near}")
     scene = SolidScene.of(exported.spec, parts[part])
     return ExportedSolids(

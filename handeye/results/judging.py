@@ -38,13 +38,13 @@ def findings_so_far(runner: Runner) -> Findings:
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """Check what a caller's own referee returned. Raises InvalidInput if it is not a dictionary of findings by
-    name."""
+    """Check what a caller's own referee returned. Raises InvalidInput if it is not a dictionary from names to
+    findings."""
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
         raise BadArgument(
-            f"the referee `{referee}` must return a dictionary of findings by name, not {findings!r}"
+            f"the referee `{referee}` must return a dictionary from names to findings, not {findings!r}"
         )
     return findings
 
@@ -55,7 +55,7 @@ def checked_limits(limits: Limits) -> dict[str, float]:
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):
-            raise BadArgument(f"limits must be given by the names of findings, not by {name!r}")
+            raise BadArgument(f"a limit must have the name of a finding as its key, not {name!r}")
         if isinstance(limit, bool) or not isinstance(limit, (int, float)) or not isfinite(limit):
             raise BadArgument(f"the limit of {name} must be a number, not {limit!r}")
         checked[name] = float(limit)
@@ -73,7 +73,7 @@ def limited(findings: Findings, limits: Limits) -> Findings:
     found = dict(findings)
     for name, limit in limits.items():
         if name not in found:
-            near = suggestion(name, found) or f"there are {', '.join(map(quoted, found))}"
+            near = suggestion(name, found) or f"its findings are {', '.join(map(quoted, found))}"
             raise NoSuchName(f"the referee has no finding {quoted(name)}; {near}")
         found[name] = found[name].limited(limit)
     return found

@@ -102,7 +102,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     """
     begun, last = events[0], events[-1]
     if not isinstance(begun, RunStarted):
-        raise BadFile(f"{path / EVENTS} is an event list without the start of a run")
+        raise BadFile(f"{path / EVENTS} does not begin with the start of a run")
     kind, data = system_named(begun.system), read_whole(path / PLAN)
     plan = kind.decode(data, str(path / PLAN))
     if not is_plan_of(begun, kind.encode(plan)):

@@ -82,7 +82,7 @@ class CheckpointStore:
                 )
             if deciding(head.replaced or {}) != deciding(setup.replaced):
                 raise BadFile(
-                    f"{path} belongs to a run with the parts {named(head.replaced or {})}, but this run has "
+                    f"{path} belongs to a run that uses {named(head.replaced or {})}, but this run uses "
                     f"{named(setup.replaced)}; choose another folder"
                 )
 

@@ -55,8 +55,8 @@ class HoldsRun(CannotWrite):
 
     def __init__(self, path: Path) -> None:
         super().__init__(
-            f"{path} holds a run: `handeye resume {path}` resumes it, --overwrite replaces it; to "
-            "keep it, choose another folder"
+            f"{path} holds a run: `handeye resume {path}` resumes it, --overwrite replaces it; to keep it, choose "
+            "another folder"
         )
         self.path = path
 
@@ -292,7 +292,7 @@ def _check_plan(path: Path, setup: Setup) -> None:
         return
     plan = system_of(setup).decode(read_whole(beside), str(beside))
     if not same_plan(msgspec.structs.replace(setup, plan=plan), setup):
-        raise BadFile(f"the runs in {path} belong to another plan, according to {beside}")
+        raise BadFile(f"{beside} shows that the runs in {path} belong to another plan")
 
 
 def _holds_run(path: Path) -> bool:

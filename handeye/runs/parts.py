@@ -54,7 +54,7 @@ def deciding(names: dict[str, str]) -> dict[str, str]:
 
 def named(names: dict[str, str]) -> str:
     """Return the replaced parts that determine the course of a run, as words for a message."""
-    return ", ".join(f"{part} {name}" for part, name in deciding(names).items()) or "handeye's own"
+    return ", ".join(f"{part} {name}" for part, name in deciding(names).items()) or "only handeye's own code"
 
 
 def name_of(code: Any) -> str:

@@ -91,7 +91,7 @@ def any_task(name: str) -> AnyTask:
     found = known_any(name)
     if found is None:
         names = {*_ours(), *_REGISTERED, *_entry_points()}
-        near = suggestion(name, names) or f"there are {', '.join(map(quoted, sorted(names)))}"
+        near = suggestion(name, names) or f"the tasks are {', '.join(map(quoted, sorted(names)))}"
         raise NoSuchName(f"there is no task {quoted(name)}; {near}{_HINT}")
     return found
 

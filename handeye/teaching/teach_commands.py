@@ -116,7 +116,7 @@ def _push(teacher: Teacher, words: list[str]) -> Answer:
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
     return answer(
-        teacher.workplace, show=told, said="this motion was a push from outside, which no program can command"
+        teacher.workplace, show=told, said="the arm was pushed from outside; no program can contain this motion"
     )
 
 
@@ -222,7 +222,10 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="center [MIN]", act=_function("CENTER"), help="close the hand without pushing the part"),
     Command(usage="float", act=_float, help="release the brakes; the arm then follows a push"),
     Command(usage="push x 5 2", act=_push, help="push the arm: along x with 5 oz for 2 s"),
-    Command(usage="here NAME [of PART]", act=_here, help="name this position; `here NAME again` replaces it"),
+    Command(
+        usage="here NAME [of PART]", act=_here,
+        help="give the present position a name; `here NAME again` replaces an earlier one",
+    ),
     Command(usage="where", act=_look, help="show where the arm is"),
     Command(usage="list", act=_list, help="list what is taught"),
     Command(usage="undo", act=_undo, help="undo the last motion, or the last name"),

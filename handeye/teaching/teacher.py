@@ -137,7 +137,7 @@ class Teacher:
         taught = self.workplace.taught
         if part is not None and part not in taught.parts:
             known = ", ".join(taught.parts) or "none"
-            raise NoSuchName(f"there is no part {quoted(part)}; there are {known}")
+            raise NoSuchName(f"there is no part {quoted(part)}; the parts are {known}")
         if name in taught.positions and not again:
             raise Refused(f"{name} is already taught; `here {name} again` replaces it")
         run = self.workplace.run

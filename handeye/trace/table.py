@@ -58,7 +58,7 @@ class Table:
         found = {column.name: column.values for column in self.columns}
         if which not in found:
             raise NoSuchName(
-                f"there is no column {which!r} in the table {self.name}; there are {', '.join(found)}"
+                f"there is no column {which!r} in the table {self.name}; the columns are {', '.join(found)}"
             )
         return found[which]
 

@@ -39,7 +39,7 @@ def sweep_of(kind: str) -> Sweep[Any]:
     places = {name: place for entry in entries().values() for name, place in entry.sweeps.items()} | _OURS
     if name not in places:
         raise NoSuchName(
-            f"there are no trials of the kind {quoted(name)} here; there are {', '.join(sorted(places))}"
+            f"there are no trials of the kind {quoted(name)} here; the kinds are {', '.join(sorted(places))}"
         )
     found = loaded(places[name])
     if not isinstance(found, Sweep):

@@ -96,9 +96,7 @@ def localise(
     if not callable(fits):
         raise BadArgument(f"`fits` must be a function that takes a box, not {_kind(fits)}")
     if isinstance(tries, bool) or not isinstance(tries, int | np.integer) or tries < 1:
-        raise BadArgument(
-            f"the number of boxes to grow must be a whole number of 1 or more, not {tries!r:.40}"
-        )
+        raise BadArgument(f"`tries` must be a whole number of 1 or more, not {tries!r:.40}")
     with scan.within(corners):
         return blob.localise(scan, corners, float(step), fits, int(tries))
 

@@ -103,7 +103,9 @@ def test_a_run_that_stops_before_its_stage_is_no_run_at_that_stage(tmp_path: Pat
 
 def test_a_folder_is_not_lost_unless_that_is_said(tmp_path: Path) -> None:
     handeye.assemble(script="OPEN 1\n", camera="ray", out=tmp_path / "run")
-    with pytest.raises(InvalidInput, match=r"holds a run: overwrite=True replaces it, handeye.begin") as told:
+    with pytest.raises(
+        InvalidInput, match=r"holds a run: handeye\.begin\(.*\) continues it, overwrite=True replaces it"
+    ) as told:
         handeye.assemble(script="OPEN 1\n", camera="ray", out=tmp_path / "run")
     assert "--" not in str(told.value)
     again = handeye.assemble(seed=5, script="OPEN 1\n", camera="ray", out=tmp_path / "run", overwrite=True)

@@ -320,7 +320,7 @@ def test_a_referee_of_ones_own_has_the_word() -> None:
             {"referee": {"screws_clmp": 3}},
             r"^the referee has no finding `screws_clmp`; did you mean `screws_clamp`\?$",
         ),
-        ({"referee": {3: 3}}, r"^limits must be given by the names of findings, not by 3$"),
+        ({"referee": {3: 3}}, r"^a limit must have the name of a finding as its key, not 3$"),
         ({"referee": {"screws_clamp": "x"}}, r"^the limit of screws_clamp must be a number, not 'x'$"),
     ],
 )
@@ -334,6 +334,6 @@ def test_a_referee_that_finds_nothing_that_is_a_finding_is_told(wrong: object) -
     run = handeye.begin("OPEN 1\n", camera="ray", referee=lambda truth: wrong)
     run.until()
     with pytest.raises(
-        InvalidInput, match=r"^the referee `.*<lambda>` must return a dictionary of findings by name, not "
+        InvalidInput, match=r"^the referee `.*<lambda>` must return a dictionary from names to findings, not "
     ):
         run.result  # noqa: B018

@@ -48,8 +48,8 @@ def test_the_page_of_a_world_has_a_row_a_quantity() -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ({"level": ["high"]}, r"^there is no level \['high'\]; there are "),
-        ({"level": "hihg"}, r"^there is no level 'hihg'; there are low, nominal, high$"),
+        ({"level": ["high"]}, r"^there is no level \['high'\]; the levels are "),
+        ({"level": "hihg"}, r"^there is no level 'hihg'; the levels are low, nominal, high$"),
         (
             {"without": ["arm.ofset"]},
             r"^the world has no quantity `arm\.ofset`; did you mean `arm\.offset`\?$",

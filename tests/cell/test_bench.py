@@ -87,7 +87,7 @@ def test_an_event_happens_before_the_first_step_at_its_time_and_belongs_to_the_s
     bench.cell().restore(kept)
     bench.advance(0.01)
     assert heard[2:] == heard[1:2]
-    with pytest.raises(NoSuchName, match=r"^the bench has no drum; there are bell$"):
+    with pytest.raises(NoSuchName, match=r"^the bench has no event drum; its events are bell$"):
         bench.call_at(0, "drum")
     bench.call_at(round(bench.now * 1e6) + 5001, "bell")
     bench.set_to_zero()
@@ -250,7 +250,7 @@ def test_outputs_are_set_by_name_and_kept(bench: Bench) -> None:
     bench.cell().restore(kept)
     bench.advance(0.01)
     assert lit == [1.0]
-    with pytest.raises(NoSuchName, match=r"^there is no output bell; there are lamp$"):
+    with pytest.raises(NoSuchName, match=r"^there is no output bell; the outputs are lamp$"):
         outputs.set("bell", 1.0)
     with pytest.raises(BadArgument, match="is not a finite number"):
         outputs.set("lamp", np.nan)

@@ -208,7 +208,7 @@ def test_so_many_exposures_cannot_be(number: object) -> None:
 
 
 def test_there_is_no_such_film() -> None:
-    with pytest.raises(InvalidInput, match=r"^there is no film `1974`; there are colour, 1973$"):
+    with pytest.raises(InvalidInput, match=r"^there is no film `1974`; the films are colour, 1973$"):
         ExposurePlan(film="1974")
 
 

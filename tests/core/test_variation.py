@@ -167,7 +167,7 @@ def test_a_world_drawn_in_another_way_is_refused() -> None:
         ),
         (
             Overrides(set={"x": 1.0}),
-            "the world has no quantity `x`; there are `camera`, `slip`, `wave`",
+            "the world has no quantity `x`; choose from `camera`, `slip`, `wave`",
         ),
         (
             Overrides(set={"camera": 1.0}),
@@ -197,7 +197,7 @@ def test_a_value_that_a_quantity_cannot_have_is_refused_wherever_it_comes_from(v
 
 
 def test_a_level_that_there_is_none_of_is_refused() -> None:
-    with pytest.raises(InvalidInput, match="there is no level 'foo'; there are low, nominal, high"):
+    with pytest.raises(InvalidInput, match="there is no level 'foo'; the levels are low, nominal, high"):
         TABLE.draw(WorldSpec(seed=1, level="foo"))  # type: ignore[arg-type]
 
 

@@ -592,7 +592,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("list 23", "list takes a line from 1 to 22, not `23`"),
         ("list x", "list takes a line from 1 to 22, not `x`"),
         ("show jiont", "there is no `jiont` to show; did you mean `joints`?"),
-        ("show s", "there is no `s` to show; there are " + ", ".join(TOPICS)),
+        ("show s", "there is no `s` to show; the topics are " + ", ".join(TOPICS)),
         ("set", "write `set saved NAME x y z` or `set position NAME x y z [o a t]`"),
         ("set speed 3", "write `set saved NAME x y z` or `set position NAME x y z [o a t]`"),
         ("set saved H 1 2", "write `set saved NAME x y z`"),

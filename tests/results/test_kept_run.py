@@ -157,7 +157,7 @@ DAMAGE: dict[str, tuple[str, Damage]] = {
     "a damaged plan": ("is not sound", lambda run: (run / PLAN).write_bytes(b"[")),
     "other events": ("is not an event", lambda run: (run / EVENTS).write_bytes(b"{}\n")),
     "deep events": ("is not an event", lambda run: (run / EVENTS).write_bytes(b"[" * 90_000 + b"\n")),
-    "no start": ("without the start of a run", lambda run: (run / EVENTS).write_bytes(
+    "no start": ("does not begin with the start of a run", lambda run: (run / EVENTS).write_bytes(
         (run / EVENTS).read_bytes().partition(b"\n")[2])),
     "other stages": ("stages that are not in the plan next to it", lambda run: (run / EVENTS).write_bytes(
         (run / EVENTS).read_bytes().replace(b'"stage":"count"', b'"stage":"moon"'))),

@@ -77,7 +77,7 @@ def test_it_is_broken_at_a_line_a_label_and_a_stage() -> None:
 
 def test_what_there_is_to_show_of_it_is_told_by_its_own_topics() -> None:
     told = Stepper(Runner(begin_toy())).do("show joints")
-    assert told.error == "there is no `joints` to show; there are time, state"
+    assert told.error == "there is no `joints` to show; the topics are time, state"
 
 
 def test_it_is_put_back_in_time_and_goes_the_same_way_again() -> None:
@@ -124,7 +124,7 @@ def test_an_unknown_system_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPa
     data = encode(Runner(begin_toy()).checkpoint())
     monkeypatch.setattr(entries, "_registered", {})
     with pytest.raises(
-        InvalidInput, match=r"^there is no system `toy` here; there are program, trig, sigma, ml$"
+        InvalidInput, match=r"^there is no system `toy` here; the systems are program, trig, sigma, ml$"
     ):
         decode(data, "it")
 

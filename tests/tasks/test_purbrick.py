@@ -22,7 +22,7 @@ def bench() -> Bench:
 
 def test_a_system_offers_a_machine_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
     place = "handeye.machines.purbrick:PURBRICK"
-    with pytest.raises(InvalidInput, match=r"^there is no machine `crane`; there are "):
+    with pytest.raises(InvalidInput, match=r"^there is no machine `crane`; the machines are "):
         find_machine("crane")
     monkeypatch.setitem(_registered, "yard", None)
     register(

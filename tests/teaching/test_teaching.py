@@ -104,7 +104,7 @@ def test_an_arm_that_floats_stays_where_it_is_until_somebody_pushes_it(pupil: Te
     assert np.linalg.norm(hand(pupil) - before) < 0.1
     afloat = hand(pupil)
     assert say(pupil, "push x 5 1").endswith(
-        "this motion was a push from outside, which no program can command"
+        "the arm was pushed from outside; no program can contain this motion"
     )
     assert (hand(pupil) - afloat)[0] > 0.3
 
@@ -184,7 +184,7 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
             "here 1A",
             "`1A` is not a name: a name consists of letters, digits and _, and does not start with a digit",
         ),
-        ("here A of LID", "there is no part `LID`; there are BASE, PUMP"),
+        ("here A of LID", "there is no part `LID`; the parts are BASE, PUMP"),
         ("push x 900 1", "a push can be at most 200 oz, not `900`"),
         ("push x 5 900", "a push can last at most 60 s, not `900`"),
     ],

@@ -158,7 +158,7 @@ def test_a_trace_gives_a_table_by_its_name(trace: Trace, made: dict[str, Table])
     assert csv_bytes(trace.table()) == csv_bytes(made["events"])
     assert trace.table("joints")["time"].tolist() == made["joints"]["time"].tolist()
     with pytest.raises(
-        InvalidInput, match=r"^there is no table 'event'; there are joints, forces, events, channels$"
+        InvalidInput, match=r"^there is no table 'event'; the tables are joints, forces, events, channels$"
     ):
         trace.table("event")
 
@@ -167,7 +167,7 @@ def test_a_slice_of_a_table_has_those_rows_of_every_column(made: dict[str, Table
     part = made["events"][3:5]
     assert (len(part), part["said"]) == (2, made["events"]["said"][3:5])
     with pytest.raises(
-        InvalidInput, match=r"^there is no column 'tiem' in the table events; there are time, "
+        InvalidInput, match=r"^there is no column 'tiem' in the table events; the columns are time, "
     ):
         part["tiem"]
 

@@ -90,7 +90,7 @@ def test_a_file_that_is_cut_short_is_refused(path: Path, data: st.DataObject) ->
             _mcap({"format": FORMAT, "version": "3"}),
             "has trace format version 3; this version of handeye reads version 4",
         ),
-        (_mcap({"format": FORMAT, "version": "4"}), "is a trace without the start of a run"),
+        (_mcap({"format": FORMAT, "version": "4"}), "does not begin with the start of a run"),
     ],
 )
 def test_what_is_not_a_trace_of_ours_is_refused(tmp_path: Path, data: bytes, said: str) -> None:

@@ -47,7 +47,7 @@ def coins(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Co
 def test_a_kind_of_elsewhere_is_found_by_the_entry_of_its_system(monkeypatch: pytest.MonkeyPatch) -> None:
     assert sweep_of("assembly") is ASSEMBLY
     with pytest.raises(
-        NoSuchName, match=r"^there are no trials of the kind `coins` here; there are `?assembly"
+        NoSuchName, match=r"^there are no trials of the kind `coins` here; the kinds are `?assembly"
     ):
         sweep_of("coins")
     monkeypatch.setitem(entries._registered, "coins", ENTRY)

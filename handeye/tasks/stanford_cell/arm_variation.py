@@ -142,8 +142,8 @@ def _friction() -> Iterator[Quantity]:
     """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, varied by up to a quarter. If this error is switched off, a joint has "
-        "its mean friction; if the value is set to 0, it has none."
+        "Coulomb friction of the joints, which varies by up to a quarter of its mean. Without this error, a joint has "
+        "its mean friction; a value of 0 means no friction."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(

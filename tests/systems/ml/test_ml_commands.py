@@ -82,7 +82,7 @@ def test_an_error_stops_the_program_with_exit_code_1(handeye: Command, program: 
     [
         (("--sense", "8"), "--sense takes SENSOR=READING"),
         (("--sense", "dor=1"), "did you mean `door`?"),
-        (("--sense", "14=1"), "there are 1, 2, 3"),
+        (("--sense", "14=1"), "choose from 1, 2, 3"),
         (("--sense", "8=1@6:0"), "there is no motor 6"),
         (("--first", "11"), "has no statement 11"),
         (("--left", "11"), "has no statement 11"),

@@ -158,7 +158,7 @@ def test_the_command_shows_a_recorded_run_and_one_that_was_interrupted(command: 
 
 @pytest.mark.parametrize(("words", "sentence"), [
     (("gone",), "gone: there is no such file"),
-    (("example.ml", "TT"), "there is no table `TT`; there are MT, ST"),
+    (("example.ml", "TT"), "there is no table `TT`; the tables are MT, ST"),
     (("example.ml", "MT", "13"), "there is no line 13: the lines are 1 to 12"),
     (("example.ml", "MT", "1", "17"), "there is no word 17: the words are 1 to 16"),
     (("example.ml", "MT", "1", "1", "--at", "0"), "--at does not apply to the changes of a word in a whole run"),

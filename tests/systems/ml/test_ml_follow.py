@@ -277,7 +277,7 @@ def test_a_plate_lies_where_its_world_lays_it() -> None:
     assert corners[0] == corners[1] != corners[2]
     off = np.array(corners[2]) - OUTLINES["L"].points
     assert 0 < np.abs(off).max() < 2 * 2.0 / 0.0254
-    with pytest.raises(NoSuchName, match="there is no outline `round`; there are square, L, U, disc"):
+    with pytest.raises(NoSuchName, match="there is no outline `round`; the outlines are square, L, U, disc"):
         outline_of(job_plan("follow", "round"))
 
 

@@ -49,7 +49,7 @@ def test_a_word_that_is_written_is_read_back(table: str, line: int, word: int) -
 @pytest.mark.parametrize(
     ("table", "line", "word", "message"),
     [
-        ("XX", 1, 1, "there is no table XX; there are MT, ST"),
+        ("XX", 1, 1, "there is no table XX; the tables are MT, ST"),
         ("fine", 1, 1, "there is no table fine"),
         ("MT", 13, 1, "there is no line 13 in MT; its lines are 1 to 12"),
         ("MT", 0, 1, "there is no line 0 in MT; its lines are 1 to 12"),

@@ -40,7 +40,7 @@ def _source(name: str) -> tuple[str, float]:
     }
     if name not in known:
         choices = (*known, *INTERLOCKS)
-        near = names_sentence(alternatives(name, choices)) or f"there are {', '.join(choices)}"
+        near = names_sentence(alternatives(name, choices)) or f"choose from {', '.join(choices)}"
         raise NoSuchName(f"--sense has no sensor or interlock {quoted(name)}; {near}")
     line = known[name]
     if line.mask:

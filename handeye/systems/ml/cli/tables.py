@@ -91,7 +91,7 @@ def _known(table: str) -> str:
     from handeye.systems.ml.tables.layout import SHAPES
 
     if table.upper() not in SHAPES:
-        near = names_sentence(alternatives(table.upper(), SHAPES)) or f"there are {', '.join(SHAPES)}"
+        near = names_sentence(alternatives(table.upper(), SHAPES)) or f"the tables are {', '.join(SHAPES)}"
         raise NoSuchName(f"there is no table {quoted(table)}; {near}")
     return table.upper()
 

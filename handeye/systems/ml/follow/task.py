@@ -212,7 +212,7 @@ def outline_of(plan: MlPlan) -> OutlineName:
     for name in OUTLINES:
         if name == plan.variant:
             return name
-    raise NoSuchName(f"there is no outline {quoted(plan.variant)}; there are {', '.join(OUTLINES)}")
+    raise NoSuchName(f"there is no outline {quoted(plan.variant)}; the outlines are {', '.join(OUTLINES)}")
 
 
 def outline_now(data: mujoco.MjData, outline: OutlineName) -> Array:

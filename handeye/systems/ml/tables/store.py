@@ -150,7 +150,7 @@ class Tables:
     def _shape(self, table: str, line: int, word: int) -> Shape:
         shape = SHAPES.get(table)
         if shape is None:
-            raise MlError("M11", f"there is no table {table}; there are {', '.join(SHAPES)}")
+            raise MlError("M11", f"there is no table {table}; the tables are {', '.join(SHAPES)}")
         if not 1 <= line <= shape.lines:
             raise MlError("M11", f"there is no line {line} in {table}; its lines are 1 to {shape.lines}")
         if not 1 <= word <= shape.words:

@@ -36,7 +36,7 @@ JOGS: Final = {
 BOX_HELP: Final = "xXyYzZrRpPwW or ←→↓↑PgDnPgUp: drive   Enter: record   k: kill   +-:"
 LINE_HELP: Final = "HELP: commands   Tab: complete   Ctrl-C: clear the line   Q or Ctrl-D: leave"
 BUSY_HELP: Final = "any key stops the arm"
-PAGE_HELP: Final = "PgUp PgDn, then any line"
+PAGE_HELP: Final = "PgUp PgDn: scroll   any line: close"
 STEPS: Final = (0.1, 1.0, 5.0, 10.0, 50.0)  # mm or deg per teach box key
 
 

@@ -84,7 +84,9 @@ def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Finding
     off = float(np.linalg.norm(np.array(now) - np.array(taught)))
     return {
         "pallet": at_most(off * _MM, 0.0, "mm", "distance of the position PALLET from its taught place"),
-        "loops": at_most(max(counts, default=0), 0, "rounds", "greatest remaining count of a loop"),
+        "loops": at_most(
+            max(counts, default=0), 0, "rounds", "greatest number of rounds that a loop still counts as done"
+        ),
     }
 
 

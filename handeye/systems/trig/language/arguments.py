@@ -75,7 +75,9 @@ def read_vector(text: str) -> Vector3:
         raise BadArgument(f"{quoted(text.strip())} is not a force vector; write it like (0 0 1)")
     x, y, z = map(number, found.groups())
     if (x, y, z) == (0, 0, 0):
-        raise BadArgument("the force vector (0 0 0) has no direction; (0 0 1) feels a force upwards")
+        raise BadArgument(
+            "the force vector (0 0 0) has no direction; write (0 0 1), for example, to feel an upward force"
+        )
     return x, y, z
 
 

@@ -91,7 +91,7 @@ def _check_redefinition(session: Session, name: str, relative: bool) -> None:
     """Raise an exception if a position may not be redefined, or if the user does not agree to that."""
     was = session.position(name).relative
     if relative and any(node.type == "savpos" for node in session.program.users(name)):
-        raise Refused(f"a SAVPOS step sets {name}, so {name} stays absolute; D deletes the step")
+        raise Refused(f"{name} cannot become relative, because a SAVPOS step sets it; D deletes the step")
     if not relative:
         check_no_opposite(session, name)
     kinds = {True: "relative", False: "absolute"}

@@ -51,7 +51,8 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; you teach a new one, which is absolute or relative like that of the last move",
+        help="move to a position; if it is new, you teach it, and it is absolute or relative like that of the last "
+             "move",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
@@ -86,7 +87,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="L STEP [n|g]", group=STEPS, takes=("step", "branch"), needs=1, act=step_commands.link,
-        help="continue at an existing step; also LINK",
+        help="continue at an existing step; LINK is the same command",
     ),
     TrigCommand(
         usage="CN STEP", group=CHANGES, takes=("step",), needs=1, act=step_commands.rename,
@@ -114,7 +115,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=step_commands.unlink,
-        help="remove the link from the active step to a step that other steps also lead to",
+        help="remove the link from the active step to STEP; another step must also lead to STEP",
     ),
     TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(

@@ -97,14 +97,14 @@ def save(session: Session, given: Arguments) -> None:
 def check_no_opposite(session: Session, name: str) -> None:
     """Raise Refused if a step uses the opposite of a position that would become absolute."""
     if any(node.negate for node in session.program.users(name)):
-        raise Refused(f"a step goes to -{name}, so {name} must stay relative; D deletes the step")
+        raise Refused(f"{name} cannot become absolute, because a step goes to -{name}; D deletes the step")
 
 
 def loop(session: Session, given: Arguments) -> None:
     """LOOP: return to a step a number of times before continuing with the next step."""
     target, wanted = session.step(given.step or ""), given.count or 0
     if target.id == TOP:
-        raise Refused(f"a loop goes back to a step; {target_hint(session)}")
+        raise Refused(f"a loop cannot go back to the top, only to a step; {target_hint(session)}")
     if wanted < 0:
         raise BadArgument(f"the count of a loop must be 0 or more, not {wanted}")
     program = session.program
@@ -127,7 +127,7 @@ def link(session: Session, given: Arguments) -> None:
     """L: continue at an existing step."""
     program, target = session.program, session.step(given.step or "")
     if program.cursor == TOP or target.id == TOP:
-        raise Refused("a link leads from a step to a step, not to or from the top")
+        raise Refused("the top cannot have a link; a link leads from one step to another")
     branch = session.branch(given.branch)
     entry = program.graph.entry(target.id)
     son = program.active.sons[branch]
@@ -153,7 +153,7 @@ def rename(session: Session, given: Arguments) -> None:
     """CN: give the active step a name."""
     node, name = active_step(session), given.step or ""
     if node.type == "loop":
-        raise Refused("a loop step has no name: its line shows the step to which it goes back")
+        raise Refused("a loop step cannot have a name: its line shows the step to which it goes back")
     other = session.program.graph.named(name)
     if other is not None and other is not node:
         raise BadArgument(f"another step is already called {name}; GOTO {name} shows it")
@@ -172,7 +172,7 @@ def change_position(session: Session, given: Arguments) -> None:
             "the active step has no position to change, because it neither goes to a position nor saves a position"
         )
     if node.type == "savpos" and position.relative:
-        raise Refused(f"{given.position} is relative; SAVPOS saves an absolute place")
+        raise Refused(f"{given.position} is relative, but a SAVPOS step needs an absolute position")
     node.position, node.negate = given.position, False
     session.program.changed = True
 

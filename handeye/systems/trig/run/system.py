@@ -35,12 +35,12 @@ class TaughtSystem(System):
     state = TaughtState
     words = StepperWords(
         about=("The program runs one step at a time, as it was taught; the arrow marks the next step.",),
-        places=("PLACE is a line (8), the name of a step, or what steps do (LOOP, GRASP). WHAT is one of",),
+        places=("PLACE is a line (8), the name of a step, or a kind of step (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={
             "proceed": "try again the step that called the operator, forwards or backwards",
             "retry": "the same as `proceed`",
-            "skip": "end the program here; on the way back, no step can be skipped",
+            "skip": "end the program here; not possible while the program runs backwards",
         },
     )
 

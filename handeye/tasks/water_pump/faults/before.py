@@ -150,7 +150,7 @@ def _top() -> Iterator[PartFault]:
     off = ExpectedDetection(
         errors=(SEARCH_EXHAUSTED,),
         calls=(detect.ON_PINS,),
-        harmless="CENTER grasps the top where it is, and the search finds the pins along the fingers.",
+        harmless="CENTER grasps the top where it is, and the search then finds the pins.",
     )
     yield from _moved("top", "the top", {"x": off, "y": off})
     yield _fault(

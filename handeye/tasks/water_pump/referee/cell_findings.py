@@ -46,7 +46,7 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "height of the lowest part above the table top"),
         "tray": mm(
             max((measured.from_site(f"screw{k}", f"park{k}") for k in in_threads), default=0.0), limits.TRAY,
-            "greatest distance of the hidden body of a threaded screw from its tray",
+            "greatest distance from its tray of the hidden body of a screw in a thread",
         ),
         "hand": _hand(measured, parts),
         "still": _speed(measured, np.flatnonzero(there), "part"),
@@ -73,11 +73,11 @@ def made(left: SettledState, truth: Truth) -> Findings:
     return {
         "as_drawn": at_most(
             len(differing), limits.ALTERED, "parts",
-            "parts that are not as drawn" + (f": {told(differing)}" if differing else ""),
+            "parts that differ from the drawing" + (f": {told(differing)}" if differing else ""),
         ),
         "bonds": at_most(
             _bonds(left, truth), 0, "bonds",
-            "bonds of the simulated cell that are wrongly open, closed or strained",
+            "bonds (connections in the simulation) that are wrongly open, closed or strained",
         ),
         "held": at_most(max(forces), limits.FORCE, "N", "greatest external force on a part or the arm"),
         "motor": at_most(

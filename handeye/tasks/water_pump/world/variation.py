@@ -101,8 +101,9 @@ def _camera() -> Iterator[Quantity]:
             "`field`: shift of the middle line down the picture, as a fraction of half the picture's height.",
             unsourced=f"the papers do not mention the shape of the raster, and the camera is lost. {DOUBLED}"),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
-            "Shift of each picture from the previous one, as a fraction of half the picture's width and height: half "
-            "a pixel. The paper mentions a slight shift between two pictures; vision study, section 4: up to a pixel."),
+            "Shift of each picture from the previous one, as a fraction of half the picture's width and height. Sigma "
+            "is half a pixel. The paper mentions a slight shift between two pictures; vision study, section 4: up to "
+            "a pixel."),
     )  # fmt: skip
 
 
@@ -169,8 +170,8 @@ def _parts() -> Iterator[Quantity]:
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Rotation of the screwdriver, within the play that the width of its guides allows. This play is in "
-            "addition to the play of its position.", greatest=0.6),
+            "Rotation of the screwdriver in its guides. The width of the guides allows this play, in addition to the "
+            "play of the screwdriver's position.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
         rubbing(RUBBING),
