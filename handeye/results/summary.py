@@ -37,8 +37,8 @@ from handeye.vision.calibration import Calibration
 def summary(
     runner: Runner, pause: Pause, *, findings: Findings | None, built: Findings, host: HostSeconds
 ) -> Result:
-    """Make the result of a run. `built` has the referee's findings on the finished work before the arm undid
-    it."""
+    """Make the result of a run. `built` has the referee's findings on the finished work, measured before the arm
+    undid it."""
     completed = pause.kind == "end"
     names = runner.listing.stages
     cell = runner.system.cell

@@ -119,8 +119,8 @@ class CheckpointStore:
         return None
 
     def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
-        """Return the checkpoint of a run with this setup from which the fewest steps lead to the stage with
-        this number, or None.
+        """Return the checkpoint from which a run with this setup reaches the stage with this number in the fewest
+        steps; None if there is none.
 
         Checkpoints made after a person interfered do not count. Raises BadFile if the checkpoints belong to
         another run.

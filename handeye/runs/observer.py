@@ -15,8 +15,8 @@ class Observer:
         """Called when a servo period has passed."""
 
     def undone(self, events: int) -> None:
-        """Called when the run has gone back to a state after which only its first `events` events have
-        happened."""
+        """Called when the run has gone back to an earlier state. Only its first `events` events have happened
+        until then; the later ones are undone."""
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         """Called when a state that should be kept has been reached."""

@@ -52,7 +52,7 @@ RECENT: Final = 400  # steps whose states stay in memory; older states only at t
 
 
 def reach(first: int) -> str:
-    """Say in a sentence how far a run can go back if `first` steps are done in its earliest state."""
+    """Say in a sentence that a run cannot go back beyond its earliest state, in which `first` steps are done."""
     return (
         f"this run begins with {counted(first, 'step')} already done: there is no earlier state to go back to"
     )
@@ -331,7 +331,7 @@ class Runner:
         return near
 
     def _happened(self, position: int) -> int:
-        """Return the number of events before the step that follows a position."""
+        """Return how many events happened before the step that begins at a position (number of steps done)."""
         done = 0
         for number, event in enumerate(self.events):
             if done == position and isinstance(event, StageStarted | StepStarted):
@@ -353,8 +353,8 @@ class Runner:
         self._settle()
 
     def type_line(self, text: str, task: str = "") -> None:
-        """Type a line at the system's console, for one of the system's tasks. While a step is being executed, the line
-        is executed in its middle, if the system can do that.
+        """Type a line at the system's console, for one of the system's tasks. If a step is being executed, the line is
+        executed in the middle of the step; the system may refuse that.
         """
         self.require("console")
         if self._within_step:

@@ -185,8 +185,8 @@ class RunningSystem(Protocol):
 
     @property
     def switched_on(self) -> float:
-        """The reading of the clock (s) when this object began to simulate. The reading is minus the duration of the
-        preparation, or 0 if an earlier run stored the preparation.
+        """The reading of the clock (s) when this object began to simulate. The clock reads 0 at the end of the
+        preparation, so the reading is negative, unless an earlier run stored the preparation: it is then 0.
         """
         return 0.0
 
@@ -442,8 +442,8 @@ class System(ABC):
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
-        """Return further files for the run's folder, by the names in the system's entry. `result` is the run's
-        `results.result.Result`.
+        """Return the contents of further files for the run's folder. The keys are the names that the system's entry
+        lists. `result` is the run's `results.result.Result`.
         """
         return {}
 

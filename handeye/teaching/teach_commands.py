@@ -223,7 +223,8 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="float", act=_float, help="release the brakes; the arm then follows a push"),
     Command(usage="push x 5 2", act=_push, help="push the arm: along x with 5 oz for 2 s"),
     Command(
-        usage="here NAME [of PART]", act=_here,
+        usage="here NAME [of PART]",
+        act=_here,
         help="give the present position a name; `here NAME again` replaces an earlier one",
     ),
     Command(usage="where", act=_look, help="show where the arm is"),

@@ -81,7 +81,7 @@ class Frames:
     """The poses of a cell's bodies, as the simulator computed them last: one physics step before the tick."""
 
     def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
-        """Observe a cell. `joints` are the names of the arm's joints, in order."""
+        """Observe a cell. `joints` are the names of the arm's joints, in the order of the arm."""
         self._truth = truth
         bodies = range(1, truth.model.nbody)  # body 0 is the world
         self.names = tuple(str(truth.model.body(number).name) for number in bodies)

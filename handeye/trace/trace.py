@@ -70,7 +70,7 @@ class Trace:
 
     @cached_property
     def pictures(self) -> tuple[TakenPicture, ...]:
-        """The pictures that the program took, in order."""
+        """The pictures that the program took, the earliest first."""
         return self._read(lambda messages: Several(read_pictures(messages)))
 
     # -- in every servo period -------------------------------------------------------------------------
@@ -250,9 +250,9 @@ class Trace:
 
     @cached_property
     def unseen(self) -> int:
-        """Number of events before the first servo period or picture in the trace. Usually, these are the events
-        that start the run and its first stage. A run resumed from a checkpoint has more, because the trace has its
-        earlier events, but not the servo periods and pictures between them. 0 for a system that moves no arm.
+        """Number of events at the beginning of the trace without messages between them. Usually, these are the events
+        that start the run and its first stage. A run resumed from a checkpoint has more, because its earlier events
+        are copied without the messages between them. 0 for a system that moves no arm.
         """
         if not self.head.arm:
             return 0

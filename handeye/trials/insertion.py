@@ -184,8 +184,8 @@ class InsertionWork:
 
 
 def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[Case]:
-    """Return the cases with `n` trials of each condition, ten trials per world, in the worlds from a seed on.
-    Raises InvalidInput if a condition is impossible.
+    """Return the cases with `n` trials of each condition, ten trials per world. The worlds have the seeds from `seed`
+    on. Raises InvalidInput if a condition is impossible.
     """
     for condition in conditions:
         bench().variation().check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))

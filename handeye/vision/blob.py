@@ -159,8 +159,8 @@ class _Side:
         self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
 
     def moves(self, box: list[int], threshold: float) -> bool:
-        """Move the side to a line ahead that crosses the blob, then to the end of the blob there. Returns False if
-        no line ahead crosses the blob.
+        """Find a line somewhat farther out that crosses the blob, and move the side to the end of the blob beyond this
+        line. Returns False if no such line crosses the blob.
         """
         line = self._line(box[self.number])
         low, high = (box[1], box[3]) if self.upright else (box[0], box[2])

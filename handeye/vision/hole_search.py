@@ -241,8 +241,8 @@ class HoleFinder:
         return np.asarray((edges.uv + SEED * ahead)[edges.met & (edges.before >= self._bright)])
 
     def all_over(self, box: BoundingBox) -> list[Candidate]:
-        """Find candidates in the whole box. Beams go through the box, and the characteriser starts at every step
-        from the bright face to dark.
+        """Find candidates in the whole box. Beams go through the box. Wherever a beam passes from the bright face to
+        dark, the characteriser starts.
         """
         found: list[Candidate] = []
         for seed in self._dark_steps(box):

@@ -39,7 +39,7 @@ class GuardedMotion:
 
 
 def guarded_motions(run: RecordedRun) -> tuple[GuardedMotion, ...]:
-    """Return the guarded motions of a run, in order."""
+    """Return the guarded motions of a run, the earliest first."""
     if not len(run.trace.times):
         return ()
     forces = run.trace.forces()

@@ -48,7 +48,7 @@ class MotionEnd:
 
 
 def ends(run: RecordedRun) -> tuple[MotionEnd, ...]:
-    """Return the ends of all motions, in order."""
+    """Return the ends of all motions, the earliest first."""
     return tuple(_ends(run))
 
 
@@ -92,7 +92,7 @@ class Search:
 
 
 def searches(run: RecordedRun) -> tuple[Search, ...]:
-    """Return the searches that tried more than one place, in order."""
+    """Return the searches that tried more than one place, the earliest first."""
     return tuple(_search(run, tries) for tries in _tries(run.trace.events))
 
 
@@ -157,7 +157,7 @@ class Correction:
 
 
 def corrections(run: RecordedRun) -> tuple[Correction, ...]:
-    """Return the goals that were shifted, in order."""
+    """Return the goals that were shifted, the earliest first."""
     return tuple(_corrections(run))
 
 

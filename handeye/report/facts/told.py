@@ -46,7 +46,7 @@ class CaptionedEvent(NamedTuple):
 
 
 def told(run: RecordedRun) -> tuple[CaptionedEvent, ...]:
-    """Return all events that have captions, in order."""
+    """Return all events that have captions, the earliest first."""
     return tuple(CaptionedEvent(event.time, event) for event in run.trace.events if isinstance(event, SENSED))
 
 

@@ -1,4 +1,4 @@
-"""Builds the section "Planned and found": how far from their planned ends motions ended, and why goals were
+"""Builds the section "Planned and found": how far each motion ended from its planned end, and why goals were
 shifted."""
 
 from collections.abc import Iterator, Sequence

@@ -45,8 +45,8 @@ class Ml:
             stimuli: values that sensors have at certain times or while a motor is at certain positions.
             senses: the same, written as for `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads 500 while
                 motor 3 is at 2750 or farther from 0.
-            procedures: functions by the names of the commands that call them, `UPROCA` to `UPROCD`. Each is called
-                with this terminal's interpreter and the values of the statement's parameters.
+            procedures: a dictionary from the names of commands, `UPROCA` to `UPROCD`, to the functions that they call.
+                Each function is called with this terminal's interpreter and the values of the statement's parameters.
         """
         self.events: list[SystemEvent] = []
         sensing = (*stimuli, *map(sensed, senses))

@@ -118,8 +118,8 @@ def name_of(number: int, *, line: bool = False) -> str:
 
 
 def move(axis: str | int, steps: int, curve: int = 0) -> Command:
-    """Make the command that moves a motor by a signed number of steps, along the profile that belongs to this
-    number."""
+    """Make the command that moves a motor by a signed number of steps, with the speed profile for a move of this
+    length."""
     return Command(
         number=number_of(axis),
         op=Op.MOVE,

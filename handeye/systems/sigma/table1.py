@@ -2,8 +2,8 @@
 the computer.
 
 Layer 1 repeats one move. The length of the move is chosen so that a command takes as long as in the paper,
-which checks the arithmetic of bus and motors. Layer 2 runs programs like those named in the paper. They are not
-fitted to the table.
+which checks the arithmetic of bus and motors. Layer 2 runs programs like those named in the paper; these
+programs are not fitted to the table.
 """
 
 from collections.abc import Iterator, Sequence

@@ -49,7 +49,7 @@ def group(
     least: float = -np.inf,
     greatest: float = np.inf,
 ) -> Iterator[Quantity]:
-    """Yield quantities that share a source. The drawn values of magnitudes are never negative."""
+    """Yield quantities that share a source. Quantities that are magnitudes, such as noise, cannot be negative."""
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):

@@ -16,7 +16,7 @@ from handeye.cell.physics_stepper import Carrying, PhysicsStepper
 from handeye.tasks.water_pump.clamping import LAYERS, Clamping
 
 MARGIN: Final = 1e-4
-"""Distance (m) between a shank and a hole from which on the shank is left out. Chosen; welds give by micrometres."""
+"""A shank is left out if it is at least this far (m) from the hole. Our choice; welds yield by micrometres."""
 
 
 class ClampedStepper(PhysicsStepper):

@@ -21,7 +21,7 @@ Procedure = Callable[..., None]  # its parameters are the interpreter and the va
 class Host:
     """A host that keeps programs in its memory.
 
-    `procedures` has the user's functions by the names of the commands that call them, `UPROCA` to `UPROCD`.
+    `procedures` maps the names of commands, `UPROCA` to `UPROCD`, to the user's functions that they call.
     """
 
     def __init__(self, procedures: Mapping[str, Procedure] | None = None) -> None:

@@ -42,8 +42,7 @@ def after(one: Array, other: Array) -> Array:
 
 def off_attitude(R: Array, along: Array, up: Array) -> float:
     """Return the angle (deg) by which a bar of orientation `R` differs from the required attitude. In this attitude,
-    the length of the bar is along `along`, with either end ahead, and one of its four long sides faces in the direction
-    `up`.
+    the bar points along `along`, with either of its ends, and one of its four long sides faces in the direction `up`.
     """
     length = acos(min(abs(float(R[:, 1] @ along)), 1.0))
     side = atan2(float(R[:, 0] @ up), float(R[:, 2] @ up)) % (pi / 2)

@@ -1,4 +1,6 @@
-"""Programs that end by printing two numbers: 0 if all went well, or else the number of a trouble; then a count."""
+"""Programs that end by printing two numbers. The first is 0 if all went well, or else the number of a trouble; the
+second is a count.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,7 @@ def counted(heard: object) -> int:
 
 
 def calls_of(troubles: Mapping[str, str]) -> tuple[str, ...]:
-    """Return a program's message for each trouble, in the form in which a fault declares the messages that name it."""
+    """Return the message of a program for each trouble, as declarations of faults quote it: with `{count}`."""
     return tuple(f"{sentence} ({{count}})" for sentence in troubles.values())
 
 
@@ -94,7 +96,7 @@ class ReportingHardware(StationHardware):
         return Ending(done=False, text=f"{self._troubles[trouble]} ({self.counted(count.strip() or '0')})")
 
     def counted(self, count: str) -> str:
-        """Describe in words the numbers that the program prints after the number of a trouble."""
+        """Describe in words the count that the program prints after the number of a trouble."""
         return f"done before: {count}"
 
 

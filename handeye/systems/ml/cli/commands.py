@@ -70,7 +70,7 @@ def run(
     ] = None,
     options: RunOptions = USUAL_RUN,
 ) -> int:
-    """Run a program. The arm is enabled first. A step is one statement.
+    """Run a program. The arm is enabled first. The stepper counts each statement as one step.
 
     Exit code 0: the program has ended; 1: an error or an emergency has stopped it; 2: bad input; 130: interrupted.
     """

@@ -61,8 +61,8 @@ class History:
 
     @property
     def last(self) -> int:
-        """The number of the cycle that comes next. The changes that statements have made since the previous cycle count
-        for it.
+        """The number of the cycle that comes next. Changes that statements have made since the previous cycle belong to
+        this cycle.
         """
         return self.head.cycles
 
@@ -120,8 +120,9 @@ def packed(done: History) -> bytes:
     """Return a history as a compressed file.
 
     The file begins with the length of the head and the head itself, in JSON. Then it has for each word: how many words
-    without a course were skipped before it, the number of its changes, the cycles from each change to the next, and
-    the step of its value at each change. Integers are written with seven bits in each byte, the lowest bits first.
+    without a course were skipped before it, the number of its changes, the number of cycles from each change to the
+    next, and the difference that each change makes to its value. Integers are written with seven bits in each byte,
+    the lowest bits first.
     """
     head = msgspec.json.encode(done.head)
     stream = bytearray(_integers([len(head)]) + head)
@@ -198,7 +199,7 @@ class _Reader(Iterator[int]):
 
 
 def _sums(read: _Reader, count: int, *, folded: bool = False) -> list[int]:
-    """Return the running sums of the next `count` numbers. Numbers that are `folded` also encode negative ones."""
+    """Return the running sums of the next `count` numbers. With `folded`, odd numbers stand for negative ones."""
     sums, total = [], 0
     for _ in range(count):
         number = next(read)

@@ -58,7 +58,7 @@ def _changing(done: History, segment: Segment, cycle: int | None = None) -> int:
 
 
 def overview(done: History, cycle: int) -> Iterator[str]:
-    """List all tables, each with the number of its words that changed during the run, and in a cycle."""
+    """List all tables. For each, give the number of words that changed during the run, and of those in one cycle."""
     yield f"{done.head.program}, {_moment(done, cycle)}"
     yield ""
     rows = [("table", "", "lines", "words", "words that change", "in this cycle")]
@@ -147,8 +147,8 @@ def _within(number: int, most: int, what: str) -> int:
 
 
 def columns(rows: Sequence[Sequence[str]], *, words: int, last: bool = False) -> Iterator[str]:
-    """Align rows in columns. The first `words` columns, and the last one if `last`, are texts; the others are
-    numbers, which are aligned to the right.
+    """Align rows in columns. The first `words` columns are texts; with `last`, the last column is also a text. All
+    other columns are numbers, which are aligned to the right.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:

@@ -12,7 +12,7 @@ _OF_SENSORS = ("reading", "flag")
 
 
 def level_channels(levels: Mapping[Side, RealTime]) -> tuple[Channel, ...]:
-    """Return the channels of all arms. The parts of a channel have the numbers of the motors or sensors."""
+    """Return the channels of all arms. Each has one part per motor or sensor, in the order of their numbers."""
     return tuple(
         Channel(name=_named(name, side, len(levels)), width=width)
         for side in levels

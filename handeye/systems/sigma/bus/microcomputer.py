@@ -102,10 +102,11 @@ class Microcomputer:
     # -- receiving ---------------------------------------------------------------------------------------
 
     def listen(self, at: int, sent: Sequence[Sending], wires: Wires, *, quiet: bool) -> list["Taken"]:
-        """Look for a strobe if the microcomputer is free to take a command. Returns the commands that the microcomputer
-        takes, and drops because they are for other microcomputers.
+        """Look for a strobe if the microcomputer is free to take a command. Returns the commands for other
+        microcomputers, which this one takes from the lines and then drops.
 
-        These commands can be determined at once if no line is faulty and no answer is on the lines (`quiet`).
+        Such commands are returned only if no line is faulty and no answer is on the lines (`quiet`); otherwise they are
+        received byte by byte.
         """
         memory, passed = self.memory, list[Taken]()
         if not self._takes():

@@ -39,8 +39,8 @@ class Plant(ABC, Generic[Kept]):
     )
 
     def resumed(self) -> None:
-        """Called after the state was restored. The motors and thresholds of all microcomputers are passed to
-        the machine next."""
+        """Called after the state was restored. Afterwards, `driven` and `limited` are called for all
+        microcomputers."""
 
     def advance(self, at: int) -> tuple[int, list[Level]] | None:
         """Advance to a time, or to an earlier time at which levels change. Returns the time reached and the

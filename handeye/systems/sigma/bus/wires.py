@@ -105,7 +105,7 @@ class Wires:
         return tuple(s for s in self.layout.way(speech.segment) if s and s not in self._rigid)
 
     def answers(self, speeches: Iterable[Speech]) -> list[tuple[int, int]]:
-        """Return the times between which /ANSWER READY is low at the central computer (ps), in order."""
+        """Return the times between which /ANSWER READY is low at the central computer (ps), the earliest first."""
         lows = sorted(low for speech in speeches for low in speech.lows(self.timing))
         joined: list[tuple[int, int]] = []
         for start, end in lows:

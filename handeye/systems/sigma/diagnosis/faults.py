@@ -50,7 +50,7 @@ class Planted(Record, frozen=True, kw_only=True):
 
 
 class Draw:
-    """Chooses among places and kinds of a fault: at random from a seed, or always the first."""
+    """Chooses the place and the kind of a fault: at random from a seed, or always the first one of the list."""
 
     def __init__(self, rng: np.random.Generator | None) -> None:
         self._rng = rng
@@ -251,8 +251,8 @@ def planted(name: str, seed: int | None = None) -> Planted:
 
 
 def variants(name: str) -> Iterator[tuple[str, Planted]]:
-    """Yield the fault called `name` at each of its places and of each of its kinds, with the words that choose it,
-    such as `dead.X1`. The usual one comes first."""
+    """Yield all variants of the fault called `name`, one for each place and kind, each with the words that choose it,
+    such as `dead.X1`. The usual variant comes first."""
     numbers: list[int] | None = []
     while numbers is not None:
         draw = _InTurn(numbers)

@@ -258,7 +258,7 @@ def _name(text: str) -> str:
 
 
 def _all_parts() -> dict[str, str]:
-    """Return the names of all parts, by the same names in lower case."""
+    """Return a dictionary from the name of each part in lower case to its usual spelling."""
     parts = ["computer", "interrupt wire", "supply", "regenerator 1", "segment 0", "segment 1"]
     for name in NUMBERS:
         parts += [f"microcomputer {name}", f"status line A of {name}", f"status line B of {name}"]

@@ -377,7 +377,7 @@ def grip(at: Technician, arm: int) -> Grip:
 
 
 def pause(bus: MicrobusPort, microseconds: int) -> None:
-    """Let time pass, whatever changes meanwhile."""
+    """Let this time pass, even if the bus reports changes meanwhile."""
     end = bus.now + microseconds
     while bus.now < end:
         bus.wait(end)

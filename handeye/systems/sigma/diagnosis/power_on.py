@@ -137,9 +137,9 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     one = heard[number]
 
     def takes(stranger: int, other: int) -> bool:
-        """Return True if a microcomputer that is silent at its own number answers to the number of the
-        microcomputer `other`. The two then become busy together. A microcomputer that is always busy, such as the
-        one of a wrist, is recognised because it disturbs the answers of `other`.
+        """Return True if the microcomputer `stranger`, which is silent at its own number, answers to the number of the
+        microcomputer `other`. This shows in one of two ways: both become busy together; or, if `stranger` is always
+        busy, like that of a wrist, it disturbs the answers of `other`.
         """
         theirs = heard[other]
         seen = not theirs.right if stranger in scanning else stranger in theirs.busy

@@ -58,7 +58,7 @@ class SensorMemory(MutableRecord, kw_only=True, tag="sensor"):
 
 
 class Sensor(Device):
-    """The firmware of a newer kind of sensor, whose answer has a length of its own."""
+    """The firmware of a newer kind of sensor, whose answer may have any length."""
 
     memory: SensorMemory
 

@@ -84,7 +84,7 @@ class MalProgram:
     tasks: dict[str, int]
     """Address of the first instruction of each task, with MAIN first."""
     texts: dict[int, str] = field(repr=False, default_factory=dict)
-    """All lines by number, including remarks, in order."""
+    """All lines by number, including remarks, in ascending order."""
     statements: tuple[Line, ...] = field(repr=False, default=())
     """The syntax trees of `lines`."""
 

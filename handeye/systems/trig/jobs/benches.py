@@ -104,7 +104,7 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def lay(self) -> None:
-        """Prepare the table as it is after teaching, before a state is restored."""
+        """Put the table into the state that it has after teaching. A saved state is restored afterwards."""
 
     @property
     @abstractmethod

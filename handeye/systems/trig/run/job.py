@@ -77,7 +77,8 @@ def carry_out(
     that is possible.
 
     `go` executes a number of steps, or all steps if the number is None; by default it does so without an
-    operator. `tell` is called with a sentence on how each leg ended.
+    operator. `tell` is called with a sentence on how the program ended, and with one on how
+    its reversal ended.
     """
     go = go or (lambda steps: advance(runner, steps=steps))
     if job_of(runner).state.turn is None:
@@ -151,7 +152,9 @@ _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"
 
 
 def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
-    """Return the present leg, and a sentence on how it ended. The leg is None if the arm refused a step."""
+    """Return the part of the job that has just ended, forwards or reversal, and a sentence on how it ended. The part is
+    None if the arm refused a step.
+    """
     system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:
         return None, pause.message

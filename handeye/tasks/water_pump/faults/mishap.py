@@ -85,5 +85,5 @@ MishapFault = PumpFault[Callable[[float], Mishap]]
 
 
 def always(mishap: Mishap) -> Callable[[float], Mishap]:
-    """Return a function that makes a mishap from the size of its fault, for a fault that has no size."""
+    """Return a function that ignores the size of a fault and returns this mishap, for a fault that has no size."""
     return lambda _: mishap

@@ -99,8 +99,8 @@ LATE_LIGHT: Final = ExpectedDetection(
 
 
 def names(expected: ExpectedDetection) -> set[int | str]:
-    """Return the calls and errors that name a fault. An error is left out if it counts as one name with a call
-    that is returned (see `ONCE`).
+    """Return the calls and errors that name a fault. An error is left out if one of the returned calls has the same
+    meaning (see `ONCE`).
     """
     told = {number for number in expected.errors if not {*ONCE.get(number, ())} & {*expected.calls}}
     return {*expected.calls, *told}
@@ -157,8 +157,8 @@ def screw_of(hole: int) -> int:
 
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
-    """Return `expected` if the program uses the screw or hole with this number. The program does not use number
-    7 of the later make of the pump: for that number, the expectation is unknown, and the referee reports the
-    faults.
+    """Return `expected` if the program uses the screw or hole with this number. The later make of the pump has a
+    seventh screw and hole, which the program does not use: for number 7, the expectation is unknown, and only the
+    referee reports the faults.
     """
     return expected if number <= len(SCREWED) else UNKNOWN
