@@ -66,8 +66,8 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         """Make a machine of joints in the scene, and add it to the bench.
 
         Args:
-            specs: the axes of the machine; an axis has the name of its joint and servo. A servo without a joint of its
-                name drives a tendon.
+            specs: the axes of the machine. The name of an axis is also the name of its joint and its servo. A servo
+                without a joint of its name drives a tendon.
             period: time between two goals, in s.
             channels: the sensor channels, each with the function that reads it.
             at_once: axes whose servos get a goal at once, not gradually during the period.

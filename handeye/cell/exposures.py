@@ -34,7 +34,7 @@ def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
 
 
 def _told(model: mujoco.MjModel) -> dict[int, tuple[float, float]]:
-    """Return the metalness and roughness of materials, by the number of the material."""
+    """Return the metalness and roughness of each material. The keys are the numbers of the materials."""
     figures = {
         model.numeric(number).name: tuple(model.numeric(number).data.tolist())
         for number in range(model.nnumeric)

@@ -158,7 +158,7 @@ class Result(Record, frozen=True, kw_only=True):
     warnings: tuple[str, ...] = ()
     """Reasons to doubt the result, one sentence each."""
     limits: dict[str, float] | UnsetType = UNSET
-    """Limits given in place of the referee's own, by the name of the finding."""
+    """Limits given in place of the referee's own. The keys are the names of the findings."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts replaced by the caller's Python code, with the name of that code."""
     without: tuple[str, ...] | UnsetType = UNSET
@@ -170,7 +170,7 @@ class Result(Record, frozen=True, kw_only=True):
     figures: dict[str, float] | UnsetType = UNSET
     """Figures that the system of the run adds, by name."""
     built: dict[str, Check] | UnsetType = UNSET
-    """Findings on the work of a job before the job undid it; `referee` has the findings after that."""
+    """Findings on the finished work of a job, before the job undid the work; `referee` has those after the undoing."""
 
     @property
     def judged(self) -> bool | None:

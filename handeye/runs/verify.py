@@ -35,8 +35,8 @@ def setup_of(trace: Trace) -> Setup:
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
-    """Return the number of a run's events that do not depend on the moment at which the panic button was
-    pressed."""
+    """Return how many of a run's events, from the first one on, do not depend on the moment at which the panic button
+    was pressed."""
     if not events or not isinstance(events[-1], PanicStopped):
         return len(events)
     steps = [n for n, event in enumerate(events) if isinstance(event, StepStarted)]

@@ -55,9 +55,9 @@ class ExportedScene(Record, frozen=True, kw_only=True):
     spec: mujoco.MjSpec
     about: str  # Markdown: the names in the scene, and how the scene differs from the cell
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """Names of the bodies that can be exported separately, by the name of the whole that they form."""
+    """Names of the bodies that can be exported separately. The key is the name of the whole that the bodies form."""
     densities: Mapping[str, float] = field(default_factory=dict)
-    """Densities (kg/m3) of the solids that consist of one metal, by the names of the solids."""
+    """Density (kg/m3) of each solid that consists of one metal. The keys are the names of the solids."""
 
 
 class Disturbance(Record, frozen=True, kw_only=True):
@@ -104,7 +104,7 @@ class AnyTask(ABC):
     @property
     @abstractmethod
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """The kind of each joint of the arm, `revolute` or `prismatic`, by the name of the joint."""
+        """The kind of each joint of the arm: `revolute` or `prismatic`. The keys are the names of the joints."""
 
     @abstractmethod
     def variation(self) -> Variation:
@@ -194,7 +194,7 @@ class Task(AnyTask):
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
-        """The kind of each joint of the arm, `revolute` or `prismatic`, by the name of the joint."""
+        """The kind of each joint of the arm: `revolute` or `prismatic`. The keys are the names of the joints."""
         return {joint.name: joint.kind for joint in self.arm.joints}
 
     @property

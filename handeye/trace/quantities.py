@@ -135,7 +135,7 @@ def _marks(data: bytes) -> dict[str, Any]:
 
 
 def _event(event: dict[str, Any]) -> dict[str, Any]:
-    """Return the contents of an event as dictionaries and lists, by the names of quantities."""
+    """Return the contents of an event as dictionaries and lists. The keys are the names of quantities."""
     if event["event"] == FrictionMeasured.__name__:
         joints = {each["joint"]["name"]: {"friction": each["friction"]} for each in event["joints"]}
         links = {f"{number}": {"weight": weight} for number, weight in enumerate(event.get("links", ()), 1)}

@@ -30,7 +30,7 @@ class TakenPicture(Brief):
 
 
 def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
-    """Yield the pictures in messages, in order. The event that follows a picture gives its name."""
+    """Yield the pictures in messages, in the order of the messages. The event that follows a picture gives its name."""
     picture: Picture | None = None
     reader = EventReader()
     for message in messages:
@@ -98,7 +98,7 @@ class ChannelCurve(Brief):
 
 
 def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
-    """Return all components of the channels in messages, in order. Raises DecodeError if a message is invalid."""
+    """Return all components of the channels in messages. Raises DecodeError if a message is invalid."""
     found: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for message in messages:
         for channel in decoded_channels(message.data):

@@ -38,7 +38,7 @@ _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
 
 
 def kept_periods(trace: Trace) -> Rows:
-    """Return the numbers of the servo periods to keep, in order. The run must have at least one period.
+    """Return the numbers of the servo periods to keep, in ascending order. The run must have at least one period.
 
     The first and last period of each guarded motion, and the period with the guard's greatest value, are always
     kept.

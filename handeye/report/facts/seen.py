@@ -30,7 +30,7 @@ class SeenPicture:
 
 
 def seen_pictures(run: RecordedRun) -> tuple[SeenPicture, ...]:
-    """Return the pictures in order. Raises InvalidInput if a message about a picture is invalid."""
+    """Return the pictures, the earliest first. Raises InvalidInput if a message about a picture is invalid."""
     return tuple(_seen(run))
 
 

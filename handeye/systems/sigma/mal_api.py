@@ -134,7 +134,7 @@ class Mal:
 
     @property
     def believed(self) -> dict[str, float]:
-        """The position (mm) that each axis has according to the program, which can be wrong."""
+        """The position (mm) at which the program believes each axis to be. The belief can be wrong."""
         return {axis: round(count * STEP_MM, 4) for axis, count in self._vm.memory.counts.items()}
 
     @property

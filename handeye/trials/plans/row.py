@@ -33,8 +33,8 @@ class SearchEnd(Record, frozen=True, kw_only=True):
 def contacts(
     program: Program, events: Sequence[AnyEvent], where: Mapping[str, tuple[str, ...]], *, completed: bool
 ) -> Iterator[Contact]:
-    """Yield the contact operations of a trial, in order. `where` gives the positions at which each operation
-    takes place, by the name of the operation."""
+    """Yield the contact operations of a trial, the earliest first. `where` gives, for the name of each operation, the
+    positions at which it takes place."""
     names = {position: name for name, positions in where.items() for position in positions}
     here = ""
     for goal in _goals(program, events):
@@ -46,7 +46,7 @@ def contacts(
 
 
 def searches(program: Program, events: Sequence[AnyEvent]) -> Iterator[SearchEnd]:
-    """Yield, in order, the searches in which the hand moved."""
+    """Yield the searches in which the hand moved, the earliest first."""
     under_way: SearchEnd | None = None
     for event in events:
         if isinstance(event, StepStarted):

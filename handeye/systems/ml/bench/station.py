@@ -57,8 +57,10 @@ class Station:
         """Put the arm in a scene. Its pump is off.
 
         Args:
-            at: positions at which motors begin, by the numbers of the motors (ML units). All others begin at 0.
-            tools: functions that switch the tools of the station, by the names of the tools. Other tools do nothing.
+            at: a dictionary from the numbers of motors to the positions at which they begin (ML units). All other
+                motors begin at 0.
+            tools: a dictionary from the names of tools of the station to the functions that switch them. Other tools do
+                nothing.
             others: mechanisms of a job that do not act as time passes.
             left: True if the scene also has the left arm.
         """

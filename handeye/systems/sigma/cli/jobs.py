@@ -48,7 +48,7 @@ def chess(
 ) -> int:
     """Find chess pieces along three lines, measure their heights with a light beam, and sort them: the paper's example.
 
-    `plans/chess.mal` runs on two simulated gantries in a world drawn from a seed. A referee then checks that each
+    `plans/chess.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each
     piece stands on the line for its height, within 5 mm and 3 degrees, and that each measured height is right
     within .6 mm.
 
@@ -69,7 +69,7 @@ def handover(
 ) -> int:
     """Hand four pieces from arm to arm: arm 1 brings them, arm 2 presses their pins in and takes them away.
 
-    `plans/handover_pieces.mal` runs on two simulated gantries in a world drawn from a seed. A referee then checks
+    `plans/handover_pieces.mal` runs on two simulated gantries, in a world with errors. A referee then checks
     that each piece stands at its last place, within 3 mm and 3 degrees, with its pin pressed in to within .5 mm;
     that the program counted the finished pieces correctly; and that the arms never touched each other.
 
@@ -90,7 +90,7 @@ def insert(
 ) -> int:
     """Straighten pegs in a rack with both arms, and find the holes for the pegs by force.
 
-    `plans/insert.mal` runs on two simulated gantries in a world drawn from a seed. Each peg is rotated by up to 20
+    `plans/insert.mal` runs on two simulated gantries, in a world with errors. Each peg is rotated by up to 20
     degrees, and plates lie up to 3 mm beside their places. A referee then checks that each peg stands in its hole, no
     plate moved by more than 1 mm, no wrist felt more than 25 N, no motor lost a step, the program counted the inserted
     pegs correctly, and the arms never touched each other.
@@ -114,9 +114,9 @@ def line(
     """Run an assembly line: a feeder brings pieces, each of two SUPERSIGMAs presses a pin into every piece, and a
     belt withdraws them.
 
-    `plans/line.mal` runs on four simulated arms, a feeder and a belt in a world drawn from a seed: 26 microcomputers on
-    one bus of three segments. A referee then checks that each piece stands at its place on the belt, within 3 mm
-    and 3 degrees, with both pins pressed in to within .5 mm; that the program counted the finished pieces
+    `plans/line.mal` runs on four simulated arms, a feeder and a belt, in a world with errors. The machine has 26
+    microcomputers on one bus of three segments. A referee then checks that each piece stands at its place on the belt,
+    within 3 mm and 3 degrees, with both pins pressed in to within .5 mm; that the program counted the finished pieces
     correctly; and that no arms touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because arms collided;
@@ -136,7 +136,7 @@ def prco(
 ) -> int:
     """Assemble the plate of the pump with two arms: arm 1 lays it down and puts in two pins, arm 2 drives six screws.
 
-    `plans/prco.mal` runs on two simulated gantries in a world drawn from a seed. A referee then checks that the
+    `plans/prco.mal` runs on two simulated gantries, in a world with errors. A referee then checks that the
     plate lies on its base, with both pins at the bottom of their holes; that each screw is in its thread, with its
     head at its seat and a clamping force of at least 40 N; that the program counted the pins and screws in place
     correctly; and that the arms never touched each other.

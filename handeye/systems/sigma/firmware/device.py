@@ -34,8 +34,8 @@ class Crystal:
         return picoseconds * _TICKS // (PS + self.ppm)
 
     def after(self, since: int, micros: int, at: int) -> int:
-        """Return the first time, not before `at`, that is `since` plus a multiple of an interval of `micros`
-        microseconds."""
+        """Return the first time from `at` on that is a whole number of intervals of `micros` microseconds after
+        `since`."""
         step = self.micros(micros)
         return since + max(0, -(-(at - since) // step)) * step
 

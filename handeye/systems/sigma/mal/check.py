@@ -75,7 +75,7 @@ def within(statement: Statement) -> Iterator[Statement]:
 
 
 def expressions(statement: Statement) -> Iterator[Expression]:
-    """Yield the expressions that a statement evaluates, without those of its branches."""
+    """Yield the expressions that a statement evaluates itself, without those after its THEN and ELSE."""
     yield from statement.values
     yield from (goal.distance for goal in statement.goals)
     if statement.slow is not None:
@@ -101,7 +101,7 @@ def parts(expression: Expression) -> Iterator[Expression]:
 
 
 def reads(statement: Statement) -> Iterator[Token]:
-    """Yield the variables that a statement reads, without those of its branches."""
+    """Yield the variables that a statement reads itself, without those after its THEN and ELSE."""
     for expression in expressions(statement):
         for part in parts(expression):
             if isinstance(part, Variable):
