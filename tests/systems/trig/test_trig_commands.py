@@ -91,7 +91,7 @@ def test_a_minus_goes_the_other_way_of_a_relative_position() -> None:
     typist.type("MA CENTER\nX 0 RECORD")
     assert (
         refused(typist, "M -CENTER")
-        == "CENTER is an absolute position; only a relative position has an opposite"
+        == "there is no -CENTER: CENTER is an absolute position, and only a relative position has an opposite"
     )
     assert "NEW is not defined" in refused(typist, "M -NEW")
 
@@ -99,7 +99,7 @@ def test_a_minus_goes_the_other_way_of_a_relative_position() -> None:
 @pytest.mark.trig_row(9)
 def test_a_kind_that_does_not_fit_and_a_position_that_is_not_are_refused() -> None:
     typist = Typist("MR X\nX BY 5 RECORD\n")
-    assert refused(typist, "MA X") == "X is relative; M goes there"
+    assert refused(typist, "MA X") == "X is already defined, as relative; to go there, use M"
     assert refused(typist, "CP NOPE") == "there is no position `NOPE`; known: `X`"
 
 

@@ -240,7 +240,7 @@ class Lost:
 
 
 def moves(at: Technician, *axes: str) -> Lost:
-    """Move axes out at full speed, all at the same time, and back slowly. The switches then show which steps
+    """Move axes out at full speed, all at the same time, and back slowly. The switches then show how many steps
     were lost on the way."""
     bus = at.bus
     for axis in axes:

@@ -82,8 +82,8 @@ class Pallet(_BlocksTask):
         return {**judge_back(seen.poses, stood.poses), "hand": back}
 
     def places(self, seen: InitialScene) -> list[Place]:
-        """Return, one after the other, the places at which the arm releases the blocks. They are computed from the taught
-        positions."""
+        """Return the places at which the arm releases the blocks, one after the other. They are computed from the
+        taught positions."""
         above, places = seen.place("PALLET"), []
         for _ in range(COLUMNS):
             for _ in range(ROWS):

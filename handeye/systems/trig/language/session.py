@@ -52,7 +52,9 @@ class Session:
             known = suggestion(name or "", filter(is_named, self.program.positions))
             raise NoSuchName(f"there is no position {quoted(name or '')}; {known or 'M teaches a position'}")
         if negate and not found.relative:
-            raise Refused(f"{name} is an absolute position; only a relative position has an opposite")
+            raise Refused(
+                f"there is no -{name}: {name} is an absolute position, and only a relative position has an opposite"
+            )
         return found
 
     def step(self, name: str) -> Node:

@@ -37,7 +37,7 @@ def _to_known(session: Session, given: Arguments, kind: str | None, node: Node, 
     position = session.position(given.position, negate=given.negate)
     defined = "relative" if position.relative else "absolute"
     if kind not in (None, defined):
-        raise Refused(f"{given.position} is {defined}; M goes there")
+        raise Refused(f"{given.position} is already defined, as {defined}; to go there, use M")
     node.position = given.position
     session.confirmed("Move to the predefined location? ")
     if node.type == "guarded":
