@@ -82,7 +82,9 @@ def tables(
             text.one_table(done, segment, cycle, line), text.table(done, segment, cycle, line), json=json
         )
     if at is not None:
-        raise BadArgument("--at does not apply to the changes of a word in a whole run; omit the word, or omit --at")
+        raise BadArgument(
+            "--at does not apply to the changes of a word in a whole run; omit the word, or omit --at"
+        )
     return answer(text.one_word(done, segment, line, word), text.course(done, segment, line, word), json=json)
 
 

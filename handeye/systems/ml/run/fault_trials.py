@@ -46,7 +46,9 @@ def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[FaultRow], MlFaultW
     referee judges the task.
     """
     if task not in PROGRAMS:
-        raise Refused(f"faults cannot be tried in the task {quoted(task)}: it has no referee to judge the outcome")
+        raise Refused(
+            f"faults cannot be tried in the task {quoted(task)}: it has no referee to judge the outcome"
+        )
     if not any_task(task).faults(world).kinds:
         raise Refused(f"no faults are declared for the task {quoted(task)}")
     return FAULTS, MlFaultWork(plan=job_plan(task, FEW.get(task, "")), world=world)

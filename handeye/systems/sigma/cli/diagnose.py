@@ -85,7 +85,11 @@ def diagnose(
         say("")
         if there is not None:
             say(f"Planted: {there.told}.")
-        say(f"Found: {verdict.part}: {verdict.why}." if verdict.part else f"No faulty part was found: {verdict.why}.")
+        say(
+            f"Found: {verdict.part}: {verdict.why}."
+            if verdict.part
+            else f"No faulty part was found: {verdict.why}."
+        )
     return 0 if right else 1
 
 

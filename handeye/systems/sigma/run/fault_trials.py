@@ -75,7 +75,9 @@ def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[MalFaultRow], MalFa
     """
     plan = SIGMA.own_plan(task)
     if not plan.pieces:
-        raise Refused(f"faults cannot be tried in the task {quoted(task)}: it has no referee to judge the outcome")
+        raise Refused(
+            f"faults cannot be tried in the task {quoted(task)}: it has no referee to judge the outcome"
+        )
     return MAL_FAULTS, MalFaultWork(plan=plan, world=world)
 
 
