@@ -160,7 +160,7 @@ def look(session: DebugSession, rest: str) -> CommandResult:
 
 def picture(session: DebugSession, rest: str) -> CommandResult:
     if not rest:
-        raise BadArgument("picture takes the name of a file to write")
+        raise BadArgument("give picture the name of a file to write, such as `picture base.png`")
     path = _file(rest)
     check_new(path)
     name = write_picture(session.runner, path)

@@ -251,7 +251,7 @@ def _apart(result: Result) -> Text:
     if not result.apart:
         return Text(f"The arm has undone its work, but not everything is back in place: {wrong}", "bold red")
     if result.assembled is False:
-        return Text(f"{words.apart} Before that {words.product} was not right: {wrong}", "bold red")
+        return Text(f"{words.apart} Before that, {words.product} was not right: {wrong}", "bold red")
     return Text(words.apart, "bold green")
 
 

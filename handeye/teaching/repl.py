@@ -134,7 +134,7 @@ def _clear(repl: Repl, _: str) -> Answer:
 
 def _write(repl: Repl, rest: str) -> Answer:
     if not rest:
-        raise BadArgument("`WRITE` takes the name of a file")
+        raise BadArgument("give `WRITE` the name of a new file, such as `WRITE lid.al`")
     path = beside(Path(rest), ".al")
     check_new(path)
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())

@@ -587,7 +587,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("delete", "delete takes the number of a breakpoint; breakpoints: none"),
         ("delete foo", "delete takes the number of a breakpoint, not `foo`; breakpoints: none"),
         ("delete 4", "there is no breakpoint 4; breakpoints: none"),
-        ("picture", "picture takes the name of a file to write"),
+        ("picture", "give picture the name of a file to write, such as `picture base.png`"),
         ("picture x.png", "the program has taken no picture yet"),
         ("list 23", "list takes a line from 1 to 22, not `23`"),
         ("list x", "list takes a line from 1 to 22, not `x`"),

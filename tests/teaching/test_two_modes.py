@@ -184,7 +184,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
         ("DO PRK", "there is no instruction, macro or program `PRK`; did you mean `PARK`?"),
         ("LIST all", "`LIST` takes no operand; remove `all`"),
         ("PROCEED", "`proceed` answers a call to the operator, but no call is waiting for an answer"),
-        ("WRITE", "`WRITE` takes the name of a file"),
+        ("WRITE", "give `WRITE` the name of a new file, such as `WRITE lid.al`"),
         ("WRITE .", ". is a directory, not a file"),
         ("DO LOOK VIEW", "the camera is not calibrated; to take pictures, start the command with --look"),
         ("HELP OPNE", "there is no instruction `OPNE`; did you mean `OPEN`?"),

@@ -103,7 +103,7 @@ def translate(mos: "Interpreter", x: int, y: int = 0, z: int = 0) -> None:
 def _goals(mos: "Interpreter") -> dict[int, int]:
     _host(mos)
     if mos.memory.side != "right":
-        raise MlError("M16", "the host knows only the gripper of the right arm")
+        raise MlError("M16", "commands along the axes of the gripper work only for the right arm")
     return {motor: mos.level.goal(motor) for motor in MOTORS}
 
 

@@ -29,8 +29,8 @@ _FIXED: Final[dict[str, dict[str, float]]] = {
 _MEANINGS: Final = {
     "wand.open": "The switch of the wand is stuck open: the wand never signals a touch.",
     "wand.closed": "The switch of the wand is stuck closed: the wand always signals a touch.",
-    "gauge.left.z.dead": "The gauge of the left finger that feels vertical forces reads 0.",
-    "gauge.left.y.dead": "The gauge of the left finger that feels forces across the hand reads 0.",
+    "gauge.left.z.dead": "In the left finger, the gauge for vertical forces reads 0.",
+    "gauge.left.y.dead": "In the left finger, the gauge for forces across the hand reads 0.",
     "gauges.dead": "The amplifier of the strain gauges has failed: all six read 0.",
     "range.silent": "The range finder hears no echo, and reads its greatest range.",
     "range.frozen": "The range finder repeats its first reading.",

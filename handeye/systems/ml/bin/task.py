@@ -163,7 +163,7 @@ class Bin(ArmTask):
             "lost": at_most(int(out.sum()), 0, "parts", "parts that lie elsewhere"),
             "told": at_most(
                 max(abs(one - other) for one, other in zip(counted, here, strict=True)), 0, "parts",
-                "for either box, greatest difference between the printed number of parts and the true number",
+                "greatest difference, in either box, between the printed and the true number of parts",
             ),
         }  # fmt: skip
 

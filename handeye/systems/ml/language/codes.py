@@ -107,9 +107,9 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
         cure="write `NAME EQU number`, or `NAME VAR`",
     ),
     "bad-name": Mistake(
-        meaning="a name is the name of a command or a table, or contains characters other than letters, digits and `_`",
-        example="STOP EQU 5",
-        cure="choose a name of letters, digits and `_` that begins with a letter and is not a command or a table",
+        meaning="a name is already that of a command or a table, or contains characters other than letters, digits "
+        "and `_`",
+        example="STOP EQU 5", cure="choose another name, which begins with a letter",
     ),
     "name-twice": Mistake(
         meaning="a name is defined twice", example="A EQU 5\nA VAR", cure="give each value a different name",

@@ -117,7 +117,7 @@ class Console:
 
     def _load(self, name: str) -> None:
         if not name:
-            raise BadArgument("LOAD takes the name of a file")
+            raise BadArgument("give LOAD the name of a file, such as `LOAD pieces.mal`")
         source = read_source(Path(name))
         lines, wrong = parsed(source)
         if wrong:
@@ -131,7 +131,7 @@ class Console:
 
     def _save(self, name: str) -> None:
         if not name:
-            raise BadArgument("SAVE takes the name of a file")
+            raise BadArgument("give SAVE the name of a new file, such as `SAVE pieces.mal`")
         if not self._lines:
             raise Refused("there is no program")
         path = Path(name if name.lower().endswith(ENDING) else f"{name}{ENDING}")

@@ -47,7 +47,7 @@ MEANS: Final = {
         "beam ARM",
         "read the light beam of a hand with nothing in it, then with a rod, then with a grey filter",
     ),
-    "grip": Means("grip ARM", "close a hand on a block that is not in the middle of its fingers"),
+    "grip": Means("grip ARM", "close a hand on a block that is not midway between the fingers"),
     "origin": Means("origin AXIS", "move to the low end of a rail with ORIGIN"),
     "rail": Means("rail AXIS", "move to the high end of a rail"),
     "moves": Means("moves AXIS", "move out at full speed, and look for lost steps at the low switch"),

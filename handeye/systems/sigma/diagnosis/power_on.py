@@ -155,7 +155,7 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     elif one.well not in (None, b"\0"):
         fault = "its self-test fails"
     else:
-        fault = "its clock is wrong: it reads the byte next to the right one"
+        fault = "its clock is wrong: instead of the right byte, it reads the one before or after it"
     return SelfTest(part="microcomputer", number=number, fault=fault)
 
 

@@ -241,7 +241,7 @@ class Operations(BusOperations):
 
     def _do_resume(self, _: str, task: TaskMemory, __: Instruction) -> None:
         if task.resume is None:
-            raise Trap("no motion of this task was aborted")
+            raise Trap("RESUME has nothing to continue: no motion of this task was aborted")
         task.pc, task.amid, task.resume = task.resume, False, None
 
     def _wait(self, name: str, task: TaskMemory, waiting: Waiting) -> None:

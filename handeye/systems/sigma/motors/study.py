@@ -89,7 +89,7 @@ def study(
         pulses = stopped(train, shape, round(stop_after * CLOCK_HZ), cut=cut)
         interrupted = "cut" if cut else "stop"
         if not len(pulses):
-            raise BadArgument(f"no pulse is sent within {1000 * stop_after:g} ms")
+            raise BadArgument(f"a stop after {1000 * stop_after:g} ms is too early: no pulse is sent within that time")
     drive = Drive(mass=mass, load=load)
     sine, balance = by_sine(pulses, drive), by_balance(pulses, drive)
     return AxisStudy(
