@@ -108,7 +108,7 @@ def _difference(
     first, second = (
         f"{found.topic} at {_when(of, found.time / 1e9)}" for of, found in ((a, here), (b, there))
     )
-    return f"the next message is {first} in one, and {second} in the other, {after}"
+    return f"the next message is {first} in one trace, and {second} in the other, {after}"
 
 
 def _quantity(a: Trace, here: RawMessage, there: RawMessage, rounded: bool) -> str:
@@ -129,9 +129,9 @@ def _events(a: Trace, b: Trace, number: int) -> str:
     when = _when(a, one.time)
     kinds = type(one).__name__, type(other).__name__
     if kinds[0] != kinds[1]:
-        return f"{kinds[0]} at {when} in one, {kinds[1]} at {_when(b, other.time)} in the other"
+        return f"{kinds[0]} at {when} in one trace, {kinds[1]} at {_when(b, other.time)} in the other"
     values = ((name, getattr(one, name), getattr(other, name)) for name in one.__struct_fields__)
     name, first, second = next((found for found in values if found[1] != found[2]), ("", None, None))
     if not name:
         return f"{kinds[0]} at {when} has a different text"
-    return f"{name} of {kinds[0]} at {when} is {first} in one, {second} in the other"
+    return f"{name} of {kinds[0]} at {when} is {first} in one trace, {second} in the other"

@@ -80,7 +80,7 @@ def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, Pair
     pairs = [(first[key], this) for key, this in other.items() if key in first]
     if not pairs:
         raise Refused(
-            f"{name} has no seed in common with the first batch, but a comparison needs pairs of trials"
+            f"{name} has no seed in common with the first batch; only trials with the same seed can be compared"
         )
     right = [(one.standing == "right", this.standing == "right") for one, this in pairs]
     only_first, only_this = right.count((True, False)), right.count((False, True))

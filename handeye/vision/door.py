@@ -59,7 +59,8 @@ def beams(
     lengths = numbers(reach, "the reach of a beam must be a number of pixels")
     if lengths.shape not in ((), (len(ways),)) or (lengths < 0).any():
         raise BadArgument(
-            f"the reach of a beam must be a number of pixels, for all or for each of {counted(len(ways), 'beam')}"
+            f"the reach must be one number of pixels for all beams, or a list of one number for each of "
+            f"{counted(len(ways), 'beam')}"
         )
     return beam.beams(
         scan, from_where, ways, polarity, float(step), lengths, wide=bool(wide), beyond=float(beyond)

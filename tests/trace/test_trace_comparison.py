@@ -59,7 +59,7 @@ def test_how_a_trace_is_packed_makes_no_difference(
 
 def test_an_event_that_differs_is_named_with_what_is_different(tmp_path: Path, whole: Trace) -> None:
     other = _changed(tmp_path / "b.mcap", event=3, value=9.5)
-    said = "event 4 differs: value of GuardTripped at 0.100 s is 9.0 in one, 9.5 in the other"
+    said = "event 4 differs: value of GuardTripped at 0.100 s is 9.0 in one trace, 9.5 in the other"
     assert first_difference(whole, other) == said
 
 

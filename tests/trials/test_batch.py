@@ -427,7 +427,7 @@ def test_batches_are_compared_over_the_seeds_that_both_have() -> None:
         3, 1, 0, 1, 0, 3,
     )  # fmt: skip
     with pytest.raises(
-        InvalidInput, match=r"^other has no seed in common with the first batch, but a comparison "
+        InvalidInput, match=r"^other has no seed in common with the first batch; only trials "
     ):
         paired(["first", "other"], [(head, first[:1]), (head, first[1:])])
 

@@ -74,7 +74,7 @@ def tables(
     cycle = _cycle(at, done)
     if table is None:
         if line is not None or arm is not None:
-            raise BadArgument("to name a line or an arm, name a table first")
+            raise BadArgument("a line or an arm was given without a table; name the table, too")
         return answer(text.all_tables(done, cycle), text.overview(done, cycle), json=json)
     segment = done.find(_known(table), arm or "")
     if word is None or line is None:
