@@ -168,7 +168,7 @@ class Result(Record, frozen=True, kw_only=True):
     referee has not judged the run, or if only a part of the work was undone.
     """
     figures: dict[str, float] | UnsetType = UNSET
-    """Figures that the system of the run adds, by name."""
+    """Figures that the system of the run adds. The keys are their names."""
     built: dict[str, Check] | UnsetType = UNSET
     """Findings on the finished work of a job, before the job undid the work; `referee` has those after the undoing."""
 

@@ -201,8 +201,8 @@ def _carry_out(
 
 
 def beginnings(runner: Runner) -> dict[int, int]:
-    """Return the number of steps that were done when each stage last began, by the index of the stage. The
-    stage that began last comes last."""
+    """Return, for the index of each stage, the number of steps that were done when the stage last began. The stage
+    that began last comes last."""
     found: dict[int, int] = {}
     done = 0
     for event in runner.events:

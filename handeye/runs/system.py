@@ -233,7 +233,7 @@ class RunningSystem(Protocol):
 
     @property
     def shots(self) -> Mapping[str, Shot]:
-        """The pictures that the program took and still stores, by name."""
+        """The pictures that the program took and still stores. The keys are their names."""
         return {}
 
     def marks(self, picture: str) -> Sequence[Mark]:

@@ -199,14 +199,14 @@ class Task(AnyTask):
 
     @property
     def trials(self) -> Mapping[str, Trial[Any]]:
-        """Trials, by name, that repeat one part of the task in many worlds without running a program; none by
-        default.
+        """Trials that repeat one part of the task in many worlds without running a program; none by default. The keys
+        are their names.
         """
         return {}
 
     def fixtures(self) -> Mapping[str, Fixture]:
-        """Return the obstacles that the planner avoids, by name. A fixture of the same name in the program's
-        taught file replaces the obstacle."""
+        """Return the obstacles that the planner avoids. The keys are their names. A fixture of the same name in the
+        program's taught file replaces the obstacle."""
         return {}
 
     @abstractmethod
@@ -225,7 +225,8 @@ class Task(AnyTask):
         return ()
 
     def bystanders(self, truth: Truth) -> Mapping[str, Array]:
-        """Return, by name, the positions (in metres, shape (3,)) of the parts that the hand does not hold."""
+        """Return the positions (in metres, shape (3,)) of the parts that the hand does not hold. The keys are the names
+        of the parts."""
         return {}
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:

@@ -77,7 +77,7 @@ def _motion(run: RecordedRun, forces: Forces, step: DoneStep, watched: Array, st
 
 
 def _stages(run: RecordedRun) -> dict[tuple[float, int], str]:
-    """Return the stage of each step that began, by the step's time and number."""
+    """Return the stage of each step that began. The keys are the time and the number of the step."""
     found: dict[tuple[float, int], str] = {}
     stage = ""
     for event in run.trace.events:

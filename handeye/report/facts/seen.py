@@ -56,8 +56,8 @@ def _seen(run: RecordedRun) -> Iterator[SeenPicture]:
 
 
 def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
-    """Return the last marks on each picture, by the time at which the picture was taken (ns). Each set of marks
-    includes the earlier ones.
+    """Return the last marks on each picture. The keys are the times at which the pictures were taken (ns). Each set of
+    marks includes the earlier ones.
     """
     try:
         return dict(
@@ -68,7 +68,7 @@ def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
 
 
 def _findings(run: RecordedRun) -> dict[float, list[Finding]]:
-    """Return what vision found in each picture, by the time at which the picture was taken (s)."""
+    """Return what vision found in each picture. The keys are the times at which the pictures were taken (s)."""
     found: dict[float, list[Finding]] = {}
     taken: dict[str, float] = {}
     for step in done_steps(run.trace.events):

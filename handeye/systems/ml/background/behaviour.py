@@ -1,4 +1,4 @@
-"""The functions that execute the commands of ML, by the code of the command."""
+"""For the code of each command of ML, the function that executes the command."""
 
 from collections.abc import Callable
 from typing import Final

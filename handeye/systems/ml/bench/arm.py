@@ -143,7 +143,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._signalled = tuple(sorted({*self._signalled} - {interlock} | ({interlock} if on else set())))
 
     def _felt(self, time: float) -> dict[str, float]:
-        """Return what each sensor and interlock reads, by the parts of its channel."""
+        """Return what each sensor and interlock reads. The keys are the names of the sensors and interlocks."""
         data = self._bench.data
         cycle = round(time / CYCLE)
         noise = self._noise[cycle % _NOISES]

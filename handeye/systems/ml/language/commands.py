@@ -228,7 +228,7 @@ MOTIONS: Final = frozenset(
 
 
 TABLE_NAMES: Final = {word_of(name): name for name in SHAPES}
-"""The names of the tables, by the words that stand for them. A word has 8 bits for each of the two letters."""
+"""For each word that stands for a table, the name of the table. A word has 8 bits for each of the two letters."""
 
 
 def explained(word: str) -> str | None:

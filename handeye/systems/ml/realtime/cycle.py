@@ -54,7 +54,7 @@ _PROGRAM_CHECK: Final = "program_check"
 
 
 class Cycles:
-    """Executes the cycles of an arm, above the machine's axes and outputs."""
+    """Executes the cycles of an arm, using the axes and outputs of the machine."""
 
     def __init__(
         self,

@@ -93,11 +93,11 @@ def goals(statement: Statement, places: Axes) -> dict[str, Known]:
 
 
 Tests = Mapping[int, ForceTest]
-"""The force test that directly follows a motion, by the line of the motion."""
+"""For the line of each motion, the force test that directly follows it."""
 
 
 def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:
-    """Return what holds before each line that can be reached, by its number."""
+    """Return, for the number of each line that can be reached, what holds before it."""
     by_number = {line.number: line for line in lines}
     after = dict(pairwise(by_number))
     holds: dict[int, Before] = {lines[0].number: Before()} if lines else {}

@@ -181,7 +181,7 @@ def _arms_of(statement: Statement) -> set[int]:
 
 
 def _force_tests(lines: Sequence[Line]) -> tuple[dict[int, ForceTest], list[Diagnostic]]:
-    """Return the force test that directly follows each motion, by the line of the motion, and the refused IFs."""
+    """Return, for the line of each motion, the force test that directly follows it. Also return the refused IFs."""
     targets = {int(each.target.text) for line in lines for each in _branches(line.statement) if each.target}
     tests, wrong = dict[int, ForceTest](), list[Diagnostic]()
     following = [*(line.number for line in lines[1:]), END]

@@ -1,4 +1,4 @@
-"""Defines the faults that can be injected into a bus, by name."""
+"""Defines the faults that can be injected into a bus, each with its name."""
 
 from collections.abc import Container
 from typing import Final

@@ -90,7 +90,7 @@ class MalProgram:
 
     @cached_property
     def beyond(self) -> CompiledLine | None:
-        """The first line that uses an axis or hand that SUPERSIGMA alone does not have, or None."""
+        """The first line that uses an axis or hand that only the assembly line has, or None."""
         for address, each in enumerate(self.code):
             names = each.operand if isinstance(each.operand, tuple) else (each.operand,)
             if any(name in _BEYOND for name in names):
