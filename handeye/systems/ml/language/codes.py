@@ -11,7 +11,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "M02": Mistake(
         meaning="a sequence number is not between 1 and 5000", example="5001 STOP",
-        cure="give statements numbers from 1 to 5000",
+        cure="give each statement a number from 1 to 5000",
     ),
     "M03": Mistake(
         meaning="a command has too few or too many parameters", example="10 MOTOR 3",

@@ -127,7 +127,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
                                   "sensor may read anything; without s, this applies to all sensors.",
          "200 SENSOR 5 -178 450"),
         ("WAND", "[s]", "Assign the wand to sensor s, by default sensor 1. From then on, the flag of this sensor comes "
-                       "on if the wand touches.", "10 WAND"),
+                       "on if the wand touches something.", "10 WAND"),
     ),
     "data": (
         ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. The statement does "

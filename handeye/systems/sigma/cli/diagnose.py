@@ -25,7 +25,8 @@ def diagnose(
         bool,
         Parameter(
             negative=(),
-            help="Let handeye play the game with the fault of `--seed`. It makes the tests in the order of the paper.",
+            help="Let handeye play the game in which `--seed` chooses the fault, with the tests in the order of the "
+            "paper.",
         ),
     ] = False,
     seed: Annotated[

@@ -46,7 +46,7 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "height of the lowest part above the table top"),
         "tray": mm(
             max((measured.from_site(f"screw{k}", f"park{k}") for k in in_threads), default=0.0), limits.TRAY,
-            "greatest distance from its tray of the hidden body of a screw in a thread",
+            "greatest distance of a hidden screw body from its place on the tray",
         ),
         "hand": _hand(measured, parts),
         "still": _speed(measured, np.flatnonzero(there), "part"),
@@ -82,7 +82,7 @@ def made(left: SettledState, truth: Truth) -> Findings:
         "held": at_most(max(forces), limits.FORCE, "N", "greatest external force on a part or the arm"),
         "motor": at_most(
             len(driven), 0, "motors",
-            "motors with a command still set" + (f": {', '.join(driven)}" if driven else ""),
+            "motors that still have a command" + (f": {', '.join(driven)}" if driven else ""),
         ),
         "numbers": at_most(_not_finite(truth), 0, "numbers", "values of the simulated state that are not finite"),
     }  # fmt: skip
