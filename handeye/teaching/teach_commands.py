@@ -116,7 +116,9 @@ def _push(teacher: Teacher, words: list[str]) -> Answer:
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
     return answer(
-        teacher.workplace, show=told, said="the arm was pushed from outside; no program can contain this motion"
+        teacher.workplace,
+        show=told,
+        said="the arm was pushed from outside; no program can contain this motion",
     )
 
 

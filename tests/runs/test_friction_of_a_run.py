@@ -78,7 +78,9 @@ def test_a_stop_that_friction_hides_is_told_once_a_line_and_no_other(felt: Runne
     (faint,) = (event for event in felt.events if isinstance(event, GuardFaint))
     assert faint.limit < faint.friction < 9 * OUNCE_FORCE
     (told,) = warnings(felt.events)
-    assert told.startswith("line 7: a stop on a force of 5.0 ounces is hard to distinguish from joint friction")
+    assert told.startswith(
+        "line 7: a stop on a force of 5.0 ounces is hard to distinguish from joint friction"
+    )
 
 
 def test_a_stop_that_only_friction_which_was_not_measured_would_hide_is_not_told() -> None:

@@ -173,9 +173,17 @@ def test_what_is_left_of_a_line_of_the_box_that_was_wrong_is_not_heard_later() -
 
 def test_a_position_that_a_step_needs_as_it_is_stays_so() -> None:
     typist = Typist("MR B\nX BY 5 RECORD\nM -B\nYes\nSAVPOS A")
-    assert refused(typist, "SAVPOS B") == "B cannot become absolute, because a step goes to -B; D deletes the step"
-    assert refused(typist, "HERE B") == "B cannot become absolute, because a step goes to -B; D deletes the step"
-    assert refused(typist, "SR A") == "A cannot become relative, because a SAVPOS step sets it; D deletes the step"
+    assert (
+        refused(typist, "SAVPOS B")
+        == "B cannot become absolute, because a step goes to -B; D deletes the step"
+    )
+    assert (
+        refused(typist, "HERE B") == "B cannot become absolute, because a step goes to -B; D deletes the step"
+    )
+    assert (
+        refused(typist, "SR A")
+        == "A cannot become relative, because a SAVPOS step sets it; D deletes the step"
+    )
 
 
 def test_the_kill_switch_records_nothing() -> None:

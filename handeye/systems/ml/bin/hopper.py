@@ -22,9 +22,9 @@ _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
-def add_hopper(spec: mujoco.MjSpec, friction: float) -> None:
-    """Add the hopper under the place where the hand is when the x and y slides are at 0. A part that slides in the
-    hopper has the friction of the hopper, not its own.
+def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN) -> None:
+    """Add the hopper at a place of the scene (m), by default under the hand when the x and y slides are at 0. A part
+    that slides in the hopper has the friction of the hopper, not its own.
     """
     hopper = spec.worldbody.add_body(name="hopper", pos=[*place, 0])
 

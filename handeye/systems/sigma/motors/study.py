@@ -89,7 +89,9 @@ def study(
         pulses = stopped(train, shape, round(stop_after * CLOCK_HZ), cut=cut)
         interrupted = "cut" if cut else "stop"
         if not len(pulses):
-            raise BadArgument(f"a stop after {1000 * stop_after:g} ms is too early: no pulse is sent within that time")
+            raise BadArgument(
+                f"a stop after {1000 * stop_after:g} ms is too early: no pulse is sent within that time"
+            )
     drive = Drive(mass=mass, load=load)
     sine, balance = by_sine(pulses, drive), by_balance(pulses, drive)
     return AxisStudy(
@@ -174,9 +176,7 @@ def verdict(found: AxisStudy) -> list[str]:
         f"{1000 * found.tightest:.0f} ms"
     ]
     if not found.starts:
-        out.append(
-            "without damping, the rotor would slip when the speed jumps to the start/stop speed"
-        )
+        out.append("without damping, the rotor would slip when the speed jumps to the start/stop speed")
     if found.kept:
         out.append(
             f"the rotor follows each pulse, at most {found.lag:.2f} steps behind or ahead; the rotor would slip at "
