@@ -79,6 +79,7 @@ CHEAP = {
     "trials line": "trials line --n ✓",
     "trials blocks": "trials blocks --n ✓",
     "trials train": "trials train --n ✓",
+    "trials typewriter": "trials typewriter --n ✓",
     "trials support": "trials support --n ✓",
     "trials orient": "trials orient --n ✓",
     "trials bin": "trials bin --n ✓",

@@ -52,7 +52,7 @@ def read_trace_as(kind: type[AnyTrace], path: Path, *, lenient: bool = False) ->
     except msgspec.DecodeError as error:
         raise BadFile(f"{path}: event {len(events) + 1} cannot be read: {error}") from None
     if not events or not isinstance(events[0], RunStarted):
-        raise BadFile(f"the trace in {path} does not begin with the start of a run")
+        raise BadFile(f"{path} does not begin with the start of a run")
     if not is_plan_of(events[0], plan):
         raise BadFile(f"the plan in {path} is not the plan of this run")
     return kind(

@@ -115,7 +115,11 @@ MISTAKES = {
     "d09": ("joint-limit", 6, "`MOVE SHELF` would take joint 5 (wrist bend) 36.8 degrees beyond its limit"),
     "d10": ("malformed-number", 6, "a comma separates two operands"),
     "d11": ("wrong-operand", 6, "the position of `VIA` must be a name, not a vector"),
-    "d12": ("carries-through-fixture", 7, "`SCREWDRIVER` in the hand would go 0.36 in into `RACK`"),
+    "d12": (
+        "carries-through-fixture",
+        7,
+        "0.6 in along this `CHANGE`, `SCREWDRIVER` in the hand would go 0.36 in",
+    ),
     "d13": ("faint-force", 9, "the arm can hardly distinguish a force of 1 oz from joint friction here"),
     "d15": (
         "torque-without-tool",

@@ -330,7 +330,7 @@ STARTS = [0.05] * 4 + [0.0] * 20
             [2 * each for each in STARTS] + [0.74] * 999,
             "the sensor shows 104.8 oz-in, but the motor takes 52.4 oz-in; the reading is 2.0 times",
         ),
-        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "the motor turns too slowly"),
+        ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "so it turns too slowly"),
         (
             [0.05] * 6 + [0.0] * 999,
             "was still speeding up after 1.5 times the usual time, so it turns too fast",

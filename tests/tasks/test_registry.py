@@ -35,7 +35,7 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
             "clock",
             "there is no task `clock`; the tasks are `bin`, `blocks`, `bucket`, `chess`, `follow`, `gantries`, "
             "`handover`, `insert`, `insertion`, `line`, `mal`, `ml`, `orient`, `palletise`, `prco`, "
-            "`rectilinear`, `support`, `train`, `water_pump`",
+            "`rectilinear`, `support`, `train`, `typewriter`, `water_pump`",
         ),
     ],
 )

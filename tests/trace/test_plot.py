@@ -86,7 +86,7 @@ def test_the_same_trace_gives_the_same_file(
 
 def test_a_plot_has_an_ending_that_is_known(command: Command, tmp_path: Path) -> None:
     record(tmp_path / "a.mcap")
-    said = "handeye: the name of a plot must end in .png, .svg, .pdf, which `p.jpg` does not\n"
+    said = "handeye: the name of a plot must end in .png, .svg, .pdf, but `p.jpg` does not\n"
     assert command("trace", "plot", "a.mcap", "-o", "p.jpg") == (2, "", said)
 
 

@@ -16,9 +16,8 @@ under the layer; assembly study.
 
 SCREW_GAP: Final = 0.2
 """Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high; assembly study."""
-SCREW_CLAMP: Final = (
-    40.0  # N per screw: more than the 19 N with which a hand pulls; seated screws end at 56 to 298 N
-)
+SCREW_CLAMP: Final = 40.0
+"""Least clamping force of a screw (N), more than the 19 N with which a hand pulls. Seated screws end at 56 to 298 N."""
 SCREW_TURNED: Final = 400.0
 """Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most
 250 N. The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world;
