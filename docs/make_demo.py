@@ -2,13 +2,13 @@
 
 python docs/make_demo.py [DIR]
 python docs/make_demo.py chess
+python docs/make_demo.py follow
 
-Without `chess`, make the run that `handeye report --demo` shows: its thinned trace, its result, and a picture of its
+Without a name, make the run that `handeye report --demo` shows: its thinned trace, its result, and a picture of its
 end. DIR holds the run, kept by `handeye assemble --seed 15 --camera gl --out DIR`. Without DIR, the command first makes
 the run. It needs OpenGL.
 
-With `chess`, make the run that `handeye demo chess` shows: its whole trace and its result, of
-`handeye sigma chess --pieces 3 --seed 4`.
+With the name of a job, make the run that `handeye demo JOB` shows: the record of one run of this job.
 """
 
 import subprocess
@@ -28,7 +28,12 @@ DEMO = ROOT / "demo"
 SEED = 15
 PICTURE = "end_pump"
 SIZE = (960, 720)
-CHESS = ("sigma", "chess", "--pieces", "3", "--seed", "4")
+RECORD = ("trace.mcap", "result.json")
+OUTLINE = ("follow.json", "tables.gz", "result.json")  # a page of an outline needs no trace
+JOBS = {
+    "chess": (("sigma", "chess", "--pieces", "3", "--seed", "4"), RECORD),
+    "follow": (("ml", "follow", "--outline", "L", "--seed", "3"), OUTLINE),
+}
 
 
 def make(run: Path) -> None:
@@ -40,20 +45,20 @@ def make(run: Path) -> None:
     cv2.imwrite(str(DEMO / f"pictures/{PICTURE}.webp"), shot, [cv2.IMWRITE_WEBP_QUALITY, 80])
 
 
-def make_chess(run: Path) -> None:
-    """Make all files of the chess board."""
-    (DEMO / "chess").mkdir(exist_ok=True)
-    for name in ("trace.mcap", "result.json"):
-        (DEMO / "chess" / name).write_bytes((run / name).read_bytes())
+def make_job(job: str, run: Path) -> None:
+    """Make all files of a job."""
+    (DEMO / job).mkdir(exist_ok=True)
+    for name in JOBS[job][1]:
+        (DEMO / job / name).write_bytes((run / name).read_bytes())
 
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
         run = Path(folder) / "run"
-        if sys.argv[1:] == ["chess"]:
-            typed = [sys.executable, "-m", "handeye", *CHESS, "--out", str(run)]
+        if sys.argv[1:] and (job := sys.argv[1]) in JOBS:
+            typed = [sys.executable, "-m", "handeye", *JOBS[job][0], "--out", str(run)]
             subprocess.run(typed, cwd=ROOT, check=True)  # noqa: S603 - fixed words
-            make_chess(run)
+            make_job(job, run)
         elif sys.argv[1:]:
             make(Path(sys.argv[1]))
         else:

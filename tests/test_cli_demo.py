@@ -29,9 +29,13 @@ def test_it_writes_the_recorded_report_and_prints_its_path(command: Command) -> 
     assert err.splitlines()[1] == "Open demo.html in a browser."
 
 
-def test_another_recorded_run_is_shown_by_its_name(command: Command) -> None:
-    assert command("demo", "chess")[:2] == (0, "demo.html\n")
-    assert Path("demo.html").read_bytes().endswith(str(resources.demo() / "chess").encode())
+@pytest.mark.parametrize("name", ["chess", "follow"])
+def test_another_recorded_run_is_shown_by_its_name(command: Command, name: str) -> None:
+    assert command("demo", name)[:2] == (0, "demo.html\n")
+    assert Path("demo.html").read_bytes().endswith(str(resources.demo() / name).encode())
+
+
+def test_a_name_that_is_unknown_is_refused_and_the_nearest_is_named(command: Command) -> None:
     code, _, err = command("demo", "ches")
     assert (code, err) == (2, "handeye: there is no recorded run `ches`; did you mean `chess`?\n")
 

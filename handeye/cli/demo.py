@@ -31,7 +31,9 @@ def demo(
     standard output is a terminal, the page opens in a browser. Nothing is simulated, and the page needs no network.
 
     `handeye demo chess` shows another recorded run: an arm of 1981 sorts chess pieces with a single light beam as
-    its sensor. Its page lists each statement of the program and each command on the bus.
+    its sensor. Its page lists each statement of the program and each command on the bus. `handeye demo follow` shows
+    the curve follower of 1975: an arm feels the outline of a plate. Its page draws the outline that was felt over the
+    true one, and has all tables of the machine in each cycle of 10 ms.
 
     Exit code 0: the page is written; 2: bad input.
     """

@@ -41,7 +41,7 @@ def demo() -> Path:
 
 def recorded() -> tuple[str, ...]:
     """Return the names of further recorded runs, which are folders in the folder `demo`."""
-    return tuple(sorted(trace.parent.name for trace in demo().glob("*/trace.mcap")))
+    return tuple(sorted(result.parent.name for result in demo().glob("*/result.json")))
 
 
 def docs() -> Path:

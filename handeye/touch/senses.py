@@ -41,12 +41,10 @@ GAP_OFFSET: Final = (
 GAP_SCALE: Final = 0.03  # as a fraction of the gap
 STARTING_TORQUE: Final = 0.05
 """Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
-STALLED_TORQUE: Final = (
-    0.37  # N m, greatest torque of the motor: that of the slipping clutch, plus that of the spindle
-)
-STARTING_PERIODS: Final = (
-    4  # servo periods that a motor takes to start at the speed of driving; measured: 4.2
-)
+STALLED_TORQUE: Final = 0.37
+"""Greatest torque of the motor (N m): that of the slipping clutch, plus that of the spindle."""
+STARTING_PERIODS: Final = 4
+"""Servo periods that a motor takes to reach the speed of driving. Measured: 4.2."""
 FAST_PERIODS: Final = 6
 """Servo periods after which a motor that runs free has certainly started. A motor that turns at 1.4 times the usual
 speed has not started by then.

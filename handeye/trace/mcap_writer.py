@@ -28,9 +28,8 @@ from handeye.trace.channels import (
 )
 
 CHUNK: Final = 1 << 20  # bytes of messages after which a chunk is closed
-_HARDEST: Final = (
-    19  # compression level of a plan: takes a few tenths of a second, and leaves a tenth of the size
-)
+_HARDEST: Final = 19
+"""Compression level of a plan. It takes a few tenths of a second, and leaves a tenth of the size."""
 
 
 @dataclass(slots=True)

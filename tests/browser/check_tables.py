@@ -16,6 +16,7 @@ from handeye.core.resources import plans
 from handeye.systems.ml.dashboard.kept import kept_history
 
 SENSES = ("--sense", "4=-700", "--sense", "8=300", "--sense", "5=500@3:2750")
+TOLD = "document.getElementById('told').textContent"
 CELLS = "document.querySelectorAll('#tables-panels td')"
 WORD = "(cell) => [cell.dataset.number, [cell.textContent.replace('\u2212', '-'), cell.classList.contains('lit')]]"
 CELL = "document.querySelector(`#tables-panels td[data-number='{}']`)"
@@ -65,24 +66,32 @@ def test_a_word_is_written_in_a_live_page_while_the_arm_moves(browser: Browser, 
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, text=True, cwd=tmp_path, env=dict(os.environ)
     ) as process:
-        assert process.stdout is not None
-        page = opened(browser, process.stdout.readline().strip())
-        page.wait("document.querySelectorAll('#tables-panels table').length === 2")
-        page.wait("live.driving()")
-        page.evaluate("live.say('pace .25x'); live.say('continue')")
-        page.wait("Number(document.getElementById('tables-cycle').value) > 5")
-        speed = CELL.format(2 * 16 + 7)  # word 8 of line 3 of MT
-        page.evaluate(f"{speed}.click(); document.getElementById('tables-word').value = 200")
-        page.evaluate("document.getElementById('tables-write').requestSubmit()")
-        page.wait(f"{speed}.textContent === '200'")
-        page.evaluate("live.say('pace free')")
-        page.wait("document.getElementById('state').textContent.includes('ended')")
-        page.evaluate("live.say('quit')")
-        process.wait(60)
-        assert page.errors == []
+        try:
+            write(browser, process)
+        finally:
+            process.kill()  # a failed check leaves it running
     done = kept_history(tmp_path / "kept")
     assert done is not None
     assert 200 in done.courses[2 * 16 + 7].values
+
+
+def write(browser: Browser, process: "subprocess.Popen[str]") -> None:
+    """Write a word into the page of a running program, let the program end, and leave."""
+    assert process.stdout is not None
+    page = opened(browser, process.stdout.readline().strip())
+    page.wait("document.querySelectorAll('#tables-panels table').length === 2")
+    page.wait("live.driving()")
+    page.evaluate("live.say('pace .25x'); live.say('continue')")
+    page.wait("Number(document.getElementById('tables-cycle').value) > 5")
+    speed = CELL.format(2 * 16 + 7)  # word 8 of line 3 of MT
+    page.evaluate(f"{speed}.click(); document.getElementById('tables-word').value = 200")
+    page.evaluate("document.getElementById('tables-write').requestSubmit()")
+    page.wait(f"{speed}.textContent === '200'")
+    page.evaluate("live.say('pace free')")
+    page.wait(f"/the program has ended/.test({TOLD})")
+    page.evaluate("live.say('quit')")
+    process.wait(60)
+    assert page.errors == []
 
 
 def opened(browser: Browser, address: str) -> Page:

@@ -12,6 +12,7 @@ from handeye.core.mutable_records import copied
 from handeye.systems.ml.bench.arm import AXES, PROBE, SIGNALS
 from handeye.systems.ml.bench.station import scene
 from handeye.systems.ml.bench.world import ArmWorld
+from handeye.systems.ml.language.lint import FINGERS_KG, STIFFNESS
 from handeye.systems.ml.realtime.happenings import GoalRounded
 
 SERVO: Final = 2 * np.pi * 50  # rad/s
@@ -239,3 +240,22 @@ def test_the_slides_have_force_to_spare_in_free_air() -> None:
     arm.cycles(20)
     limits = {axis.name: axis.force for axis in AXES}
     assert all(force < (limits[name] or 0) * 2 / 3 for name, force in most.items()), most
+
+
+def test_the_checker_computes_jolts_with_the_stiffness_and_the_mass_of_the_simulated_fingers() -> None:
+    model = Arm(wand=False).station.bench.model
+    for side in ("left", "right"):
+        assert [float(model.joint(f"{side}_{axis}").stiffness[0]) for axis in "yz"] == [STIFFNESS] * 2
+        assert float(model.body(side).mass[0]) == FINGERS_KG
+
+
+def test_along_the_line_between_the_fingers_the_stiffer_gauges_feel_a_smaller_jolt_than_the_checker_expects() -> (
+    None
+):
+    arm, felt = Arm(wand=False), 0.0
+    zero = arm.station.arm.read().channels["left_strain_x"]
+    arm.level.start({4: 1500})
+    while not arm.level.posted:
+        arm.machine.cycle()
+        felt = max(felt, abs(arm.station.arm.read().channels["left_strain_x"] - zero))
+    assert 0.5 < felt < 0.5 * _PEAK * np.sqrt(STIFFNESS * FINGERS_KG)

@@ -17,9 +17,8 @@ from handeye.tasks.water_pump.faults.declaration import declared
 from handeye.tasks.water_pump.faults.mishap import ON_BASE_M, Mishap, MishapFault, MishapState, Scene, always
 
 LAST_STAGE: Final = 12
-LATER_S: Final = (
-    150.0  # after the last stage began: its screws have then been driven again, but no picture taken
-)
+LATER_S: Final = 150.0
+"""Time after the last stage began (s). The screws have then been driven again, but no picture has been taken."""
 JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
 _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 

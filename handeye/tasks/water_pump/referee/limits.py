@@ -3,9 +3,8 @@
 from typing import Final
 
 BLOCK_GAP: Final = 1.27  # mm, .05 in: reference test 59, displacement from the standard position
-BASE_HEIGHT: Final = (
-    0.5  # mm, of its reference point: contacts are soft; a base that hangs on a block stands 6 mm high
-)
+BASE_HEIGHT: Final = 0.5
+"""Height error of the base's reference point (mm). Contacts are soft; a base that hangs on a block is 6 mm too high."""
 BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
@@ -59,9 +58,8 @@ farther.
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
 PIN_TILT: Final = 10.0  # deg: a pin tilted by more leans out of the holder
-RACK_TILT: Final = (
-    5.0  # deg: the play of the guides allows this much; a screwdriver out of its guides leans more
-)
+RACK_TILT: Final = 5.0
+"""Lean of the screwdriver (degrees) that the play of the guides allows. Out of its guides, it leans more."""
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.1
@@ -70,9 +68,8 @@ which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of
 reference, 40 oz at the crank, allows .35 N m, but a rotor that needs this torque binds.
 """
 
-ROTOR_PLACE: Final = (
-    0.1  # mm: rotor from its bearing, crank pin from its place; the bearing is drawn without play
-)
+ROTOR_PLACE: Final = 0.1
+"""Distance (mm) of the rotor from its bearing, and of the crank pin from its place. The bearing has no play."""
 ROTOR_LEAN: Final = 0.1  # deg from the top's axis: in the design, the two axes are parallel
 
 STILL: Final = 1.0
@@ -93,9 +90,8 @@ APART_GASKET: Final = 6.0
 its stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was
 lifted; at 6.4 mm its holes would not let the fingers of the next run in.
 """
-APART_TURN: Final = (
-    3.0  # deg: this moves the end of a part as long as the base by half of the fingers' clearance
-)
+APART_TURN: Final = 3.0
+"""Turn (degrees) that moves the end of a part as long as the base by half of the fingers' clearance."""
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0
@@ -110,6 +106,5 @@ tightened later press the layer away from there: by up to .030 mm in pumps that 
 MERGED_TURN: Final = 0.1  # deg, the same limit for rotation; up to .017 deg in pumps that the arm has made
 ALTERED: Final = 0  # parts; any difference counts, because building a scene again gives the same bytes
 FLOOR: Final = -5.0  # mm, height relative to the table top: no part may be lower
-PENETRATION: Final = (
-    0.15  # mm, of parts pressed together: contacts are soft; the force of six screws gives .06 mm
-)
+PENETRATION: Final = 0.15
+"""Overlap (mm) of parts pressed together. Contacts are soft; the force of six screws gives .06 mm."""
