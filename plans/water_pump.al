@@ -93,7 +93,7 @@ K:      SKIPN   6
         CHANGE  [0 0 1] 1       ;no resistance: it has stayed in the dispenser, or is lost
         SOJG    TAKEN ANEW
         SOJG    STAYS LOST
-        WAIT    "SCREW {NR} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD, OR NO TOP IS UNDER IT"
+        WAIT    "SCREW {NR} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD, THE BIT, OR NO TOP IS UNDER IT"
 LOST:   WAIT    "SCREW {NR} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE"
 ANEW:   REFETCH S NR
         JUMP    TRY
@@ -190,9 +190,30 @@ LOW:    SEAT                    ;one that stood high: it should be down again
         WAIT    "SCREW {NR} DOES NOT STAND AS IT WAS DRIVEN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
 ON:     CHANGE  [0 0 1] 1
 
+; Does it still stand in its place? Closed fingers come down on its end, .2 in away: as high as the arm finds the table.
+DEFINE STANDS END
+        OPEN    0
+        MOVE    END
+        RESTORE TABLE
+        RESTORE C1 LEVEL
+        RESTORE C2 LEVEL
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .7 .1
+
+; The screwdriver in its rack: its end is 8.1 in over the table, unless it has fallen, or hangs on the guides.
+DEFINE RACKED
+        STANDS  DEND
+        SKIPN   23
+        JUMP    FALLEN
+        HEIGHT  TABLE 7.96 8.24
+        SKIPN   9
+FALLEN: WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK, OR A JOINT READS WRONG"
+        CHANGE  [0 0 1] 1
+
 ; The screwdriver out of its rack, its place felt both ways: the first time it is as far off as rack and arm may be, the
 ; second time it stands where it stood.
 DEFINE DRIVER MOST
+        RACKED
         OPEN    2.2
         MOVE    D
         RESTORE DRV             ;where it was the last time, if it was taken before
@@ -572,16 +593,6 @@ DEFINE NUDGE SPOT PUSH WAY
         SKIPN   8
         WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED, OR A JOINT READS WRONG"
 
-; Does it still stand in its place? Closed fingers come down on its end, .2 in away: as high as the arm finds the table.
-DEFINE STANDS END
-        OPEN    0
-        MOVE    END
-        RESTORE TABLE
-        RESTORE C1 LEVEL
-        RESTORE C2 LEVEL
-        STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .7 .1
-
 ; A pin in its holder: its end is 3.51 in over the table, unless it stands on something.
 DEFINE PLUGGED END NR
         STANDS  END
@@ -624,6 +635,17 @@ DEFINE SWING GRIP OUT BACK
 DEFINE ROTATION
         SWING   CRANK 190 -190
         SWING   CRANKB -190 190
+        OPEN    0
+        MOVE    CRANKEND        ;there the fingers have left the end of the crank pin
+        RESTORE Y1
+        RESTORE X2
+        RESTORE BARE            ;to .2 in over it
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .1
+        HEIGHT  BARE 2.8 2.92
+        SKIPN   9
+        WAIT    "THE ROTOR DOES NOT SIT IN ITS BEARING, OR ITS CRANK IS BENT, OR A JOINT READS WRONG"
+        CHANGE  [0 0 1] 1.5
 
 ; The heads, one after the other around the pump: so the driver never goes over the crank.
 DEFINE HEADS
@@ -638,13 +660,7 @@ DEFINE HEADS
 
 ; Screwdriver and pins in their places.
 DEFINE TOOLS
-        STANDS  DEND
-        SKIPN   23
-        JUMP    FALLEN
-        HEIGHT  TABLE 7.96 8.24
-        SKIPN   9
-FALLEN: WAIT    "THE SCREWDRIVER DOES NOT STAND IN ITS RACK, OR A JOINT READS WRONG"
-        CHANGE  [0 0 1] 1
+        RACKED
         PLUGGED P1END 1
         PLUGGED P2END 2
 
@@ -823,9 +839,9 @@ NONE1:  MOVE    T1              ;is there anything to stand on?
         CHANGE  [0 0 -1] 1
         SKIPE   23
         JUMP    FULL1
-        WAIT    "NO BASE STANDS UNDER PIN 1"
+        WAIT    "NO BASE STANDS UNDER PIN 1, OR IT MOVES WITH THE PIN"
         JUMP    IN1
-FULL1:  WAIT    "PIN 1 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR A JOINT READS WRONG"
+FULL1:  WAIT    "PIN 1 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR THE BASE HAS MOVED, OR A JOINT READS WRONG"
 IN1:    OPEN    .5
         CENTER  .1
         SAVE    Y1              ;where its hole is, across the line of centres
@@ -867,9 +883,9 @@ NONE2:  MOVE    T2
         CHANGE  [0 0 -1] 1
         SKIPE   23
         JUMP    FULL2
-        WAIT    "NO BASE STANDS UNDER PIN 2"
+        WAIT    "NO BASE STANDS UNDER PIN 2, OR IT MOVES WITH THE PIN"
         JUMP    IN2
-FULL2:  WAIT    "PIN 2 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR A JOINT READS WRONG"
+FULL2:  WAIT    "PIN 2 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR THE BASE HAS MOVED, OR A JOINT READS WRONG"
 IN2:    OPEN    .5
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
@@ -1040,6 +1056,7 @@ TOPPED: OPEN    2.2             ;for the screwdriver
         UNPIN   Q2 P2UP 2
 
         STAGE   "drive the last four screws"
+        CHANGE  [0 0 1] 1       ;off the pin, before the fingers close
         DRIVER  .1
         SCREW   S3 H5 Y2 3
         SCREW   S4 H1 Y1 4

@@ -220,7 +220,7 @@ def bench(
         positions: taught positions besides those of the water-pump program.
         parts: parts as the program believes them, instead of the water pump's.
         lay: where the experimenter lays free bodies (`X_WP`) before the run begins.
-        felt: heights of the hand (in) that earlier stages would have saved.
+        felt: heights of the hand (in) that earlier stages would have saved, besides that of the table.
     """
     taught = Taught(
         positions={**TAUGHT.positions, **(positions or {})}, parts={**TAUGHT.parts, **(parts or {})}
@@ -240,7 +240,8 @@ def bench(
     if program.feels and world is not None and world.arm_build.friction.any():
         found = measure_joints(cell.devices, STANFORD, run.state.drive, arithmetic=CompiledArm)
         run.state.drive.friction, run.state.drive.links = found.friction, found.links
-    run.state.heights.update({name: height * INCH for name, height in (felt or {}).items()})
+    heights = {"TABLE": 0.0} | (felt or {})
+    run.state.heights.update({name: height * INCH for name, height in heights.items()})
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
     return Bench(cell=cell, executor=Executor(run=run), events=events, first=first)
 
