@@ -631,21 +631,27 @@ DEFINE SWING GRIP OUT BACK
         SWEEP   BACK
         CHANGE  [0 0 1] 1.5     ;off the crank, before the fingers shut
 
-; What the last stage looks at. The rotor, over its whole turn and both ways: the hand cannot go all the way round.
-DEFINE ROTATION
-        SWING   CRANK 190 -190
-        SWING   CRANKB -190 190
+; Does the rotor sit in its bearing? Closed fingers come down on the end of its crank pin, where the last turn has left it.
+DEFINE BEARING
         OPEN    0
-        MOVE    CRANKEND        ;there the fingers have left the end of the crank pin
+        MOVE    CRANKEND
         RESTORE Y1
         RESTORE X2
         RESTORE BARE            ;to .2 in over it
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
+        SKIPN   23
+        JUMP    OFF
         HEIGHT  BARE 2.8 2.92
         SKIPN   9
-        WAIT    "THE ROTOR DOES NOT SIT IN ITS BEARING, OR ITS CRANK IS BENT, OR A JOINT READS WRONG"
+OFF:    WAIT    "THE ROTOR DOES NOT SIT IN ITS BEARING, OR ITS CRANK IS BENT, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 1.5
+
+; What the last stage looks at. The rotor, over its whole turn and both ways: the hand cannot go all the way round.
+DEFINE ROTATION
+        SWING   CRANK 190 -190
+        SWING   CRANKB -190 190
+        BEARING
 
 ; The heads, one after the other around the pump: so the driver never goes over the crank.
 DEFINE HEADS

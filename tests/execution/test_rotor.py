@@ -1,13 +1,15 @@
-"""Step 11: the rotor is turned, and is to resist with less than 15 ounces.
+"""The rotor is turned, is to resist with less than 15 ounces, and is to sit in its bearing.
 
 That a free one turns and meets nothing is in `test_whole_run`.
 """
 
 import math
 
+import numpy as np
 import pytest
-from pump_bench import COUNT, IN_WORLDS, Bench, bench, stacked, stage, world_of
+from pump_bench import COUNT, IN_WORLDS, MACROS, Bench, bench, stacked, stage, world_of
 
+from handeye.core.units import INCH
 from handeye.program.events import GuardTripped
 
 pytestmark = pytest.mark.slow
@@ -40,3 +42,23 @@ def test_a_rotor_that_takes_nearly_three_times_its_friction_is_hard_to_turn(seed
     run = turning(friction=0.14, seed=seed)
     assert run.all(GuardTripped)[-1].guard == "against"
     assert run.told == "THE ROTOR IS HARD TO TURN"
+
+
+def felt(raised: float) -> Bench:
+    """BEARING feels a rotor that stands `raised` (mm) over its bearing, turned as the last turn leaves it."""
+    face = 1.75 - 0.08  # the hand yields by .08 in to 40 oz
+    run = bench(f"{MACROS}        BEARING\n", lay=stacked(), felt={"BARE": face})
+    run.run.state.saved["BARE"] = np.array([0.0, 0.0, -0.3 * INCH])
+    truth = run.cell.truth
+    truth.data.joint("rotor").qpos[0] = math.radians(-11.6)
+    truth.model.body_pos[truth.model.body("rotor").id][2] += raised / 1000
+    return run.go()
+
+
+def test_a_rotor_in_its_bearing_is_felt_at_its_height() -> None:
+    assert felt(0.0).finished
+
+
+@pytest.mark.parametrize("raised", [4.0, -4.0])
+def test_a_rotor_that_has_left_its_bearing_is_felt(raised: float) -> None:
+    assert felt(raised).told.startswith("THE ROTOR DOES NOT SIT IN ITS BEARING")
