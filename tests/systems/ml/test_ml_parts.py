@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable
 from math import radians
 
+import mujoco
 import numpy as np
 import pytest
 from msgspec.structs import replace
@@ -102,6 +103,19 @@ def test_three_parts_of_a_bin_are_taken_one_at_a_time_and_judged() -> None:
         "told_good": 2,
         "told_bad": 1,
     }
+
+
+def test_the_pile_is_solved_with_dense_matrices() -> None:
+    """MuJoCo 4.0.0 solves some piles wrongly with sparse ones, and throws a part out at 1000 rad/s."""
+    assert not mujoco.mj_isSparse(BIN.scene(WorldSpec(seed=7)))
+
+
+@pytest.mark.slow
+def test_a_part_counts_only_when_it_has_left_the_hand() -> None:
+    text = job_plan("bin").text
+    assert "550 HAND 1200" in text
+    result = done(begun("bin", 2, text.replace("550 HAND 1200", "550 DELAY 1"), variant="1"))
+    assert result.message == "a part stays in the open hand (in the boxes: 0 good and 0 bad)"
 
 
 def test_the_referee_of_the_bin_sees_a_wrong_part_passed_a_part_left_and_a_part_lost() -> None:

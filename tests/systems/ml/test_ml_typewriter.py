@@ -19,6 +19,7 @@ from handeye.systems.ml.support.drawing import FRAME, mm
 from handeye.systems.ml.typewriter.task import BAD, BAR, TYPEWRITER
 
 MM = 0.001
+PLANS = plans()
 BARS = 4
 WORLD = WorldSpec(seed=1)  # the third of its four bars is too light
 
@@ -53,8 +54,18 @@ def test_decks_are_assembled_by_one_command(
     (tmp_path / "b.sym").write_text("  BRANCH HERE\nHERE: ADD 1 A\n", encoding="utf-8")
     code, out, _ = command("ml", "assemble", str(tmp_path / "a.sym"), str(tmp_path / "b.sym"))
     assert (code, out.split("\n")) == (0, ["5 LOAD 1 7", "", "10 BRANCH 15", "15 ADD 1 7", "", ""])
+    assert command("ml", "check", str(tmp_path / "a.sym"), str(tmp_path / "b.sym"))[0] == 0
     code, _, told = command("ml", "assemble", str(tmp_path / "b.sym"))
     assert (code, "b.sym:2" in told) == (2, True)
+    code, _, told = command("ml", "check", str(PLANS / "orient.ml"), str(tmp_path / "b.sym"))
+    assert (code, told) == (2, "handeye: only symbolic programs (.sym) can consist of several files\n")
+
+
+def test_the_symbolic_programs_of_the_jobs_have_no_mistakes(
+    command: Callable[..., tuple[int, str, str]],
+) -> None:
+    for files in (["support.sym"], ["curve_follower.sym"], ["typewriter.sym", "support.sym"]):
+        assert command("ml", "check", *(str(PLANS / file) for file in files))[0] == 0
 
 
 def test_a_bin_takes_as_many_bars_as_the_bin_job() -> None:

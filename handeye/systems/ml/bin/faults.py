@@ -12,8 +12,10 @@ TROUBLES: Final = {
     "3": "the range finder does not show that the hand has come down",
     "4": "a finger's gauge does not feel the table",
     "5": "the fingers do not open",
+    "6": "a part stays in the open hand",
+    "7": "the hand cannot go down into a box",
 }  # sentences by the numbers that the program prints
-_LEFT, _LOST, _RANGE, _GAUGE, _SHUT = calls_of(TROUBLES)
+_LEFT, _LOST, _RANGE, _GAUGE, _SHUT, *_ = calls_of(TROUBLES)
 EMPTY, WIDE, HEAVY = "bin.empty", "part_1.wide", "part_1.heavy"
 FAULTS: Final = Catalogue(
     arm_fault("range.frozen", _RANGE),

@@ -16,15 +16,31 @@ SLOPE: Final = radians(25)  # rad: slope of the hopper's four sides
 RIM: Final = 0.090  # m from the middle of the hopper to its rim
 BOXES: Final = {"good": -6500, "bad": 6500}  # x of the slides
 BOX: Final = 0.050  # m: half the inner side of a box
-_HIGH: Final = 0.030  # m: height of the walls of a box, and of the rim of the hopper, over the table
+TRAY: Final = (0.060, 0.090)  # m: half the inner sides of a large box, along x and y
+HIGH: Final = 0.030  # m: height of the walls of a box, and of the rim of the hopper, over the table
+DEEP: Final = 0.080  # m: height of walls that a part which is let go between them cannot leave
 _THIN: Final = 0.002  # m: half the thickness of walls
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
-def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN) -> None:
+def solve_densely(spec: mujoco.MjSpec) -> None:
+    """Let MuJoCo solve for the contact forces with dense matrices. By default it takes sparse ones from 60 degrees of
+    freedom on.
+
+    MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, such as fingers that touch parts
+    of a pile which touch each other. Newton's method then ends after 100 iterations without a solution, and a part
+    leaves the pile at 1000 rad/s.
+    """
+    spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+
+
+def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, high: float = HIGH) -> None:
     """Add the hopper at a place of the scene (m), by default under the hand when the x and y slides are at 0. A part
     that slides in the hopper has the friction of the hopper, not its own.
+
+    Args:
+        high: height of its walls over the table, m.
     """
     hopper = spec.worldbody.add_body(name="hopper", pos=[*place, 0])
 
@@ -47,22 +63,30 @@ def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN) -> N
         plate(
             [RIM, run / 2 / cos(SLOPE), _THIN], [0, way * sunk[0], sunk[1]], turned("x", way * SLOPE).tolist()
         )
-        plate([_THIN, RIM, _HIGH / 2], [way * (RIM + _THIN), 0, _HIGH / 2], [1, 0, 0, 0])
-        plate([RIM, _THIN, _HIGH / 2], [0, way * (RIM + _THIN), _HIGH / 2], [1, 0, 0, 0])
+        plate([_THIN, RIM, high / 2], [way * (RIM + _THIN), 0, high / 2], [1, 0, 0, 0])
+        plate([RIM, _THIN, high / 2], [0, way * (RIM + _THIN), high / 2], [1, 0, 0, 0])
 
 
 def add_boxes(spec: mujoco.MjSpec) -> None:
     """Add the boxes for good and for bad parts."""
     for name, x in BOXES.items():
-        add_bin_box(spec, name, Place(x * LINEAR, 0))
+        add_bin_box(spec, name, Place(x * LINEAR, 0), TRAY, DEEP)
 
 
-def add_bin_box(spec: mujoco.MjSpec, name: str, place: Place) -> None:
-    """Add the box for good or for bad parts at a place of the scene (m)."""
+def add_bin_box(
+    spec: mujoco.MjSpec, name: str, place: Place, half: tuple[float, float] = (BOX, BOX), high: float = HIGH
+) -> None:
+    """Add the box for good or for bad parts at a place of the scene (m).
+
+    Args:
+        half: half its inner sides along x and y, m.
+        high: height of its walls over the table, m.
+    """
     box = spec.worldbody.add_body(name=f"{name}_box", pos=[*place, 0])
+    x, y = half
     for way in (-1, 1):
         for size, pos in (
-            ([_THIN, BOX, _HIGH / 2], [way * (BOX + _THIN), 0, _HIGH / 2]),
-            ([BOX, _THIN, _HIGH / 2], [0, way * (BOX + _THIN), _HIGH / 2]),
+            ([_THIN, y, high / 2], [way * (x + _THIN), 0, high / 2]),
+            ([x, _THIN, high / 2], [0, way * (y + _THIN), high / 2]),
         ):
             box.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=pos, rgba=_COLOURS[name], group=1)

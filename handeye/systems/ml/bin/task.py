@@ -23,7 +23,7 @@ from handeye.systems.ml.bench.reporting import Printed, ReportingHardware
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.bin.faults import EMPTY, FAULTS, TROUBLES
-from handeye.systems.ml.bin.hopper import BOX, BOXES, ORIGIN, RIM, add_boxes, add_hopper
+from handeye.systems.ml.bin.hopper import BOXES, DEEP, ORIGIN, RIM, TRAY, add_boxes, add_hopper, solve_densely
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.tasks.interface import Words
@@ -127,7 +127,8 @@ class Bin(ArmTask):
     def station(self, parts: int, world: ArmWorld) -> Station:
         """Return the station with two boxes and a hopper, into which the parts fall when the simulation begins."""
         spec = scene(world, wand=False)
-        add_hopper(spec, world.value(SMOOTH))
+        solve_densely(spec)
+        add_hopper(spec, world.value(SMOOTH), high=DEEP)
         add_boxes(spec)
         if world.fault(EMPTY) is not None:
             parts = 0
@@ -151,8 +152,8 @@ class Bin(ArmTask):
         parts = range(1, len(poured.qualities) + 1)
         places = np.array([truth.data.body(f"part_{n}").xpos for n in parts]).reshape(-1, 3)
         good = np.array([quality == "good" for quality in poured.qualities], dtype=np.bool_)
-        boxed = {name: _inside(places, x * LINEAR, BOX) for name, x in BOXES.items()}
-        left = _inside(places, 0.0, RIM)
+        boxed = {name: _inside(places, x * LINEAR, TRAY) for name, x in BOXES.items()}
+        left = _inside(places, 0.0, (RIM, RIM))
         out = ~(left | boxed["good"] | boxed["bad"])
         counted = told(heard.lines[-1].partition(" ")[2] if heard.lines else "")
         here = int(boxed["good"].sum()), int(boxed["bad"].sum())
@@ -218,10 +219,11 @@ def _quality(world: ArmWorld, number: int) -> Quality:
     return "narrow" if drawn < world.value(_WRONG) / 2 else "light"
 
 
-def _inside(places: Array, x: float, half: float) -> NDArray[np.bool_]:
-    """Return, for each place, whether it is inside the square whose middle is at (x, 0)."""
-    off = np.abs(places[:, :2] - [x, 0.0]).max(axis=1)
-    return np.asarray(off < half, dtype=np.bool_)
+def _inside(places: Array, x: float, half: tuple[float, float]) -> NDArray[np.bool_]:
+    """Return, for each place, whether it is inside the rectangle whose middle is at (x, 0), and whose half sides are
+    `half`.
+    """
+    return np.asarray((np.abs(places[:, :2] - [x, 0.0]) < half).all(axis=1), dtype=np.bool_)
 
 
 BIN: Final = Bin()

@@ -111,14 +111,25 @@ def reported(source: Source, *, first: int | None, left: int | None) -> bool:
 
 
 def check(
-    file: MlFile, /, *, json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False
+    file: Annotated[Path, Parameter(help="A program in ML, `.ml`, or a symbolic program, `.sym`.")],
+    /,
+    *others: Annotated[
+        Path, Parameter(help="Files that are assembled together with a symbolic one, after it.")
+    ],
+    json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
-    """Check a program as `handeye check` does: its form, its jumps, and how it uses its sensors.
+    """Check a program as `handeye check` does: its form, its jumps, and how it uses its sensors. In a symbolic program,
+    only its form and its names are checked.
 
     Exit code 0: no errors; 2: bad input, or a program with errors.
     """
-    source = read_source(file)
-    return show_check(file, checked(source)[1], source, json=json)
+    from handeye.systems.ml.language.assembler import assembled, decks
+
+    symbolic = file.suffix.lower() == ".sym"
+    if others and not symbolic:
+        raise BadArgument("only symbolic programs (.sym) can consist of several files")
+    source = decks([file, *others])
+    return show_check(file, (assembled if symbolic else checked)(source)[1], source, json=json)
 
 
 def assemble(
