@@ -192,11 +192,11 @@ ON:     CHANGE  [0 0 1] 1
 
 ; Does it still stand in its place? Closed fingers come down on its end, .2 in away: as high as the arm finds the table.
 DEFINE STANDS END
-        OPEN    0
         MOVE    END
         RESTORE TABLE
         RESTORE C1 LEVEL
         RESTORE C2 LEVEL
+        OPEN    0               ;only here: they may come from a pin
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .7 .1
 
@@ -1062,7 +1062,6 @@ TOPPED: OPEN    2.2             ;for the screwdriver
         UNPIN   Q2 P2UP 2
 
         STAGE   "drive the last four screws"
-        CHANGE  [0 0 1] 1       ;off the pin, before the fingers close
         DRIVER  .1
         SCREW   S3 H5 Y2 3
         SCREW   S4 H1 Y1 4
