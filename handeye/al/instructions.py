@@ -73,10 +73,10 @@ _MEANINGS: Final = {
     "PARK": "go to the position called PARK",
     "TURN": "move on a circle about the vertical line through a position, by this angle (degrees; a positive angle is "
     "counter-clockwise)",
-    "STOP": "end the next motion when the force with which the hand presses along this vector exceeds the vector's "
-    "length (oz), or when the hand exerts more than this moment (oz-in); a single number (an extension of handeye) is "
-    "the limit for the force that opposes the motion, in whatever direction the hand moves; error 23 if nothing stops "
-    "the motion",
+    "STOP": "end the next motion when the hand presses along this vector with more force than the vector's length "
+    "(oz). With a moment (oz-in): when the hand exerts more than that moment. With a single number (an extension of "
+    "handeye): when more than this force opposes the motion, whatever its direction. Error 23 if nothing stops the "
+    "motion",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
     "stiff) for each axis, or the number of axes that yield and their names, such as `2 X Y`",

@@ -241,7 +241,7 @@ CODES: Final[dict[str, Code]] = {
     "unreachable-code": _warning("a statement is never executed", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
     "unreadable-file": _error("a required file cannot be read", "REQUIRE pins.al\nPARK"),
-    "unterminated-macro": _error("no blank line ends a macro", "PARK\nDEFINE A\nOPEN 1"),
+    "unterminated-macro": _error("the blank line that ends a macro is missing", "PARK\nDEFINE A\nOPEN 1"),
     "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
     "unused-label": _warning("no instruction jumps to a label", "L: PARK"),

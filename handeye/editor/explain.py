@@ -201,8 +201,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "The pictures before and after do not differ as they would with the gasket in place: place the gasket "
-        "again, or ask the operator.",
+        "The pictures from before and after do not show the change that a gasket in its place makes: place the "
+        "gasket again, or ask the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),

@@ -46,7 +46,7 @@ def faults(plan: Plan) -> Iterator[str]:
         yield from _boxes(f"fixture {key}", fixture.boxes)
     for key, held in program.held.items():
         yield from (
-            f"{key} is held at {at}, which is not in the plan"
+            f"the plan says that {key} is held at the position {at}, but the plan has no {at}"
             for at in held.positions
             if at not in program.positions
         )

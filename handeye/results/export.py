@@ -148,7 +148,7 @@ checked.
 
 
 class Weight(Record, frozen=True, kw_only=True):
-    """The mass of a body of known metal (kg): computed from the volume, and in the simulator's model."""
+    """Two masses (kg) of a body of known metal: one computed from its volume, and one from the simulator's model."""
 
     body: str
     by_volume: float

@@ -17,7 +17,7 @@ FREE_OPENING: Final = 0.12 * INCH
 Half of the opening belongs to each finger. The arm deflects by that much (1.5 mm) only under about 18 N.
 """
 GAP_ERROR: Final = 0.1 * INCH
-"""Permitted difference (m) between the gap and its goal. The finger servo stops within some hundredths of an inch.
+"""Permitted difference (m) between the gap and its goal. The finger servo stops within a few hundredths of an inch.
 Placeholder.
 """
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise

@@ -48,7 +48,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 
 
 class DisturbanceRow(TrialRow, frozen=True, kw_only=True):
-    """The trial of one disturbance. The row's condition is the disturbance."""
+    """One trial with one disturbance. The field `condition` of the row names the disturbance."""
 
     tried: DisturbanceResult | None = None  # None: it did not finish
 

@@ -235,7 +235,7 @@ FIXTURE = {"at": [0, 0, 0, 0], "boxes": [[0, 0, 0, 1, 1, 1]]}
         (
             "program.held",
             {"H": {"positions": ["X"], "boxes": []}},
-            "H is held at X, which is not in the plan",
+            "the plan says that H is held at the position X, but the plan has no X",
         ),
         ("program.held", {"H": {"positions": [], "boxes": [[0, 0, 0, 1, 1, 1e9]]}}, "H has an empty box"),
     ],

@@ -253,8 +253,8 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """Return True if a test skips only a second test, if the second test is for an error that can be pending,
-        and if both tests lead to the same step.
+        """Return True if all of this holds: the test `first` skips exactly one statement, which is a test too; the
+        error of this second test can be pending there; and both tests lead to the same step.
         """
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)

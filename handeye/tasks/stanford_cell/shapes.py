@@ -92,8 +92,8 @@ class Shaper:
         at: Vector,
         style: Callable[[float], str],
     ) -> list[mujoco.MjsGeom]:
-        """Add the wedges of a bore whose axis passes through `at` (m). `style` returns the default class of a
-        wedge from the wedge's direction (rad).
+        """Add the wedges that surround a bore whose axis passes through `at` (m). `style` takes the direction of a
+        wedge (rad) and returns the name of its MuJoCo default class.
         """
         if self.spec.mesh(mesh) is None:
             self.convex(mesh, bore.wedge())

@@ -23,7 +23,7 @@ FAULTS: Final = Catalogue(
         size=Size(unit="mm", usual=30.0, limits=(-60.0, 60.0)),
     ),
     planted(
-        SLIPPERY, "The table is oiled; the value is the friction coefficient of the plate.",
+        SLIPPERY, "The table is oiled; the value is the friction coefficient between plate and table.",
         harmless="The force of the wand is too small to move the plate.",
         size=Size(unit="", usual=0.1, limits=(0.01, 0.25)),
     ),

@@ -234,8 +234,8 @@ def errors(
         put_study("bus errors", {"rates": rates}, completed=True, message=f"{misread} misread", seed=seed)
         return 0
     say(
-        f"{counted(commands, 'command')} for each clock error, sent to a receiver that becomes free before "
-        f"or in the middle of the command"
+        f"{counted(commands, 'command')} for each clock error; the receiver becomes free either before a command "
+        "begins or in the middle of it"
     )
     say("clocks within   taken whole   too late   misread   least fast   least slow")
     for percent, rate in zip(percents, rates, strict=True):

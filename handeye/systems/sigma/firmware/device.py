@@ -22,7 +22,7 @@ class Crystal:
         self.ppm = ppm  # by how much the intervals are too long; negative for a fast clock
 
     def micros(self, micros: int) -> int:
-        """Return the duration of `micros` microseconds on the microcomputer's clock (ps)."""
+        """Return the true time (ps) that passes while the microcomputer's clock counts `micros` microseconds."""
         return micros * (PS + self.ppm)
 
     def ticks(self, ticks: int) -> int:

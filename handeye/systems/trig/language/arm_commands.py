@@ -21,7 +21,7 @@ def go(session: Session, given: Arguments) -> None:
 
 
 def feel(session: Session, given: Arguments) -> None:
-    """GOGPOS: go to a position until a force stops the arm, and report where the arm stopped."""
+    """GOGPOS: move towards a position until a force stops the arm, and report where the arm stopped."""
     goal = session.runner.goal(_move(session, given))
     threshold, vector = session.threshold(), session.vector()
     arrival = session.arm.feel(goal, vector, threshold, session.desk.halted)

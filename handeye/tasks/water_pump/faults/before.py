@@ -252,7 +252,7 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
         ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.NO_DRIVER,), stages=(detect.DRIVE_FIRST,)),
     )  # fmt: skip
     yield _fault(
-        _SMOOTH, "The bit has no friction, so it cannot turn a screw into a thread.", partial(_slippery, "bit"),
+        _SMOOTH, "The bit has no friction, so it cannot drive a screw into its thread.", partial(_slippery, "bit"),
         ExpectedDetection(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
