@@ -68,7 +68,8 @@ def begin(
             `run.state.memory.place` is the number of the current place.
         referee: how to judge the finished work. Give a function that takes the true state of the cell and returns
             findings by name. Or keep the task's referee and give it other limits, such as `{"screws_clamp": 60}`;
-            each limit has the unit of its finding. To judge a saved run again, use `handeye.begin(folder, referee=...).result`.
+            each limit has the unit of its finding. To judge a saved run again, use
+            `handeye.begin(folder, referee=...).result`.
         judge: whether the referee judges the run when it ends; by default True if a referee is given, or if the
             resumed run was started with one.
         taught: taught positions, as for `handeye.plan`.

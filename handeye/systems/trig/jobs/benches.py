@@ -100,7 +100,7 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def teach(self, halted: "Halted") -> None:
-        """Enter the program with taught positions that have the teaching errors of this world, and prepare the table."""
+        """Enter the program, with the teaching errors of this world in its positions, and prepare the table."""
 
     @abstractmethod
     def lay(self) -> None:
