@@ -58,7 +58,7 @@ def changed(a: Levels, b: Levels) -> Points:
     return np.asarray(cv2.blur(np.abs(b - a), (AREA, AREA)) > QUIET)
 
 
-def smooth(picture: Picture) -> Levels:
+def smooth(picture: Picture | Levels) -> Levels:
     """Smooth a picture to reduce its noise."""
     return cv2.GaussianBlur(picture.astype(np.float32), (0, 0), BLUR).astype(np.float32)
 

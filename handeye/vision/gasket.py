@@ -3,7 +3,7 @@
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference
 wherever the base or the gasket has a hole, so a displaced gasket shows the *union* of the two holes. The centre of
 the union moves by only half the displacement, but its border moves on one side by all of the displacement.
-Therefore both the centre and the rim are tested.
+Therefore both the centre and the rim are tested. If the gasket lies right, `gasket_sheet` checks that it is whole.
 """
 
 import math
@@ -19,8 +19,10 @@ from handeye.core.units import INCH
 from handeye.ports.camera import Picture
 from handeye.program.diagnosis.causes import (
     BaseHoleUnseen,
+    GasketFault,
     GasketHoleOff,
     GasketHoleUnseen,
+    GasketTorn,
     GasketWrong,
     InspectionCause,
     LargeHole,
@@ -112,13 +114,25 @@ def inspect(
     checks = [
         _check(name, new, old, view, place, hole) for name, (place, hole) in zip(_NAMES, pairs, strict=True)
     ]
-    faults = tuple(check.fault for check in checks if check.fault is not None)
+    faults: tuple[GasketFault, ...] = tuple(check.fault for check in checks if check.fault is not None)
+    if part.screw_holes and not faults:
+        faults = _torn(before, after, view, part, [check.base for check in checks if check.base is not None])
     return GasketInspection(
         cause=GasketWrong(faults=faults) if faults else None,
         expected=expected,
         found=tuple(check.found for check in checks),
         shift=max((check.shift for check in checks if check.shift is not None), default=None),
     )
+
+
+def _torn(
+    before: Picture, after: Picture, view: View, part: Part, large: list[Array]
+) -> tuple[GasketTorn, ...]:
+    """Check that a gasket in its place is whole. `large` are the centres of the base's large holes, in metres."""
+    from handeye.vision.gasket_sheet import MAX_BARE, bare  # imports OpenCV, as does `difference`
+
+    patch = bare(before, after, view, part, large)
+    return (GasketTorn(bare=round(patch, 9)),) if patch > MAX_BARE else ()
 
 
 _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
@@ -162,6 +176,7 @@ class _Check:
     """Result for one hole; `fault` is None if the gasket lies right at this hole."""
 
     fault: BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | None = None
+    base: Array | None = None  # centre of the hole of the base, m, shape (3,)
     found: tuple[float, float] | None = None
     shift: float | None = None
 
@@ -183,7 +198,7 @@ def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole
     wrong = off > CENTRE_SHIFT or bulge > RIM_SHIFT
     fault = GasketHoleOff(hole=name, off=round(max(bulge, off), 6)) if wrong else None
     u, v = view.project(np.array([*moved, place[2]]))[0]
-    return _Check(fault=fault, found=(float(u), float(v)), shift=max(bulge, off))
+    return _Check(fault=fault, base=base, found=(float(u), float(v)), shift=max(bulge, off))
 
 
 def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:

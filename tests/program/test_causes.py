@@ -206,6 +206,10 @@ WORDS: list[tuple[c.Cause, str]] = [
         "the second hole of the base was not found in the earlier picture",
     ),
     (
+        c.GasketWrong(faults=(c.GasketTorn(bare=0.25 * INCH**2),)),
+        "the gasket leaves 0.25 sq in of the base's face bare: it is torn, or a piece of it is missing",
+    ),
+    (
         c.PartAstray(off=0.2 * INCH, unlike=0.034),
         "moved by 0.20 in relative to its surroundings; 3.4 % of the part looks different",
     ),

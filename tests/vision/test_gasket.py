@@ -3,6 +3,8 @@
 import dataclasses
 import math
 
+import cv2
+import msgspec
 import numpy as np
 import pytest
 from synthetic import FACE, GASKET, Canvas, draw_base, part, view
@@ -12,6 +14,7 @@ from handeye.program.diagnosis.causes import (
     BaseHoleUnseen,
     GasketHoleOff,
     GasketHoleUnseen,
+    GasketTorn,
     GasketWrong,
     NoGasket,
 )
@@ -29,9 +32,13 @@ WHERE = view(0.050, (POSE[0] - 1.4 * INCH, POSE[1], 2.75 * INCH))
 
 
 def pictures(
-    shift: tuple[float, float] | None, seed: int = 0, noise: float = 1.0
+    shift: tuple[float, float] | None,
+    seed: int = 0,
+    noise: float = 1.0,
+    torn: tuple[float, float, float] | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Before, and after a gasket was put on, off by `shift` (in); None: no gasket."""
+    """Before, and after a gasket was put on, off by `shift` (in); None: no gasket. A disc of it is missing: `torn`
+    holds the centre and the diameter of the disc (in, in the frame of the part)."""
     rng = np.random.default_rng(seed)
     before, after = Canvas(), Canvas()
     draw_base(before, WHERE, PART, POSE)
@@ -39,16 +46,22 @@ def pictures(
     if shift is not None:
         move = np.array([*shift, 0]) * INCH
         keep = after.fine.copy()
-        for place, diameter in zip(hole_places(PART, POSE), (3.9, 2.3), strict=True):
-            after.disc(WHERE, place + move, diameter * INCH, GASKET)
+        turns = np.linspace(0, 2 * np.pi, 90, endpoint=False)
+        circle = np.column_stack([np.cos(turns), np.sin(turns), np.zeros(90)]) * INCH / 2
+        discs = [p + move + w * circle for p, w in zip(hole_places(PART, POSE), (3.9, 2.3), strict=True)]
+        sheet = WHERE.project(np.concatenate(discs)).astype(np.float32)
+        after.polygon(cv2.convexHull(sheet).reshape(-1, 2), GASKET)
         gasket = after.fine.copy()
         for place, hole in zip(hole_places(PART, POSE), PART.holes, strict=True):
             after.disc(WHERE, place + move, hole.diameter + 0.05 * INCH, -1)
+        if torn is not None:
+            x, y, wide = torn  # the part is turned by half a turn
+            after.disc(WHERE, hole_places(PART, POSE)[0] - np.array([x, y, 0]) * INCH, wide * INCH, -1)
         after.fine = np.where(after.fine < 0, keep, gasket)
     return before.picture(rng, noise), after.picture(rng, noise)
 
 
-def inspected(shift: tuple[float, float] | None, **how: float) -> GasketInspection:
+def inspected(shift: tuple[float, float] | None, **how: object) -> GasketInspection:
     return inspect(*pictures(shift, **how), WHERE, PART, POSE)
 
 
@@ -126,6 +139,30 @@ def test_the_characteriser_that_finds_the_base_looks_at_the_expected_centres_in_
 def test_the_shift_of_a_gasket_is_measured_on_its_rim():
     seen = inspected((0.2, 0.0))
     assert seen.shift == pytest.approx(0.2 * INCH, abs=0.06 * INCH)
+
+
+MISSING = {"at a screw hole": (1.03, 1.23, 0.6), "between the large holes": (1.75, 0.0, 0.4)}
+
+
+@pytest.mark.parametrize("noise", [1.0, 1.5])
+@pytest.mark.parametrize("torn", MISSING.values(), ids=MISSING)
+def test_a_gasket_in_its_place_with_a_piece_missing_is_rejected(
+    torn: tuple[float, float, float], noise: float
+):
+    seen = inspected((0.01, -0.01), noise=noise, torn=torn)
+    assert isinstance(seen.cause, GasketWrong)
+    assert [type(fault) for fault in seen.cause.faults] == [GasketTorn]
+
+
+def test_the_bare_area_of_a_hole_in_the_sheet_is_measured():
+    seen = inspected((0.0, 0.0), torn=(1.75, 0.0, 0.4))
+    assert isinstance(seen.cause, GasketWrong)
+    assert seen.cause.faults[0].bare == pytest.approx(math.pi * (0.2 * INCH) ** 2, rel=0.15)
+
+
+def test_a_part_without_screw_holes_is_not_examined_for_a_torn_gasket():
+    unknown = msgspec.structs.replace(PART, screw_holes=())
+    assert inspect(*pictures((0.0, 0.0), torn=(1.75, 0.0, 0.4)), WHERE, unknown, POSE).ok
 
 
 @pytest.mark.row(53)

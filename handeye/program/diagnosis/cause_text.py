@@ -4,7 +4,7 @@ from typing import assert_never
 
 from handeye.core.errors import ERRORS
 from handeye.core.plain_text import counted, distinct_digits
-from handeye.core.units import OUNCE_FORCE, OUNCE_INCH
+from handeye.core.units import INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.diagnosis import causes as c
 from handeye.program.diagnosis.causes import Cause
 from handeye.program.diagnosis.reach import reach_sentence
@@ -101,7 +101,7 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
         case c.NoGasket():
             return "no gasket: the later picture shows nothing new where the gasket should be"
         case c.GasketWrong():
-            return "; ".join(f"the {fault.hole} hole {_hole(fault)}" for fault in cause.faults)
+            return "; ".join(map(_gasket_fault, cause.faults))
     assert_never(cause)
 
 
@@ -168,12 +168,17 @@ def _not_found(cause: c.SightCause) -> str:
     assert_never(cause)
 
 
-def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str:
+def _gasket_fault(fault: c.GasketFault) -> str:
     match fault:
         case c.BaseHoleUnseen():
-            return "of the base was not found in the earlier picture"
+            return f"the {fault.hole} hole of the base was not found in the earlier picture"
         case c.GasketHoleUnseen():
-            return "of the gasket was not found"
+            return f"the {fault.hole} hole of the gasket was not found"
         case c.GasketHoleOff():
-            return f"of the gasket is displaced by about {inches(fault.off)}"
+            return f"the {fault.hole} hole of the gasket is displaced by about {inches(fault.off)}"
+        case c.GasketTorn():
+            bare = f"{fault.bare / INCH**2:.2f} sq in"
+            return (
+                f"the gasket leaves {bare} of the base's face bare: it is torn, or a piece of it is missing"
+            )
     assert_never(fault)

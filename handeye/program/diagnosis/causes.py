@@ -179,10 +179,19 @@ class GasketHoleOff(HoleFault, frozen=True, kw_only=True):
     off: float
 
 
-class GasketWrong(CauseRecord, frozen=True, kw_only=True):
-    """A gasket is present but lies wrong. `faults` gives the reasons."""
+class GasketTorn(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
+    """The gasket leaves a patch of the base's face bare, of the area `bare` (m2)."""
 
-    faults: tuple[BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff, ...]
+    bare: float
+
+
+GasketFault = BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | GasketTorn
+
+
+class GasketWrong(CauseRecord, frozen=True, kw_only=True):
+    """A gasket is present, but lies wrong or is not whole. `faults` gives the reasons."""
+
+    faults: tuple[GasketFault, ...]
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):

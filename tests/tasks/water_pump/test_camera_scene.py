@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from handeye.core.faults import Fault
 from handeye.core.units import INCH
 from handeye.core.variation import WorldSpec
 from handeye.program.diagnosis.cause_text import cause_sentence
@@ -71,6 +72,12 @@ def test_a_gasket_is_accepted_only_where_it_belongs(seed: int):
     assert {case: tried.accepted[case] for case in (RIGHT, SHIFTED, ABSENT)} == {
         RIGHT: True, SHIFTED: False, ABSENT: False,
     }  # fmt: skip
+
+
+def test_a_gasket_with_a_torn_corner_is_rejected_where_it_belongs():
+    torn = Fault(name="gasket.torn", value=0.018)
+    (tried,) = GasketTrial().attempts(WorldSpec(seed=42, faults=(torn,)), 1, camera="auto", known="sightings")
+    assert not tried.accepted[RIGHT]
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])

@@ -11,6 +11,7 @@ from handeye.core.faults import Fault
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
+from handeye.tasks.stanford_cell.dimensions import screw_holes
 from handeye.tasks.water_pump.faults.before import GONE, METAL, bad_threads, part_faults, slipping_screws
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
@@ -63,6 +64,20 @@ def radius(part: str, *faults: Fault) -> float:
 def test_every_wrong_part_makes_a_scene() -> None:
     model, _ = scene(*(fault.usual() for fault in part_faults(6)))
     assert model.nbody == scene()[0].nbody
+
+
+def test_a_torn_gasket_has_no_sheet_and_no_land_at_screw_hole_6() -> None:
+    model, _ = scene(Fault(name="gasket.torn", value=0.018))
+    lands = [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == model.body("gasket_lands").id]
+    assert [bool(model.geom_contype[land]) for land in lands] == [True] * 5 + [False]
+    mesh, geom = model.mesh("gasket"), int(np.flatnonzero(model.geom_dataid == model.mesh("gasket").id)[0])
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, model.geom_quat[geom])
+    start = int(mesh.vertadr[0])
+    sheet = (
+        model.mesh_vert[start : start + int(mesh.vertnum[0])] @ turn.reshape(3, 3).T + model.geom_pos[geom]
+    )
+    assert np.abs(sheet[:, :2] - screw_holes()[5]).max(axis=1).min() == pytest.approx(0.009, abs=1e-5)
 
 
 def test_the_seventh_screw_can_be_missing_too() -> None:

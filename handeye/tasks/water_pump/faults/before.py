@@ -14,6 +14,7 @@ import numpy as np
 
 from handeye.core.errors import (
     FEATURES_NOT_SEEN,
+    GASKET_WRONG,
     JOINT_LIMIT,
     NO_SOLUTION,
     NOTHING_HELD,
@@ -139,6 +140,11 @@ def _gasket() -> Iterator[PartFault]:
         "gasket.reversed", "The gasket lies the wrong way round, turned by 180 degrees.",
         lambda spec, _: _reverse(spec, part, middle),
         ExpectedDetection(calls=(detect.GASKET_LOST,)),
+    )  # fmt: skip
+    yield _fault(
+        "gasket.torn", "A square with this side is torn off the gasket around screw hole 6.", _tear,
+        ExpectedDetection(errors=(GASKET_WRONG,), calls=(detect.NOT_ON,)),
+        Size(unit="mm", usual=18.0, limits=(0.0, 30.0)),
     )  # fmt: skip
 
 
@@ -341,6 +347,17 @@ def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
         ball.size[0] *= factor
     for hole in gasket.sites:
         hole.pos[2] *= factor
+
+
+def _tear(spec: mujoco.MjSpec, side: float) -> None:
+    """Remove a square with the side `side` (m) from the gasket, with the screw hole in its middle and its land."""
+    from handeye.tasks.water_pump.scene.solids import TORN_HOLE, gasket  # slow to import, and rarely needed
+
+    vertices, triangles = gasket(sum(site.name.startswith("gasket_hole") for site in spec.sites), side)
+    sheet = spec.mesh("gasket")
+    sheet.uservert, sheet.userface = vertices.ravel().tolist(), triangles.ravel().tolist()
+    land = spec.body("gasket_lands").geoms[TORN_HOLE]
+    land.contype = land.conaffinity = 0
 
 
 def _slippery(shape: str, spec: mujoco.MjSpec, _: float) -> None:

@@ -32,7 +32,7 @@ _TRIED: Final = {
     "pin": ("1.missing", "1.dropped", "2.thick", "1.removed"),
     "hole": ("2.blocked", "3.blocked"),
     "thread": ("1.scarred", "1.stripped", "3.crosses", "6.full"),
-    "gasket": ("missing", "doubled", "off.x", "turned", "dropped", "reversed", "removed"),
+    "gasket": ("missing", "doubled", "off.x", "turned", "dropped", "reversed", "torn", "removed"),
     "top": ("missing", "off.y", "tilted", "dropped", "reversed", "removed"),
     "screw": ("3.missing", "1.burred", "2.slotless", "2.loose", "4.loosened", "5.removed"),
     "rotor": ("jammed", "stops", "turned"),

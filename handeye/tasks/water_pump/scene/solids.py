@@ -20,6 +20,7 @@ from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, 
 Surface = tuple[Array, NDArray[np.int32]]  # vertices, shape (n, 3), m, and triangles, shape (m, 3)
 
 _ROUND = 96
+TORN_HOLE = 5  # index of the screw hole around which a torn gasket is missing
 
 
 def disc(radius: float, x: float = 0.0, y: float = 0.0, segments: int = _ROUND) -> CrossSection:
@@ -107,9 +108,9 @@ def plate() -> Surface:
 
 
 @cache
-def gasket(screws: int) -> Surface:
+def gasket(screws: int, torn: float = 0.0) -> Surface:
     """Return the surface of the gasket. Its large holes are slightly wider than those of the base, and have
-    flats that the fingers grip.
+    flats that the fingers grip. A square with the side `torn` (m) is missing around screw hole 6.
     """
     d = dimensions()
     over, half = d("gasket.hole_oversize") / 2, d("gasket.web") / 2
@@ -119,6 +120,9 @@ def gasket(screws: int) -> Surface:
     section = outline() - (first + second - web)
     for x, y in screw_holes(screws):
         section -= disc(d("gasket.screw_hole_radius"), x, y, 32)
+    if torn:
+        x, y = screw_holes(screws)[TORN_HOLE]
+        section -= rectangle(x - torn / 2, y - torn / 2, x + torn / 2, y + torn / 2)
     return surface(extruded(section, 0.0, d("gasket.thickness")))
 
 
