@@ -19,7 +19,10 @@ BOX: Final = 0.050  # m: half the inner side of a box
 TRAY: Final = (0.060, 0.090)  # m: half the inner sides of a large box, along x and y
 HIGH: Final = 0.030  # m: height of the walls of a box, and of the rim of the hopper, over the table
 DEEP: Final = 0.080  # m: height of walls that a part which is let go between them cannot leave
-_THIN: Final = 0.002  # m: half the thickness of walls
+THIN: Final = 0.002  # m: half the thickness of walls
+THICK: Final = (
+    0.005  # m: half the thickness of walls into which the hand may press a part with its full force
+)
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
@@ -35,12 +38,15 @@ def solve_densely(spec: mujoco.MjSpec) -> None:
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
 
 
-def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, high: float = HIGH) -> None:
+def add_hopper(
+    spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, high: float = HIGH, thick: float = THIN
+) -> None:
     """Add the hopper at a place of the scene (m), by default under the hand when the x and y slides are at 0. A part
     that slides in the hopper has the friction of the hopper, not its own.
 
     Args:
         high: height of its walls over the table, m.
+        thick: half the thickness of its walls and slopes, m.
     """
     hopper = spec.worldbody.add_body(name="hopper", pos=[*place, 0])
 
@@ -53,18 +59,18 @@ def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, high
     plate([HALF, HALF, FLOOR / 2], [0, 0, FLOOR / 2], [1, 0, 0, 0])
     run = RIM - HALF
     middle, high = HALF + run / 2, FLOOR + run / 2 * tan(SLOPE)
-    sunk = middle + _THIN * sin(SLOPE), high - _THIN * cos(SLOPE)  # so that the upper side lies in the slope
+    sunk = middle + thick * sin(SLOPE), high - thick * cos(SLOPE)  # so that the upper side lies in the slope
     for way in (-1, 1):
         plate(
-            [run / 2 / cos(SLOPE), RIM, _THIN],
+            [run / 2 / cos(SLOPE), RIM, thick],
             [way * sunk[0], 0, sunk[1]],
             turned("y", -way * SLOPE).tolist(),
         )
         plate(
-            [RIM, run / 2 / cos(SLOPE), _THIN], [0, way * sunk[0], sunk[1]], turned("x", way * SLOPE).tolist()
+            [RIM, run / 2 / cos(SLOPE), thick], [0, way * sunk[0], sunk[1]], turned("x", way * SLOPE).tolist()
         )
-        plate([_THIN, RIM, high / 2], [way * (RIM + _THIN), 0, high / 2], [1, 0, 0, 0])
-        plate([RIM, _THIN, high / 2], [0, way * (RIM + _THIN), high / 2], [1, 0, 0, 0])
+        plate([thick, RIM, high / 2], [way * (RIM + thick), 0, high / 2], [1, 0, 0, 0])
+        plate([RIM, thick, high / 2], [0, way * (RIM + thick), high / 2], [1, 0, 0, 0])
 
 
 def add_boxes(spec: mujoco.MjSpec) -> None:
@@ -86,7 +92,7 @@ def add_bin_box(
     x, y = half
     for way in (-1, 1):
         for size, pos in (
-            ([_THIN, y, high / 2], [way * (x + _THIN), 0, high / 2]),
-            ([x, _THIN, high / 2], [0, way * (y + _THIN), high / 2]),
+            ([THIN, y, high / 2], [way * (x + THIN), 0, high / 2]),
+            ([x, THIN, high / 2], [0, way * (y + THIN), high / 2]),
         ):
             box.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=pos, rgba=_COLOURS[name], group=1)
