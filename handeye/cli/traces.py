@@ -142,7 +142,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} repeats exactly: {same}, byte for byte")
     else:
         why = elsewhere or (", with other versions" if changed else ", as on another kind of processor")
-        say(f"{file} repeats, but for rounding{why}: {same}; the first difference: {found.rounded}")
+        say(f"{file} repeats except for rounding{why}: {same}; the first difference: {found.rounded}")
     if trace.begins > 0:
         note(f"motions before {trace.begins:.2f} s are not in this trace and were not compared")
     return 0

@@ -61,7 +61,7 @@ class Listener(Mechanism[Printed]):
 
     def check(self, state: Printed) -> None:
         if len(state.lines) > _MOST:
-            raise BadFile("the program cannot have printed so many lines")
+            raise BadFile("the saved run has more lines of output than the program can print")
 
     def restore(self, state: Printed) -> None:
         self.heard = state

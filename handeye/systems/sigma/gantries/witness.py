@@ -71,7 +71,7 @@ class Witness(Mechanism[H], Generic[H]):
         if replace(state, **{name: getattr(self.heard, name) for name in self.growing}) != self.heard:
             raise BadFile("the board of the saved run held different pieces")
         if len(state.lines) > _MOST or any(len(line) > _LONGEST for line in state.lines):
-            raise BadFile("the program cannot have printed so many lines")
+            raise BadFile("the saved run has more lines of output than the program can print")
 
     def restore(self, state: H) -> None:
         self.heard = state
