@@ -25,9 +25,8 @@ from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
 
 SLIDING_STEPS: Final = 4.0  # rate, in tachometer steps, at which a joint certainly slides; chosen
-LEAST_PERIODS: Final = (
-    15  # servo periods of sliding in an average; chosen: torque rounding averages out to a quarter
-)
+LEAST_PERIODS: Final = 15
+"""Servo periods of sliding in an average. Chosen: torque rounding averages out to a quarter."""
 MAX_DRAG_RATIO: Final = 2.0
 """Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in
 addition.

@@ -17,9 +17,8 @@ from handeye.cell.looks import LATENT, SEEN
 from handeye.core.errors import BadArgument
 from handeye.core.pose import Array, Pose, inverse, pose
 
-STRAIGHTENING: Final = (
-    1.33  # rad of turn in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen.
-)
+STRAIGHTENING: Final = 1.33
+"""Turn (rad) in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen."""
 _STRAIGHT: Final = 1e-6  # in rad or m: a lean smaller than this is set to zero
 
 

@@ -20,9 +20,8 @@ TRAY: Final = (0.060, 0.090)  # m: half the inner sides of a large box, along x 
 HIGH: Final = 0.030  # m: height of the walls of a box, and of the rim of the hopper, over the table
 DEEP: Final = 0.080  # m: height of walls that a part which is let go between them cannot leave
 THIN: Final = 0.002  # m: half the thickness of walls
-THICK: Final = (
-    0.005  # m: half the thickness of walls into which the hand may press a part with its full force
-)
+THICK: Final = 0.005
+"""Half the thickness (m) of walls into which the hand may press a part with its full force."""
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 

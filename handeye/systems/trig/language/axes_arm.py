@@ -24,9 +24,8 @@ from handeye.systems.trig.language.trig_arm import (
     TrigArm,
 )
 
-APPROACH: Final = (
-    5e-3  # m; the last part of a set-down is vertical, because a slanted path would push a stack over
-)
+APPROACH: Final = 5e-3
+"""The last part (m) of a set-down, which is vertical, because a slanted path would push a stack over."""
 DEEPER: Final = 2e-3
 """Distance below a place (m) within which the arm must find support when it puts an object back. Places are
 taught with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released, and have been

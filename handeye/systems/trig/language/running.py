@@ -19,9 +19,8 @@ from handeye.systems.trig.language.program import NOWHERE, HaltedMove, RecordedS
 from handeye.systems.trig.language.trig_arm import Halted, HoldOff, MissingContact, Obstacle, TrigArm
 from handeye.touch.senses import as_before, at_least, least_gap
 
-AGAIN: Final = (
-    1e-3  # m beyond its old place, up to which a contact is sought again; chosen: 1/12 of a block's height
-)
+AGAIN: Final = 1e-3
+"""Distance (m) beyond its old place up to which a contact is sought again. Chosen: 1/12 of the height of a block."""
 Stop = Literal["halted"] | Obstacle
 _MIN_MOTION: Final = 1e-6  # m; a shorter step has no direction
 
