@@ -154,6 +154,7 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
     """Check before closing that no switch is closed. If a finger touches an object, the hand first opens a little."""
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
+    drive.state.clear = drive.state.clear and already  # what is grasped stands on something
     if already or not any(_touch(run)):
         return None
     _to_gap(run, drive.sensed.gap + FREE_OPENING)

@@ -16,7 +16,7 @@ from handeye.core.pose import Array, Pose, translated
 from handeye.core.record import Vector3
 from handeye.execution.compliance import Course
 from handeye.execution.context import Action, ExecutionContext
-from handeye.execution.servo_loop import Outcome
+from handeye.execution.servo_loop import REACHED, Outcome
 from handeye.execution.state import DriveState, Fault, vector
 from handeye.planning.motions import (
     Unreachable,
@@ -129,6 +129,7 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
         outcome = run.drive.comply(_course(run, operation), guard)
     run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
     run.drive.state.in_air = False
+    run.drive.state.clear = outcome == REACHED and not (operation.guards or operation.complies)
     failed = _finish(run, outcome, guards) or _turned_hard(run, guards)
     stood = distance - run.state.travel > run.arm.servo.short
     if failed is not None and failed.number == errors.NO_TORQUE and stood:
@@ -168,7 +169,7 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     guards = run.watching(operation.guards)
     _report_faint(run, guards, along[0])
     outcome = run.drive.follow(samples, monitor(guards), along)
-    run.drive.state.in_air = False
+    run.drive.state.in_air = run.drive.state.clear = False
     return _finish(run, outcome, guards)
 
 

@@ -166,8 +166,11 @@ class ServoLoop(Servo):
         The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand
         that is stopped lies behind its set-points from that point on; a hand on which a force acts is displaced all
         the way.
+
+        The torques are compared with the arm's weight only if the hand is clear of all objects when the motion
+        begins. After a guarded motion, for example, a held pin may stand in a hole, which then bears weight.
         """
-        held = not self.state.in_air and off_zero(self.state.wrench[:3])  # it had pressed on an object
+        clear, self.state.clear = self.state.clear, False
         self.state.in_air = False
         taken: list[Exertion] = []
         outcome = yield from self.following(samples, guard, direction, taken=taken)
@@ -179,9 +182,10 @@ class ServoLoop(Servo):
         elif isinstance(outcome.cause, HandAstray | JointBehind) and self.state.load <= LIGHT:
             first_half = taken[: (len(samples) + 1) // 2]  # long before the hand met anything
             outcome = self._dragging(first_half, outcome.cause.joint) or outcome
-        if outcome == REACHED and taken and self.state.links is not None and not held:
+        if outcome == REACHED and taken and self.state.links is not None and clear:
             outcome = self._off_balance(taken) or REACHED
         self.state.in_air = outcome == REACHED
+        self.state.clear = outcome == REACHED and guard is None
         return outcome
 
     def complying(self, course: Course, guard: Monitor | None) -> Motion[Outcome]:

@@ -156,6 +156,10 @@ class DriveState(MutableRecord, kw_only=True):
     jump: Disagreement | None = None
     """A jump of a reading since the last motion. None once a motion has reported it."""
     in_air: bool = False  # the last motion was a MOVE without contact
+    clear: bool = True
+    """Nothing should touch the hand or what it holds: the last motion was a MOVE or CHANGE that was to meet nothing
+    and reached its end, and nothing has been grasped since.
+    """
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     """External wrench on the hand in W after taring: force (N) and moment (N m), shape (6,)."""

@@ -240,6 +240,44 @@ def test_what_leans_on_the_hand_after_a_motion_that_met_it_is_no_matter_of_the_f
     assert run.errors == [errors.NO_FORCE]
 
 
+PRESS = "STOP [0 0 -50]\nCHANGE [0 0 -1] 1\nSKIPN 23\nWHERE"
+
+
+def bearing(script: str) -> FakeRun:
+    """A script carried out by an arm that knows its weight, while something bears 15 N of this weight."""
+    run = pushed(fake_run(f"TRANS U [25 38 7 90 90 0]\n{script}"), (0, 0, 15))
+    run.cell.hand.thickness = lambda _: 0.5 * INCH
+    run.executor.run.drive.state.links = np.ones(6)
+    return run.go()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "before",
+    [
+        PRESS,  # it meets nothing: a held pin is now in a hole
+        "FREE [1 1 0]\nCHANGE [0 0 1] 1",
+        "CHANGE [0 0 1] 1\nTURN T 5",
+        "OPEN 2\nCHANGE [0 0 1] 1\nCLOSE .4",  # what is grasped stands on something
+    ],
+)
+def test_what_may_bear_the_hand_when_a_motion_begins_is_not_taken_for_its_weight(before: str) -> None:
+    run = bearing(f"{before}\nMOVE T")
+    assert run.steps[-1] == "MOVE T"
+    assert run.errors in ([], [errors.NO_FORCE])
+    assert run.executor.state.drive.weights is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "before", ["CHANGE [0 0 1] 1", f"{PRESS}\nMOVE U", "OPEN 2\nCLOSE .4\nCHANGE [0 0 1] 1\nCLOSE .4"]
+)
+def test_from_the_air_it_is_taken_for_a_weight_that_has_changed(before: str) -> None:
+    run = bearing(f"{before}\nMOVE T")
+    assert run.errors[-1] == errors.FORCE_WRONG
+    assert "the weights of the links, as the drives feel them, have changed" in run.told
+
+
 # -- the joints -----------------------------------------------------------------------------------------
 
 

@@ -128,7 +128,8 @@ def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> 
     state, undone = run.state, run.state.done[first:]
     for memory in reversed(remembered):
         remember(state, memory)
-    state.drive.load, state.drive.tool, state.drive.in_air = undone[0].load, 0.0, False
+    state.drive.load, state.drive.tool = undone[0].load, 0.0
+    state.drive.in_air = state.drive.clear = False
     if state.lets_go is not None and state.lets_go >= first:
         state.lets_go = None
     del state.done[first:]
