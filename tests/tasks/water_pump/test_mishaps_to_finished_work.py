@@ -119,3 +119,18 @@ def test_a_jammed_rotor_turns_neither_way() -> None:
 )
 def test_what_is_taken_from_its_place_lies_on_the_tray(fault: str, part: str) -> None:
     assert cell_with(fault).truth.data.body(part).xpos[2] < -0.2
+
+
+@pytest.mark.parametrize(
+    ("fault", "body", "height"), [("rotor.lifted", "rotor", 0.004), ("driver.raised", "driver", 0.006)]
+)
+def test_what_has_come_out_of_its_place_stays_there_and_from_a_state_that_was_kept(
+    fault: str, body: str, height: float
+) -> None:
+    sound = build_cell(PumpWorld.draw(WorldSpec(seed=3)), camera="ray")
+    kept, cell = cell_with(fault).capture(), cell_with(fault)
+    cell.restore(kept)
+    for each in (sound, cell):
+        each.advance(5.0)
+    risen = cell.truth.data.body(body).xpos[2] - sound.truth.data.body(body).xpos[2]
+    assert risen == pytest.approx(height, abs=2e-4)

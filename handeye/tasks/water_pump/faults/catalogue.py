@@ -35,8 +35,8 @@ _TRIED: Final = {
     "gasket": ("missing", "doubled", "off.x", "turned", "dropped", "reversed", "torn", "removed"),
     "top": ("missing", "off.y", "tilted", "dropped", "reversed", "removed"),
     "screw": ("3.missing", "1.burred", "2.slotless", "2.loose", "4.loosened", "5.removed"),
-    "rotor": ("jammed", "stops", "turned"),
-    "driver": ("fallen",),
+    "rotor": ("jammed", "stops", "turned", "lifted"),
+    "driver": ("fallen", "raised"),
     "arm": ("pushed.y",),
 }  # by what is broken; of several similar joints, pins, screws or holes, only one is tried
 MATRIX: Final = tuple(f"{broken}.{how}" for broken, hows in _TRIED.items() for how in hows)

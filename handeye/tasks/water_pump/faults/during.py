@@ -174,7 +174,10 @@ class Mishaps(Mechanism[MishapsState]):
 
     name = "mishaps"
     kind = MishapsState
-    changes = ("light_diffuse", "dof_frictionloss", "jnt_limited", "jnt_range", "jnt_solref", "jnt_solimp")
+    changes = (
+        "light_diffuse", "dof_frictionloss", "dof_solref", "dof_solimp", "jnt_limited", "jnt_range", "jnt_solref",
+        "jnt_solimp", "body_pos",
+    )  # fmt: skip
 
     def __init__(self, scene: Scene, faults: Sequence[Fault]) -> None:
         self._scene, self.due = scene, due(faults)

@@ -1,5 +1,5 @@
-"""Mishaps to finished work: a screw comes loose, a part or tool is taken away, or the rotor jams or meets a
-stop.
+"""Mishaps to finished work: a screw comes loose, a part or tool is taken away or raised, or the rotor jams or meets
+a stop.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,6 +20,7 @@ LAST_STAGE: Final = 12
 LATER_S: Final = 150.0
 """Time after the last stage began (s). The screws have then been driven again, but no picture has been taken."""
 JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
+STICKING_N: Final = 50.0  # vertically; more than the weight of the screwdriver and fingers that press on it
 _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 
 
@@ -95,6 +96,30 @@ def _turn(angle: float) -> Mishap:
     return Mishap(act)
 
 
+def _lift(height: float) -> Mishap:
+    """Return a mishap in which the rotor comes out of its bearing by a height (m)."""
+
+    def act(scene: Scene, _: MishapState) -> bool:
+        _rotor(scene)
+        scene.model.body_pos[scene.model.body("rotor").id, 2] += height
+        return True
+
+    return Mishap(act)
+
+
+def _raise(height: float) -> Mishap:
+    """Return a mishap in which the screwdriver sticks in its rack, too high by a height (m)."""
+
+    def act(scene: Scene, _: MishapState) -> bool:
+        scene.shift("driver", np.array([0.0, 0.0, height]))
+        dof = scene.dofs("driver").start + 2
+        scene.model.dof_frictionloss[dof] = STICKING_N
+        scene.model.dof_solref[dof], scene.model.dof_solimp[dof] = METAL
+        return True
+
+    return Mishap(act)
+
+
 def _with_turns(screw: int) -> Callable[[float], Mishap]:
     return lambda turns: Mishap(partial(_loose, screw, turns))
 
@@ -159,6 +184,10 @@ def _rotors() -> Iterator[MishapFault]:
     )
     meaning = "A person turns the rotor by this angle."
     yield declared("rotor.turned", meaning, _turn, expected, size, stage=LAST_STAGE)
+    out = ExpectedDetection(calls=(detect.UNSEATED_ROTOR,))
+    size = Size(unit="mm", usual=4.0, limits=(2.0, 10.0))
+    meaning = "The rotor has come out of its bearing by this distance."
+    yield declared("rotor.lifted", meaning, _lift, out, size, stage=LAST_STAGE)
 
 
 def _taken() -> Iterator[MishapFault]:
@@ -174,6 +203,9 @@ def _taken() -> Iterator[MishapFault]:
     yield declared(
         "driver.fallen", meaning, always(Mishap(partial(_take, "driver"))), expected, stage=LAST_STAGE
     )
+    size = Size(unit="mm", usual=6.0, limits=(4.5, 10.0))
+    meaning = "The screwdriver sticks in its rack, too high by this distance."
+    yield declared("driver.raised", meaning, _raise, expected, size, stage=LAST_STAGE)
     for part, expected, stage in (
         (
             "gasket",
