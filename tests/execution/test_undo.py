@@ -140,6 +140,7 @@ def test_a_pin_that_was_taken_out_goes_back_into_its_holder() -> None:
 def test_the_program_can_go_on_from_its_beginning_with_nothing_remembered() -> None:
     state = back().context.state
     assert (state.at, state.saved, state.counters, state.grasping, state.done) == (0, {}, {}, False, [])
+    assert not state.drive.clear  # the hand may be where it once met something
     again = Runner(back().checkpoint())
     while not again.ended:
         again.step()
