@@ -39,8 +39,15 @@
       byId(`clock-${name}`).textContent = told(at);
       byId(`line-${name}`).textContent = legs[leg][3 + side] || "waits";
       players[side]?.at(at);
+      felt(name, players[side], at);
     });
     slider.setAttribute("aria-valuetext", sides.map((name) => byId(`clock-${name}`).textContent).join(", "));
+  }
+
+  function felt(name, player, time) {
+    const label = player ? player.senses.label(time) : "";
+    byId(`hand-label-${name}`).textContent = label;
+    byId(`hand-label-${name}`).hidden = !label;
   }
 
   // -- going through it ---------------------------------------------------------------------------------
@@ -98,7 +105,9 @@
   async function drawn(name) {
     const canvas = byId(`view-${name}`);
     canvas.hidden = false;
-    return canvas.player = await createPlayer(canvas, await unpacked(`scene-${name}`), await unpacked(`tracks-${name}`), {});
+    const player = await createPlayer(canvas, await unpacked(`scene-${name}`), await unpacked(`tracks-${name}`), {});
+    player.overlay(byId(`senses-${name}`), JSON.parse(byId(`sensed-${name}`).textContent));
+    return canvas.player = player;
   }
 
   async function draw() {

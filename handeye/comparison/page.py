@@ -41,6 +41,7 @@ from handeye.report import player
 from handeye.report.animation import Animation
 from handeye.report.page.document import head, packed, resource
 from handeye.report.page.moments import json_markup
+from handeye.report.page.overlay import overlay
 from handeye.report.recorded import RecordedRun
 
 _MARK: Final = "<!doctype html>\n<!-- handeye comparison -->\n"
@@ -69,6 +70,7 @@ def comparison_page(a: RecordedRun, b: RecordedRun, found: Comparison, animated:
             for (_, side), shown in zip(SIDES, views, strict=False)
             for name, data in (("scene", shown.scene), ("tracks", shown.tracks))
         ),
+        *(overlay(run, f"sensed-{side}") for run, (_, side) in zip((a, b), SIDES, strict=True) if views),
         *(element("script", Markup(script)) for script in scripts),
     )
     name = printable(f"{a.trace.head.program} and {b.trace.head.program} compared")
@@ -152,7 +154,9 @@ def _side(letter: str, name: str) -> Markup:
     clock = element("output", id=f"clock-{name}", for_="time")
     line = element("span", id=f"line-{name}")
     caption = element("p", element("b", letter, " ", clock), line, class_="caption")
-    return element("div", element("div", canvas, class_="screen"), caption)
+    senses = element("canvas", id=f"senses-{name}", class_="senses", aria_hidden="true")
+    label = element("p", id=f"hand-label-{name}", class_="hand-label", hidden=True)
+    return element("div", element("div", canvas, senses, label, class_="screen"), caption)
 
 
 def moments(way: Course) -> Markup:

@@ -19,6 +19,7 @@ const live = (() => {
     try {
       const drawn = await createPlayer(byId("view"), await unpacked("scene"), await unpacked("tracks"), {});
       drawn.pose = (body) => poses.get(body) ?? null;
+      drawn.overlay(byId("senses"), { tools: facts.tools });
       byId("views").replaceChildren(...drawn.views.map(viewButton));
       player = byId("view").player = drawn;
     } catch (error) {
@@ -49,7 +50,13 @@ const live = (() => {
       if (pose[2] >= facts.lowest) poses.set(body, pose); else poses.delete(body);
     }
     byId("figures").textContent = [`${time.toFixed(2)} s`, ...felt(gap, force), ...shown(sensed)].join(", ");
+    if (player) push(time, force);
     player?.at(time);
+  }
+
+  /** Draw an arrow for the force of the hand on its surroundings, in N. */
+  function push(time, force) {
+    player.senses.feel(time, force.some(Number.isNaN) ? null : force);
   }
 
   function shown(sensed) {

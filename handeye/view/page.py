@@ -16,6 +16,7 @@ from handeye.report.page.moments import json_markup
 from handeye.report.player import scene, tracks
 from handeye.runs.runner import Runner
 from handeye.runs.systems import written
+from handeye.tasks.interface import AnyTask
 from handeye.trace.messages import Poses
 from handeye.view.moment import FIGURES, Newest
 
@@ -51,6 +52,9 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
         "joints": len(newest.frames.joints),
         "channels": [(name, unit, name not in shown) for name, unit in newest.parts],
         "lowest": 0.0 if model is None else scene.lowest(model),
+        "tools": []
+        if model is None or runner.task.force_axes != AnyTask.force_axes
+        else scene.tool_points(model),
         **face.facts,
     }
     scripts = [
@@ -102,7 +106,12 @@ def _viewer(face: Face, *, seen: bool) -> Markup:
     )  # fmt: skip
     figures = element("p", id="figures", class_="caption")
     views = element("div", id="views", role="group", aria_label="view", class_="views")
-    view = [element("div", canvas, class_="screen"), element("p", id="instead", hidden=True)] if seen else []
+    senses = element("canvas", id="senses", class_="senses", aria_hidden="true")
+    view = (
+        [element("div", canvas, senses, class_="screen"), element("p", id="instead", hidden=True)]
+        if seen
+        else []
+    )
     return element(
         "div",
         *view,

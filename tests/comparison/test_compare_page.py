@@ -66,10 +66,17 @@ def test_nothing_keeps_people_who_do_not_see_or_point_from_it(run: RecordedRun) 
 
 def test_both_views_stand_under_one_slider(run: RecordedRun) -> None:
     page = tree(page_of(run, run))
-    assert [node.attributes["id"] for node in page.all("canvas")] == ["view-a", "view-b"]
+    assert [node.attributes["id"] for node in page.all("canvas")] == [
+        "view-a",
+        "senses-a",
+        "view-b",
+        "senses-b",
+    ]
     assert len([node for node in page.all("input") if node.attributes["type"] == "range"]) == 1
     for name in ("scene-a", "tracks-a", "scene-b", "tracks-b"):
         assert page.one(name).attributes["type"] == "application/octet-stream"
+    for name in ("sensed-a", "sensed-b"):
+        assert json.loads(page.one(name).text)["tools"]
 
 
 def test_the_script_is_told_where_both_runs_stand(run: RecordedRun) -> None:

@@ -19,6 +19,7 @@ from handeye.report.facts.seen import lost_pictures, seen_pictures
 from handeye.report.facts.told import told
 from handeye.report.page.felt import How, channels_section, felt_section
 from handeye.report.page.moments import moments
+from handeye.report.page.overlay import overlay
 from handeye.report.page.planned import planned_section
 from handeye.report.page.record import facts, record_section, world_quantities
 from handeye.report.page.referee import findings_table, referee_section
@@ -50,12 +51,18 @@ def report_page(run: RecordedRun, photographs: Album, animated: Animation | None
         contents(sections),
         element("main", *sections),
         moments(run, came, heard),
-        *([] if animated is None else [packed("scene", animated.scene), packed("tracks", animated.tracks)]),
+        *([] if animated is None else _animated(run, animated)),
         *(element("script", Markup(script)) for script in scripts),
     )
     name = printable(f"{run.trace.head.program}: {title(run, came)}")
     page = element("html", head(name, resource("page.css") + widths(run), scripts), body, lang="en")
     return (MARK + page + "\n").encode()
+
+
+def _animated(run: RecordedRun, animated: Animation) -> Iterator[Markup]:
+    yield packed("scene", animated.scene)
+    yield packed("tracks", animated.tracks)
+    yield overlay(run)
 
 
 def _sections(run: RecordedRun, photographs: Album, *, failed: bool) -> Iterator[Markup]:

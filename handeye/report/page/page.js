@@ -6,7 +6,8 @@
   const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
   const photographs = [...screen.querySelectorAll("figure")];
   const bars = [...byId("stages").children];
-  let now = run.show, playing = false, last = 0, lit = null, player = null;
+  const pictures = [...document.querySelectorAll("#seen figure")];
+  let now = run.show, playing = false, last = 0, lit = null, player = null, senses = null, televised = null;
 
   // -- finding what belongs to a moment --------------------------------------------------------------------
 
@@ -40,6 +41,31 @@
     light(step < 0 ? null : byId(run.steps[step][1]));
     caption(stage);
     if (player) player.at(now); else photograph();
+    if (senses) sense();
+  }
+
+  // -- what the hand sensed, and the last picture, over the view ---------------------------------------------
+
+  function sense() {
+    const label = senses.label(now);
+    byId("hand-label").textContent = label;
+    byId("hand-label").hidden = !senses.shown || !label;
+    televise(pictures.filter((figure) => Number(figure.dataset.time) <= now + 1e-6).at(-1));
+  }
+
+  /** Show a picture of the camera in the corner of the view, with its age. */
+  function televise(figure) {
+    const frame = byId("television");
+    frame.hidden = !senses.shown || !figure;
+    if (!figure) return;
+    if (figure !== televised) {
+      const name = figure.querySelector("b").textContent.split(",")[0];
+      frame.replaceChildren(figure.querySelector(".picture").cloneNode(true), document.createElement("p"));
+      frame.dataset.name = name;
+      televised = figure;
+    }
+    const age = now - Number(figure.dataset.time);
+    frame.lastChild.textContent = `${frame.dataset.name}, ${age < 1 ? "now" : `${told(age)} ago`}`;
   }
 
   /** Highlight the current line, and scroll the script until it is visible. The page itself does not scroll. */
@@ -145,6 +171,7 @@
       byId("instead").hidden = false;
       return;
     }
+    senses = player.overlay(byId("senses"), JSON.parse(byId("sensed").textContent));
     choose(player.views.includes(run.view) ? run.view : player.views[0]);
     show(now);
     byId("run").classList.add("drawn");
@@ -164,6 +191,7 @@
     "[": () => faster(-1),
     "]": () => faster(1),
     m: () => byId("marks")?.click(),
+    s: () => byId("sensing").click(),
   };
 
   function pressed(event) {
@@ -182,6 +210,12 @@
   play.addEventListener("click", () => go(!playing));
   slider.addEventListener("input", () => show(Number(slider.value)));
   slider.addEventListener("change", keep);
+  byId("sensing").addEventListener("change", (event) => {
+    if (!senses) return;
+    senses.shown = event.target.checked;
+    senses.draw();
+    sense();
+  });
   addEventListener("keydown", pressed);
   addEventListener("hashchange", () => {
     const time = addressed();

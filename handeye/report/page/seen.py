@@ -70,7 +70,9 @@ def figure(seen: SeenPicture, name: str) -> Markup:
         f" through the {seen.lens / MILLIMETRE:.0f} mm lens",
         *(element("span", line) for line in told),
     )
-    return element("figure", element("div", image, drawn, class_="picture"), caption)
+    return element(
+        "figure", element("div", image, drawn, class_="picture"), caption, data_time=f"{seen.time:.2f}"
+    )
 
 
 def _told(finding: Finding) -> str:

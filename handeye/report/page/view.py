@@ -18,6 +18,7 @@ _KEYS: Final = (
     ("shift ← →", "a stage"),
     ("[ ]", "slower, faster"),
     ("1 2 …", "views"),
+    ("s", "show what the hand sensed"),
 )
 
 
@@ -29,10 +30,13 @@ def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
         aria_label="the cell at the displayed time; arrow keys turn the view, plus and minus zoom",
     )  # fmt: skip
     photographs = element("div", *_photographs(strip), id="strip", class_="strip")
+    sensed = element("canvas", id="senses", class_="senses", aria_hidden="true")
+    told = element("p", id="hand-label", class_="hand-label", hidden=True)
+    television = element("div", id="television", class_="television", hidden=True)
     picked = element("p", id="picked", role="status", hidden=True)
     viewer = element(
         "div",
-        element("div", canvas, photographs, picked, class_="screen"),
+        element("div", canvas, sensed, photographs, told, television, picked, class_="screen"),
         element("p", id="caption", class_="caption", hidden=True),
         _bar(run),
         _controls(run),
@@ -99,4 +103,8 @@ def _controls(run: RecordedRun) -> Markup:
     options = (element("option", f"{speed} ×", value=speed, selected=speed == USUAL) for speed in SPEEDS)
     speed = element("select", *options, id="speed", aria_label="speed", aria_keyshortcuts="[ ]")
     views = element("div", id="views", role="group", aria_label="view", class_="views")
-    return element("div", play, time, now, speed, views, id="controls", class_="controls", hidden=True)
+    box = element("input", type="checkbox", id="sensing", checked=True, aria_keyshortcuts="s")
+    senses = element("label", box, " senses", title="force and path of the hand, searches, pictures: s")
+    return element(
+        "div", play, time, now, speed, views, senses, id="controls", class_="controls", hidden=True
+    )

@@ -20,6 +20,11 @@ browser's setting for reduced motion. `exposures`: the number of pictures that a
 quaternion w, x, y, z, or null if it is hidden |
 | `pick(x, y)` | the displayed name of the body at a point of the canvas (CSS pixels), or null |
 | `onpick` | null, or a function `(name, x, y)` that is called at each click |
+| `projection(width, height)` | a function from a place in the world (m) to its point in a picture of this size (CSS
+pixels), or to null if the place is behind the eye |
+| `overlay(canvas, sensed)` | draw what the hand sensed on a second canvas over the view (`report/page/overlay.py` makes
+`sensed`); returns an object with `force(time)`, `holds(time)`, `label(time)`,
+`feel(time, force)` for live cells, and the switch `shown` |
 | `settled()` | a promise that is fulfilled when the averaged picture is shown |
 | `frames` | number of pictures drawn so far |
 | `destroy()` | release canvas and graphics memory |
@@ -43,7 +48,8 @@ from handeye.trace.trace import Trace
 __all__ = ["scene_bytes", "script", "shown_poses", "tracks_bytes"]
 
 MODULES: Final = (
-    "geometry", "packed", "tracks", "shaders", "graphics", "bodies", "shadows", "camera", "picture", "hands", "player",
+    "geometry", "packed", "tracks", "shaders", "graphics", "bodies", "shadows", "camera", "picture", "hands", "senses",
+    "player",
 )  # fmt: skip
 """Modules of the script, each after the modules from which it imports."""
 SOURCES: Final = Path(__file__).with_name("script")

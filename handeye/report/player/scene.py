@@ -243,9 +243,7 @@ def views(model: Any) -> list[dict[str, Any]]:
     found = [_camera(model, number) for number in range(model.ncam)]
     if not any(view["name"] == ROOM for view in found):
         found.append(_overview(model))
-    found += [
-        _hand(model, site) for site in range(model.nsite) if model.site(site).name.split("/")[-1] == _TOOL
-    ]
+    found += [_hand(model, site) for site in _tools(model)]
     rank = {name: number for number, name in enumerate(_ORDER)}
     return sorted(found, key=lambda view: rank.get(view["name"], len(rank)))
 
@@ -274,6 +272,21 @@ def _overview(model: Any) -> dict[str, Any]:
     """Return a view of the whole scene, for scenes that have no camera for it."""
     middle = np.array(model.stat.center)
     return _view(ROOM, middle + model.stat.extent * np.array([1.2, 0.7, 0.8]), middle, _LENS)
+
+
+def tool_points(model: Any) -> list[dict[str, Any]]:
+    """Return the tool centre point of each hand in a scene: the name of its `body`, and the position `at` in the frame
+    of this body (m).
+    """
+    return [
+        {"body": model.body(model.site_bodyid[site]).name, "at": rounded(model.site_pos[site])}
+        for site in _tools(model)
+    ]
+
+
+def _tools(model: Any) -> list[int]:
+    """Return the sites at the tool centre points."""
+    return [site for site in range(model.nsite) if model.site(site).name.split("/")[-1] == _TOOL]
 
 
 def _hand(model: Any, site: int) -> dict[str, Any]:

@@ -5,6 +5,7 @@ import { Graphics } from "./graphics.js";
 import { listen } from "./hands.js";
 import { unpacked } from "./packed.js";
 import { Picture } from "./picture.js";
+import { Senses } from "./senses.js";
 import { Shadows } from "./shadows.js";
 import { Tracks } from "./tracks.js";
 
@@ -18,7 +19,7 @@ const MOST = 2; // points per CSS pixel, at most
 
 class Player {
   constructor(canvas, scene, tracks, levels, { still, exposures = 32 }) {
-    Object.assign(this, { canvas, scene, tracks, levels, exposures, onpick: null, frames: 0 });
+    Object.assign(this, { canvas, scene, tracks, levels, exposures, onpick: null, senses: null, frames: 0 });
     this.still = still ?? matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.detail = 1;
     this.drafts = 0;
@@ -62,7 +63,23 @@ class Player {
     this.time = seconds;
     let changed = false;
     for (const name of this.names) changed = this.bodies.put(name, this.pose(name, seconds)) || changed;
-    if (changed) this.wake();
+    if (changed) this.wake(); else this.senses?.draw();
+  }
+
+  // Draw over the view, on a canvas of its own, what the hand sensed.
+  overlay(canvas, sensed) {
+    this.senses = new Senses(canvas, this, sensed);
+    this.wake();
+    return this.senses;
+  }
+
+  // A function from a place (m) to its point in a picture of this size, or to null behind the eye.
+  projection(width, height) {
+    const { matrix: m } = this.camera.seen(width, height);
+    return ([x, y, z]) => {
+      const [right, up, , far] = [0, 1, 2, 3].map(k => m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k]);
+      return far > 0 ? [(1 + right / far) * width / 2, (1 - up / far) * height / 2] : null;
+    };
   }
 
   view(name) {
@@ -119,6 +136,7 @@ class Player {
     this.camera.move(now);
     if (this.changed) this.drawDraft(now);
     else this.drawFine(now);
+    this.senses?.draw();
     this.frames++;
     if (this.camera.glide) this.wake();
   }

@@ -4,7 +4,7 @@ const UNIT = 0x1fff; // the number that stands for 1 in a quaternion
 const SAME = 1e-3; // resolution of times, as a fraction of a servo period
 
 // Return how many of these increasing numbers are at most `value`.
-function countUpTo(numbers, value) {
+export function countUpTo(numbers, value) {
   let low = 0, high = numbers.length;
   while (low < high) {
     const middle = (low + high) >> 1;
