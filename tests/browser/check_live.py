@@ -82,7 +82,7 @@ def test_a_run_is_driven_from_a_page(browser: Browser, tmp_path: Path) -> None:
         page = opened(browser, address)
         page.wait(f"/12 MOVE NEAR_LEFT/.test({TOLD})")
         press(page, "Step")
-        page.wait(f"/`step` was not carried out/.test({TOLD})")
+        page.wait(f"/`step` was ignored/.test({TOLD})")
         press(page, "Pause")
         page.wait(f"/paused on request/.test({TOLD})")
         before = page.evaluate(HERE)
