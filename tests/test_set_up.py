@@ -5,11 +5,12 @@ import time
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 
 ROOT = Path(__file__).parent.parent
-PIECES = ("run.py", "pyproject.toml", "requirements.lock", "requirements-dev.lock")
+PIECES = ("run.py", "pyproject.toml", "requirements.lock", "requirements-dev.lock", "requirements-docs.lock")
 
 
 def module_of(checkout: Path) -> ModuleType:
@@ -29,7 +30,7 @@ class Pip:
         self.asked: list[str] = []
         self.fails_at: str | None = None
 
-    def __call__(self, *words: str, line: object) -> tuple[int, str]:
+    def __call__(self, environment: object, *words: str, line: object) -> tuple[int, str]:
         self.asked.append(Path(words[-1]).name)
         failed = self.asked[-1] == self.fails_at
         return int(failed), "there is no network" if failed else "Collecting everything"
@@ -47,13 +48,13 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pip: Pip) -> ModuleTy
         (tmp_path / name).write_bytes((ROOT / name).read_bytes())
     module = module_of(tmp_path)
 
-    def make_environment() -> None:
-        module.PYTHON.parent.mkdir()
-        module.PYTHON.touch()
+    def make(environment: Any) -> None:
+        environment.python.parent.mkdir()
+        environment.python.touch()
 
     monkeypatch.setattr(module, "pip", pip)
-    monkeypatch.setattr(module, "make_environment", make_environment)
-    monkeypatch.setattr(module, "run", lambda command: 0)
+    monkeypatch.setattr(module, "make", make)
+    monkeypatch.setattr(module, "run", lambda *command: 0)
     return module
 
 
@@ -88,6 +89,26 @@ def test_the_tests_install_what_the_program_does_without(start: ModuleType, pip:
     assert pip.asked[2:] == ["requirements-dev.lock", start.ROOT.name]
 
 
+def test_the_site_has_an_environment_of_its_own(
+    start: ModuleType, pip: Pip, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[tuple[object, ...]] = []
+    monkeypatch.setattr(start, "run", lambda *command: ran.append(command) or 0)
+    assert start.main(["docs"]) == 0
+    assert pip.asked == ["requirements-docs.lock", start.ROOT.name]
+    assert ran == [([str(start.ROOT / "docs" / "make_site.py")], start.SITE_VENV)]
+    assert not start.VENV.folder.exists()
+
+
+def test_with_a_topic_docs_prints_the_page_of_the_topic(
+    start: ModuleType, pip: Pip, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[list[str]] = []
+    monkeypatch.setattr(start, "run", lambda command: ran.append(command) or 0)
+    assert start.main(["docs", "faults"]) == 0
+    assert (pip.asked[0], ran) == ("requirements.lock", [["-m", "handeye", "docs", "faults"]])
+
+
 def test_an_environment_that_was_left_half_made_is_made_anew(
     start: ModuleType, pip: Pip, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -96,18 +117,18 @@ def test_an_environment_that_was_left_half_made_is_made_anew(
     said = capfd.readouterr().err
     assert "could not install the packages that requirements.lock lists" in said
     assert said.endswith("pip said:\nthere is no network\n")
-    (start.VENV / "half").touch()
+    (start.VENV.folder / "half").touch()
     pip.fails_at = None
     assert start.main(["check"]) == 0
-    assert not (start.VENV / "half").exists()
+    assert not (start.VENV.folder / "half").exists()
 
 
 def test_an_environment_that_somebody_made_is_kept(start: ModuleType, pip: Pip) -> None:
-    start.VENV.mkdir()
-    start.make_environment()
-    (start.VENV / "theirs").touch()
+    start.VENV.folder.mkdir()
+    start.make(start.VENV)
+    (start.VENV.folder / "theirs").touch()
     assert start.main(["check"]) == 0
-    assert (start.VENV / "theirs").exists()
+    assert (start.VENV.folder / "theirs").exists()
 
 
 def test_an_interruption_says_what_comes_next(
@@ -156,7 +177,7 @@ def test_on_a_terminal_it_is_one_line_that_changes(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    with start.ProgressLine(2) as line:
+    with start.ProgressLine(".venv", 2) as line:
         line.heard("Collecting numpy==2.4\n")
         line.heard("  Downloading numpy-2.4.whl\n")
         time.sleep(0.3)
@@ -170,7 +191,6 @@ def test_on_a_terminal_it_is_one_line_that_changes(
 @pytest.mark.skipif(find_spec("pip") is None, reason="this environment was made without pip")
 def test_pip_speaks_only_if_it_fails(start: ModuleType, capfd: pytest.CaptureFixture[str]) -> None:
     start = module_of(ROOT)
-    start.PYTHON = sys.executable
-    code, said = start.pip("--version", line=start.ProgressLine(0))
+    code, said = start.pip(start.VENV, "--version", line=start.ProgressLine(".venv", 0))
     assert (code, said[:4]) == (0, "pip ")
     assert capfd.readouterr() == ("", "")

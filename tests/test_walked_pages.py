@@ -17,7 +17,7 @@ from handeye.runs.checkpoint_file import read_checkpoint
 from handeye.runs.runner import Runner
 
 DOCS = Path(__file__).parent.parent / "docs"
-TUTORIAL, WALK = DOCS / "language" / "tutorial.md", DOCS / "stepping.md"
+TUTORIAL, WALK, START = DOCS / "language" / "tutorial.md", DOCS / "stepping.md", DOCS / "start.md"
 BEGUN = "pin/checkpoints/0006-insert-it.checkpoint"
 """The checkpoint at which the session of the walk begins."""
 FOLLOWED = ("stages insertion_1973", "run insertion_1973", "trace show pin", "trace verify pin")
@@ -41,6 +41,15 @@ def test_the_tutorial_can_be_followed(command: Command, request: pytest.FixtureR
         return (0, err + out) if line.startswith("check ") else (code, out)
 
     kept(TUTORIAL, walked(TUTORIAL.read_text(encoding="utf-8"), run), request, shown=15)
+
+
+@pytest.mark.slow
+def test_the_first_five_minutes_can_be_followed(command: Command, request: pytest.FixtureRequest) -> None:
+    def run(line: str) -> tuple[int, str]:
+        return (0, "") if line.startswith("report ") else command(*shlex.split(line))[:2]
+
+    typed = walked(START.read_text(encoding="utf-8"), run)
+    kept(START, [each for each in typed if each.printed], request, shown=4)
 
 
 @pytest.mark.slow

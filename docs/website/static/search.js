@@ -1,0 +1,62 @@
+// Search the sections of the site for all words of a question. `SECTIONS` comes from search_index.js: for each
+// section its page, anchor, title of the page, heading, and text.
+
+const MOST = 50;
+const AROUND = 90; // characters of an excerpt on each side
+
+const plain = (text) => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+// a word of the text may go on after a word of the question, except after a number
+const beginning = (word) =>
+  new RegExp(`(?<![\\p{L}\\p{N}])${plain(word)}${/\d$/.test(word) ? "(?![\\p{L}\\p{N}])" : ""}`, "iu");
+
+function search(question) {
+  const words = question.trim().split(/\s+/).filter(Boolean).map(beginning);
+  if (words.length === 0) return [];
+  const phrase = beginning(question.trim().replace(/\s+/g, " "));
+  const rated = [];
+  for (const section of SECTIONS) {
+    const [, , title, heading, text] = section;
+    const whole = `${title}\n${heading}\n${text}`;
+    if (!words.every((word) => word.test(whole))) continue;
+    const every = (part) => words.every((word) => word.test(part));
+    const times = text.split(phrase).length - 1;
+    const density = times / (times + text.length / 500 + 1); // below 1
+    const rating =
+      16 * phrase.test(heading) + 8 * every(heading) + 4 * phrase.test(title) + 2 * every(title) + (times > 0) + density;
+    rated.push([rating, section]);
+  }
+  return rated.sort(([a], [b]) => b - a).map(([, section]) => [section, excerpt(section[4], [phrase, ...words])]);
+}
+
+function excerpt(text, patterns) {
+  const found = patterns.map((pattern) => pattern.exec(text)).find(Boolean);
+  if (!found) return [text.slice(0, 2 * AROUND), "", ""];
+  const [start, end] = [found.index, found.index + found[0].length];
+  const [first, last] = [Math.max(0, start - AROUND), Math.min(text.length, end + AROUND)];
+  const before = (first > 0 ? "… " : "") + text.slice(first, start);
+  const after = text.slice(end, last) + (last < text.length ? " …" : "");
+  return [before, text.slice(start, end), after];
+}
+
+function element(name, ...children) {
+  const made = document.createElement(name);
+  made.append(...children);
+  return made;
+}
+
+function result([[page, anchor, title, heading], [before, found, after]]) {
+  const link = element("a", heading === title ? title : `${title}: ${heading}`);
+  link.href = anchor ? `${page}#${anchor}` : page;
+  return element("li", link, element("p", before, element("mark", found), after));
+}
+
+const question = new URLSearchParams(location.search).get("q") ?? "";
+document.getElementById("words").value = question;
+if (question.trim()) {
+  const found = search(question);
+  const shown = found.slice(0, MOST);
+  const some = found.length === 1 ? "1 section contains" : `${found.length || "No"} sections contain`;
+  const first = found.length > MOST ? ` These are the first ${MOST}.` : "";
+  document.getElementById("found").textContent = `${some} “${question}”.${first}`;
+  document.getElementById("results").append(...shown.map(result));
+}
