@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
-from handeye.cli.docs import INDEX, pages, sections
+from handeye.core.pages import INDEX, pages, sections
 
 DOCS = Path(__file__).parent.parent / "docs"
 TEXT = (DOCS / INDEX).read_text(encoding="utf-8")

@@ -27,6 +27,7 @@ LAYERS: list[set[str]] = [
     {"editor"},
     {"api"},
     {"trials"},
+    {"agents"},
     {"cli"},
     {"systems"},
     {"__init__", "__main__"},

@@ -1,8 +1,9 @@
 """Begin a run, resume one, or run it to its end."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from handeye.api.parts import Camera, limits_of, parts_of, referee_of
@@ -11,12 +12,15 @@ from handeye.api.run import Place, Run, RunEnding
 from handeye.api.starts import RunRequest, Start, start_of
 from handeye.api.worlds import World
 from handeye.core.arguments import given_file, given_place
-from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
+from handeye.core.errors import BadArgument, CannotWrite, InvalidInput, Refused
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.core.variation import WorldSpec
 from handeye.debugger.breakpoints import stage_number
+from handeye.debugger.session import DebugSession
 from handeye.debugger.stepper import Stepper
+from handeye.execution.servo import Halted
+from handeye.program.events import AnyEvent
 from handeye.results.cautions import cautions, losses
 from handeye.results.judging import Limits, Referee, check_limits
 from handeye.runs.folder import PICTURES, HoldsRun, RunFolder, open_new
@@ -44,6 +48,7 @@ def begin(
     task: str | None = None,
     out: FileName | None = None,
     overwrite: bool = False,
+    halt: Callable[[], bool] | None = None,
 ) -> Run:
     """Begin a run, or resume one. The run pauses before its first step, or before the stage `at`.
 
@@ -77,6 +82,9 @@ def begin(
         out: folder for plan, events, trace, checkpoints, pictures and result; without it, nothing is written. To
             resume a run in the same folder, give the folder here as well as in `script`.
         overwrite: replace a run that is already in the folder `out`.
+        halt: a panic button: a function that handeye calls in every servo period and after every step. When it returns
+            True, the brakes are set and the run pauses; the interrupted step is undone. If the cell is still being
+            prepared, the run does not begin.
 
     Limits given as `referee` are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved;
     checkpoints, trace and result hold only the name of the function or class. `handeye resume` and `handeye trace
@@ -84,7 +92,8 @@ def begin(
 
     Raises:
         ScriptError: the script has errors.
-        InvalidInput: an argument cannot be used, or the run stopped before it reached the stage `at`.
+        InvalidInput: an argument cannot be used, or the run stopped before it reached the stage `at`; or `halt`
+            returned True while the cell was being prepared.
 
     >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", seed=3, camera="ray")
     >>> run
@@ -111,7 +120,7 @@ def begin(
     spent = None if start.folder is None else start.folder.spent
     meter = Meter(timer=timer, planning_cpu_s=start.planning_cpu_s, before=spent)
     keeping = RunEnding(folder=folder, judged=judged, referee=own_referee, meter=meter)
-    run = _built(start, parts, keeping)
+    run = _built(start, parts, keeping, halt)
     if number is not None:
         run.reach(number)
     return run
@@ -196,9 +205,21 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
         ) from None
 
 
-def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
+@dataclass(eq=False)
+class _PauseOnRequest(Observer):
+    """Pauses a run after the present step if the panic button is pressed, for steps that take no simulated time."""
+
+    session: DebugSession
+    halt: Callable[[], bool]
+
+    def event(self, event: AnyEvent) -> None:
+        if self.session.going == "on" and self.halt():
+            self.session.ask_pause()
+
+
+def _built(start: Start, parts: Parts, keeping: RunEnding, halt: Callable[[], bool] | None) -> Run:
     """Build the run, ready for its first step. If the cell cannot be built, delete the folder that was created for
-    the run.
+    the run. Raises Refused if `halt` returned True meanwhile.
     """
     folder, state = keeping.folder, start.state
 
@@ -208,11 +229,13 @@ def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
         return [] if folder is None else [folder.watch(runner, state, again=again, meter=keeping.meter)]
 
     try:
-        runner = Runner(state, observers=looking, parts=parts)
-    except BaseException:
+        runner = Runner(state, observers=looking, parts=parts, halt=halt or (lambda: False))
+    except BaseException as error:
         if folder is not None:
             folder.close()
             folder.discard()
+        if isinstance(error, Halted):
+            raise Refused("the run was halted while its cell was being prepared; nothing was begun") from None
         raise
     doubts = cautions(runner, judged=keeping.judged and keeping.referee is None)
     lost = () if folder is None else losses(folder, runner)
@@ -224,5 +247,7 @@ def _built(start: Start, parts: Parts, keeping: RunEnding) -> Run:
         keep=(lambda _: None) if folder is None else folder.kept.save,
         pictures=None if folder is None else folder.path / PICTURES,
     )
+    if halt is not None:
+        stepper.session.input = _PauseOnRequest(stepper.session, halt)
     why = "ready" if state.position < 1 else f"resumed after {counted(state.position, 'step')}"
     return Run(stepper, keeping, why)

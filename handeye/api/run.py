@@ -29,7 +29,7 @@ from handeye.program.events import AnyEvent
 from handeye.results.finishing import finished, outcome
 from handeye.results.judging import Referee
 from handeye.results.pauses import pause_sentence
-from handeye.results.pictures import annotated_webp
+from handeye.results.pictures import annotated_png, annotated_webp
 from handeye.results.result import Result
 from handeye.runs.advance import AfterSteps, AnyStop, AtStage, DriverFailure, Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
@@ -290,6 +290,14 @@ class Run:
         """
         name = last_picture(self._runner)
         return None if name is None else self._runner.system.shots[name].picture.copy()
+
+    @property
+    def picture_png(self) -> bytes | None:
+        """The last picture that the program took, with the detected features drawn over it, as a PNG file; None if
+        the program has not taken a picture.
+        """
+        name = last_picture(self._runner)
+        return None if name is None else annotated_png(self._runner.system, name)
 
     @property
     def ended(self) -> bool:

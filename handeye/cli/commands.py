@@ -32,6 +32,7 @@ fmt = editing:fmt: Format scripts in columns, like a listing of 1973; comments a
 explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 docs = docs:docs: List the pages of the documentation, or print one.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
+mcp = agents:mcp: Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.

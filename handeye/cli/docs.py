@@ -1,19 +1,12 @@
 """The command that lists and prints the pages of the documentation, which every installation includes."""
 
-import re
-from collections.abc import Iterator
-from pathlib import Path
 from textwrap import fill
-from typing import Annotated, Final
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from handeye.cli.common import put, say, screen
-from handeye.core.diagnostics import quoted
-from handeye.core.errors import NoSuchName
-
-INDEX: Final = "README.md"
-_ENTRY: Final = re.compile(r"^- \[.*?\]\((?P<page>[\w/.-]+\.md)\): (?P<sentence>.*)$", re.MULTILINE)
+from handeye.core.pages import INDEX, page_named, sections
 
 
 def docs(
@@ -54,29 +47,6 @@ def docs(
     return 0
 
 
-def pages(folder: Path) -> dict[str, Path]:
-    """The pages of the documentation by topic, without the index."""
-    files = (file for file in sorted(folder.rglob("*.md")) if file != folder / INDEX)
-    return {(file.parent if file.name == INDEX else file).stem: file for file in files}
-
-
-def page_named(topic: str, folder: Path) -> Path:
-    """The page of a topic, which may be given with its folder; raises NoSuchName if there is none."""
-    from difflib import get_close_matches
-
-    found = pages(folder)
-    name = topic.casefold().removesuffix(".md").removeprefix("docs/")
-    place = folder / f"{name}.md"
-    for page in found.values():
-        if page == place:
-            return page
-    if name in found:
-        return found[name]
-    near = get_close_matches(name, found, n=1)
-    hint = f"did you mean {near[0]}?" if near else "`handeye docs` lists the pages"
-    raise NoSuchName(f"there is no page {quoted(topic)}; {hint}")
-
-
 def _list(index: str) -> None:
     """Print the index: topics with one sentence each, grouped by purpose."""
     from rich.text import Text
@@ -94,20 +64,3 @@ def _list(index: str) -> None:
             )
         say("")
     say("Print a page: handeye docs TOPIC. Each instruction of the language has a page: handeye docs SEARCH.")
-
-
-def sections(index: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-    """Headings of the index, each with its topics and their sentences."""
-    for section in re.split(r"^## ", index, flags=re.MULTILINE)[1:]:
-        entries = [(_topic(found["page"]), _plain(found["sentence"])) for found in _ENTRY.finditer(section)]
-        if entries:
-            yield section.partition("\n")[0], entries
-
-
-def _topic(page: str) -> str:
-    path = Path(page)
-    return (path.parent if path.name == INDEX else path).stem
-
-
-def _plain(markdown: str) -> str:
-    return re.sub(r"\[(.*?)\]\(.*?\)", r"\1", markdown).replace("`", "").replace("*", "")

@@ -1,0 +1,33 @@
+"""A call in progress: it can be cancelled, and it reports how far it is."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from threading import Event
+from typing import Final
+
+EVERY: Final = 60  # polls between two reports; a servo period polls once, and there are 60 in a second
+Report = Callable[[float, float | None, str], None]
+"""Takes how far a call is, the whole if it is known, and a text."""
+
+
+def _unheard(done: float, whole: float | None, text: str) -> None:
+    """Report to nobody."""
+
+
+@dataclass(eq=False, slots=True)
+class Call:
+    """One call of a tool."""
+
+    report: Report = _unheard
+    cancelled: Event = field(default_factory=Event)
+    told: Callable[[], str] = lambda: "preparing the cell"  # where the call is, in words
+    _polls: int = 0
+
+    def halted(self) -> bool:
+        """Return True if the call was cancelled. A run asks this in every servo period, so a report is made here about
+        once in a simulated second.
+        """
+        self._polls += 1
+        if self._polls % EVERY == 0:
+            self.report(self._polls / EVERY, None, self.told())
+        return self.cancelled.is_set()

@@ -1,0 +1,223 @@
+"""The arguments of each tool as records. Their types make the schema that a client sees, and check each call."""
+
+from typing import Annotated, Any, Final, Literal, TypeVar
+
+import msgspec
+from msgspec import Meta
+
+from handeye.core.errors import BadArgument
+from handeye.core.variation import LARGEST_SEED, Level
+from handeye.program.taught import unfit
+
+MOST_WORLDS: Final = 20  # of one submission
+
+Script = Annotated[
+    str,
+    Meta(
+        min_length=1,
+        max_length=500_000,
+        description="The text of a script, which contains a line break; or the name of a file in the agent's folder "
+        "(pin.al); or the name of an included program (insertion, water_pump).",
+    ),
+]
+TaughtPositions = Annotated[
+    str,
+    Meta(
+        max_length=500_000,
+        description="Taught positions (inches, degrees): the text of a TOML file, which contains a line break; or the "
+        "name of a file in the folder; or the name of an included program, to use its positions. Default: the .toml "
+        "file next to the script, if there is one.",
+    ),
+]
+TaskName = Annotated[
+    str,
+    Meta(max_length=100, description="Name of the task, such as insertion. Default: the task of the program, else "
+         "water_pump."),
+]  # fmt: skip
+RunName = Annotated[
+    str,
+    Meta(max_length=100, description="Name of a run, such as run-1. Default: the run that was used last."),
+]
+SeedNumber = Annotated[int, Meta(ge=0, le=LARGEST_SEED, description="Seed of the world.")]
+Count = Annotated[int, Meta(ge=1, le=1_000_000)]
+
+
+class Request(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """The arguments of a call."""
+
+
+class Docs(Request, frozen=True, kw_only=True):
+    """Arguments of `docs`."""
+
+    topic: Annotated[
+        str,
+        Meta(
+            max_length=200,
+            description="A page (tutorial, language, search), or an included file (insertion.al, insertion.toml). "
+            "Default: the index.",
+        ),
+    ] = ""
+
+
+class Explain(Request, frozen=True, kw_only=True):
+    """Arguments of `explain`."""
+
+    word: Annotated[
+        str,
+        Meta(max_length=200, description="A diagnostic code (label-twice), an error number (23) or an instruction "
+             "(CHANGE). Default: list them."),
+    ] = ""  # fmt: skip
+
+
+class Check(Request, frozen=True, kw_only=True):
+    """Arguments of `check`."""
+
+    script: Script
+    taught: TaughtPositions | None = None
+    task: TaskName | None = None
+    language: Annotated[
+        str,
+        Meta(
+            max_length=20,
+            description="Language of a script that is given as text: the ending of its files, such as al or ml. A file "
+            "has its language in its name.",
+        ),
+    ] = "al"
+
+
+class PlanOf(Request, frozen=True, kw_only=True):
+    """Arguments of `plan`."""
+
+    script: Script
+    taught: TaughtPositions | None = None
+    task: TaskName | None = None
+    stage: (
+        Annotated[
+            int,
+            Meta(
+                ge=1,
+                le=1000,
+                description="List the steps of the stage with this number. Default: the stages alone.",
+            ),
+        ]
+        | None
+    ) = None
+
+
+class WorldOf(Request, frozen=True, kw_only=True):
+    """Arguments of `world`."""
+
+    task: TaskName | None = None
+    group: Annotated[
+        str, Meta(max_length=200, description="Only the quantities whose names begin so, such as arm.offset.")
+    ] = ""
+    level: Level = "nominal"
+
+
+class Advance(Request, frozen=True, kw_only=True):
+    """Arguments of `run`."""
+
+    script: Script | None = None
+    taught: TaughtPositions | None = None
+    task: TaskName | None = None
+    run: RunName | None = None
+    seed: SeedNumber = 0
+    level: Level = "nominal"
+    set: dict[str, float | str] = {}
+    without: list[str] = []
+    faults: list[str] = []
+    until: Annotated[
+        str,
+        Meta(
+            max_length=200,
+            description="Where to pause: a stage, a label, a line, an instruction (AOJ), or error:23. Default: run to "
+            "the end.",
+        ),
+    ] = ""
+    steps: (
+        Annotated[
+            int,
+            Meta(ge=0, le=1_000_000, description="Pause after this number of steps; 0 only begins the run."),
+        ]
+        | None
+    ) = None
+    answer: Annotated[
+        Literal["retry", "proceed", "skip"] | None,
+        Meta(description="The answer to the program's call to the operator, before the run continues."),
+    ] = None
+
+
+class StateOf(Request, frozen=True, kw_only=True):
+    """Arguments of `state`."""
+
+    run: RunName | None = None
+    show: Annotated[
+        str, Meta(max_length=200, description="Topics, such as `force gap`. Default: all of them.")
+    ] = ""
+
+
+class PictureOf(Request, frozen=True, kw_only=True):
+    """Arguments of `picture`."""
+
+    run: RunName | None = None
+
+
+class Back(Request, frozen=True, kw_only=True):
+    """Arguments of `back`."""
+
+    run: RunName | None = None
+    steps: Count = 1
+    stage: Annotated[
+        str,
+        Meta(max_length=200, description="Go back to the beginning of this stage, instead of some steps."),
+    ] = ""
+
+
+class Fork(Request, frozen=True, kw_only=True):
+    """Arguments of `fork`."""
+
+    run: RunName | None = None
+    to: Annotated[str, Meta(max_length=100, description="Name of the new run.")] | None = None
+    stage: Annotated[
+        str,
+        Meta(
+            max_length=200, description="Begin the new run before this stage. Default: where the run is now."
+        ),
+    ] = ""
+
+
+class ResultOf(Request, frozen=True, kw_only=True):
+    """Arguments of `result`."""
+
+    run: RunName | None = None
+
+
+class Submit(Request, frozen=True, kw_only=True):
+    """Arguments of `submit`."""
+
+    script: Script
+    taught: TaughtPositions | None = None
+    task: TaskName | None = None
+    worlds: Annotated[int, Meta(ge=1, le=MOST_WORLDS, description="Number of worlds.")] = 3
+    seed: SeedNumber = 0
+    level: Level = "nominal"
+
+
+AnyRequest = TypeVar("AnyRequest", bound=Request)
+
+
+def read(tool: str, kind: type[AnyRequest], arguments: object) -> AnyRequest:
+    """Check the arguments of a call of the tool `tool`. Raises BadArgument, which names the argument at fault."""
+    try:
+        return msgspec.convert({} if arguments is None else arguments, kind, strict=True)
+    except msgspec.ValidationError as error:
+        raise BadArgument(f"the arguments of `{tool}` cannot be used: {unfit(error)}") from None
+
+
+def schema(kind: type[Request]) -> dict[str, Any]:
+    """Return the JSON schema of the arguments of a tool."""
+    _, parts = msgspec.json.schema_components([kind])
+    found = dict(parts[kind.__name__])
+    found.pop("title", None)
+    found.pop("description", None)
+    return found
