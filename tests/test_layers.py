@@ -27,6 +27,7 @@ LAYERS: list[set[str]] = [
     {"editor"},
     {"api"},
     {"trials"},
+    {"env"},
     {"cli"},
     {"systems"},
     {"__init__", "__main__"},
@@ -209,7 +210,7 @@ def test_the_working_phase_sees_the_cell_through_its_ports_only() -> None:
 
 def test_the_referee_speaks_only_to_tasks_results_and_trials() -> None:
     listeners = crossing(MODULES, "judge")
-    allowed = {"judge", "tasks", "results", "trials", "cli", "systems", "__init__"}
+    allowed = {"judge", "tasks", "results", "trials", "env", "cli", "systems", "__init__"}
     assert {module for module in listeners if room(module) not in allowed} <= {"runs.system"}  # its hooks
 
 
