@@ -10,6 +10,7 @@ from handeye import tasks
 from handeye.api.worlds import World
 from handeye.core.distributions import random_numbers
 from handeye.core.errors import BadArgument, NoSuchName, PhysicsFailed, Refused
+from handeye.core.faults import Fault
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.core.pose import Array
@@ -28,10 +29,11 @@ from handeye.env.spaces import (
     observation,
     observation_space,
 )
-from handeye.env.starts import StartStates
+from handeye.env.television import Television
 from handeye.env.verdict import Verdict, verdict
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.runs.starts import StartStates, planted
 
 _SEEDS: Final = 1 << 53  # seeds of worlds are below this number
 _PASSED_OVER: Final = 20  # worlds in a row in which no episode can start
@@ -53,6 +55,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         action: ActionKind = "hand",
         level: Level = "nominal",
         world: Mapping[str, Any] | None = None,
+        pictures: bool = False,
         shaped: bool = False,
         limit_s: float | None = None,
         camera: str = "ray",
@@ -65,6 +68,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             action: `hand`: each step moves the set-point of the hand; `torques`: each step sets the joint torques.
             level: size of the errors of the worlds: `low`, `nominal` or `high`.
             world: further arguments of `handeye.World` (`without`, `set`, `scale`, `faults`) for every world.
+            pictures: add the last television picture to the observation, and the commands to the camera to the
+                action.
             shaped: add a reward in every step that is computed from the true state, and mark the episode as
                 privileged.
             limit_s: time limit of an episode (s on the cell's clock) instead of the job's.
@@ -88,11 +93,15 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         self._settings = {"level": level, **(world or {})}
         self._spec(0, self._settings)  # refuses wrong names now
         self._work = tasks.task(self.job.task)
-        self.components = components(action, self._work.arm)
+        if pictures and self._work.eye is None:
+            raise Refused(f"{self.job.id} has no television camera")
+        self.components = components(action, self._work.arm, pictures=pictures)
         self._actions = action_space(self.components)
-        self._observations = observation_space(self._work.arm, pictures=False)
+        self._observations = observation_space(self._work.arm, pictures=pictures)
         self.action_space, self.observation_space = self._actions, self._observations
         self._action, self._starts = action, StartStates(self.job.task, camera)
+        self._pictures = pictures
+        self._television: Television | None = None
         self._runner: Runner | None = None
         self._over = True
 
@@ -128,6 +137,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             start = self._start(self._spec(drawn, settings))
         self._runner = runner = Runner(start)
         self._controls = Controls(runner.context.drive, self._action)
+        self._television = self._switched_on(runner)
         if runner.next is not None:
             runner.arm_cell.begin_stage(runner.next.stage + 1)
         self._began, self._over = runner.arm_cell.now, False
@@ -146,7 +156,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         values, stopped = named(self.components, self._checked(action)), ""
         done = values["done"] > SWITCHED
         try:
-            self._controls.stop() if done else self._controls.act(values)
+            self._passed(values, done=done)
         except PhysicsFailed as error:
             stopped = str(error)
         late = self._runner.arm_cell.now - self._began >= self.limit_s - 1e-9
@@ -216,9 +226,15 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         return World(seed, task=self.job.task, **settings).spec
 
     def _start(self, world: WorldSpec) -> Checkpoint | None:
-        stages = self.job.stages
-        chosen = int(random_numbers(world.seed, "env.start").integers(len(stages)))
-        return self._starts.before(stages[chosen], world)
+        """Return the start of an episode in a world; None if the program does not reach it."""
+        job = self.job
+        stage = job.stages[int(random_numbers(world.seed, "env.start").integers(len(job.stages)))]
+        start = self._starts.before(stage, world)
+        if start is None or not job.plants:
+            return start
+        drawn = random_numbers(world.seed, "env.fault")
+        name = job.plants[int(drawn.integers(len(job.plants)))]
+        return planted(start, Fault(name=name, value=float(drawn.uniform(*job.sizes)), stage=stage + 1))
 
     def _beginning(self, runner: Runner, passed_over: list[int]) -> dict[str, Any]:
         world, facts = runner.setup.world, self.facts()
@@ -240,9 +256,27 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             )
         return values
 
+    def _switched_on(self, runner: Runner) -> Television | None:
+        """Return the television camera of an episode, or None if no pictures are wanted."""
+        drive, camera = runner.context.drive, runner.arm_cell.devices.camera
+        wanted = self._pictures and camera is not None
+        return Television(drive, camera, runner.context.state.camera_ready) if wanted and camera else None
+
+    def _passed(self, values: Mapping[str, float], *, done: bool) -> None:
+        """Let a servo period pass with the commands of an action, or bring the arm to rest if the work is done."""
+        if done:
+            self._controls.stop()
+            return
+        if self._television is not None:
+            self._television.command(values)
+        self._controls.act(values)
+        if self._television is not None:
+            self._television.expose()
+
     def _seen(self) -> Observation:
         assert self._runner is not None
-        return observation(self._runner.arm_cell.devices.sense(), self._controls.torque)
+        seen = observation(self._runner.arm_cell.devices.sense(), self._controls.torque)
+        return seen if self._television is None else seen | self._television.seen()
 
     def _judged(self, *, done: bool, stopped: str) -> Verdict:
         assert self._runner is not None

@@ -4,11 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
+from handeye import tasks
 from handeye.core.distributions import random_numbers
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.env.environment import AssemblyEnv
-from handeye.env.policies import Episode, played, policy_maker
+from handeye.env.jobs import job_named
+from handeye.env.policies import Episode, PolicyMaker, played, policy_maker
 from handeye.env.spaces import ActionKind, Observation
 from handeye.trials.figures import Rate, rate
 from handeye.trials.sweep import Case, Details, Sweep, TrialRow
@@ -49,6 +51,39 @@ class EpisodeRow(TrialRow, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PlayedEpisode:
+    """An episode that a policy has played to its end."""
+
+    referee: Mapping[str, Any]  # the referee's judgement, as `info["referee"]` gives it
+    steps: int  # of the environment
+    seconds: float  # on the cell's clock
+    passed_over: int  # worlds in which no episode could start
+
+
+def play(env: AssemblyEnv, maker: PolicyMaker, seed: int) -> PlayedEpisode:
+    """Let a policy play an episode in the world of a seed. Raises InvalidInput, or what the policy raises."""
+    first, began = env.reset(seed=seed)
+    own = int(random_numbers(seed, "env.policy").integers(1 << 32))
+    ended: dict[str, Any] = {}
+
+    def advance(action: Array) -> tuple[Observation, bool]:
+        seen, _, terminated, truncated, info = env.step(action)
+        ended.update(info)
+        return seen, terminated or truncated
+
+    facts = env.facts(own)
+    episode = Episode(facts=facts, observation=first, advance=advance)
+    played(maker(facts), episode)
+    seconds = float(episode.observation["clock"][0] - first["clock"][0])
+    return PlayedEpisode(
+        referee=ended["referee"],
+        steps=episode.steps,
+        seconds=round(seconds, 6),
+        passed_over=len(began["passed_over"]),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Evaluation:
     """Lets a policy play an episode in the world of each case."""
 
@@ -60,33 +95,28 @@ class Evaluation:
     def __call__(self, case: Case) -> list[EpisodeRow]:
         """Play the episode of a case. Raises InvalidInput, or what the policy raises."""
         maker = policy_maker(self.policy)
-        env = AssemblyEnv(self.environment, action=self.action, **self.settings)
-        first, began = env.reset(seed=case.seed)
-        facts = env.facts(int(random_numbers(case.seed, "env.policy").integers(1 << 32)))
-        ended: dict[str, Any] = {}
-
-        def advance(action: Array) -> tuple[Observation, bool]:
-            seen, _, terminated, truncated, info = env.step(action)
-            ended.update(info)
-            return seen, terminated or truncated
-
-        episode = Episode(facts=facts, observation=first, advance=advance)
-        played(maker(facts), episode)
-        said = ended["referee"]
+        env = AssemblyEnv(self.environment, action=self.action, pictures=self._sees(maker), **self.settings)
+        found = play(env, maker, case.seed)
+        said = found.referee
         return [
             EpisodeRow(
                 trial=case.trials[0],
                 seed=case.seed,
                 said=said["outcome"],
                 reached=tuple(said["reached"]),
-                steps=episode.steps,
-                seconds=round(float(episode.observation["clock"][0] - first["clock"][0]), 6),
+                steps=found.steps,
+                seconds=found.seconds,
                 peak_N=said["peak_N"],
                 wrong=tuple(name for name, each in said["findings"].items() if not each["ok"]),
                 stopped=said["stopped"],
-                passed_over=len(began["passed_over"]),
+                passed_over=found.passed_over,
             )
         ]
+
+    def _sees(self, maker: PolicyMaker) -> bool:
+        """Return True if the policy uses pictures, and the cell has a camera."""
+        seeing: bool = getattr(maker, "pictures", False)
+        return seeing and tasks.task(job_named(self.environment).task).eye is not None
 
 
 class OutcomeShare(Record, frozen=True, kw_only=True):

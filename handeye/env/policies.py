@@ -72,6 +72,11 @@ class Policy:
         "torques",
     )  # kinds of action that it can use; the first is the usual one
 
+    pictures = False  # True if it uses the television camera, where there is one
+
+    def __init__(self, facts: Facts) -> None:
+        self.facts = facts
+
     def act(self, observation: Observation) -> Array:
         """Return the action that answers an observation."""
         raise NotImplementedError
@@ -86,6 +91,7 @@ class RandomPolicy(Policy):
     """Draws every component of every action uniformly, except that it says done in one of a thousand steps."""
 
     def __init__(self, facts: Facts) -> None:
+        super().__init__(facts)
         self._space, self._random = facts.action_space, np.random.default_rng(facts.seed)
 
     def act(self, observation: Observation) -> Array:
@@ -147,7 +153,7 @@ def played(policy: Any, episode: Episode) -> None:
         if hasattr(policy, "play"):
             policy.play(episode)
         else:  # a plain function from observations to actions
-            Policy.play(_Function(policy), episode)
+            _Function(episode.facts, policy).play(episode)
         while True:
             episode.step(_still(episode))
     except EpisodeOver:
@@ -155,7 +161,8 @@ def played(policy: Any, episode: Episode) -> None:
 
 
 class _Function(Policy):
-    def __init__(self, function: Callable[[Observation], Array]) -> None:
+    def __init__(self, facts: Facts, function: Callable[[Observation], Array]) -> None:
+        super().__init__(facts)
         self._function = function
 
     def act(self, observation: Observation) -> Array:

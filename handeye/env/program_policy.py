@@ -5,9 +5,19 @@ from handeye.core.mutable_records import copied
 from handeye.env.policies import Episode, Facts, Policy
 from handeye.env.seen_cell import seen_cell
 from handeye.env.spaces import ActionKind
-from handeye.env.starts import own_plan
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
+from handeye.runs.starts import own_plan
+from handeye.tasks import task
+from handeye.vision.camera_model import CameraModel
+
+
+def _camera(facts: Facts) -> CameraModel | None:
+    """Return the camera as the program has calibrated it, or as its drawing describes it."""
+    if facts.memory.calibration is not None:
+        return facts.memory.calibration.model
+    eye = task(facts.task).eye
+    return None if eye is None else eye.drawing
 
 
 class ProgramPolicy(Policy):
@@ -18,22 +28,20 @@ class ProgramPolicy(Policy):
     """
 
     actions: tuple[ActionKind, ...] = ("torques",)
-
-    def __init__(self, facts: Facts) -> None:
-        self._facts = facts
+    pictures = True
 
     def play(self, episode: Episode) -> None:
         cell, clock = seen_cell(episode)
-        plan = own_plan(self._facts.task)
+        plan = own_plan(self.facts.task)
         context = ExecutionContext(
             plan=plan,
-            arm=self._facts.arm,
+            arm=self.facts.arm,
             cell=cell,
-            camera=None,
+            camera=_camera(self.facts),
             emit=lambda _: None,
             arithmetic=CompiledArm,
         )
-        context.restore(copied(self._facts.memory))
+        context.restore(copied(self.facts.memory))
         executor = Executor(run=context)
         while context.state.at is not None:
             executor.step()

@@ -13,7 +13,7 @@ from handeye.arm.ik.result import IKResult
 from handeye.arm.line import straight
 from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.pose import Array
-from handeye.env.policies import Episode, Facts, Policy
+from handeye.env.policies import Episode, Policy
 from handeye.env.seen_cell import seen_cell
 from handeye.env.spaces import ActionKind
 from handeye.execution.compliance import Course
@@ -42,14 +42,11 @@ class ScriptedPin(Policy):
 
     actions: tuple[ActionKind, ...] = ("torques",)
 
-    def __init__(self, facts: Facts) -> None:
-        self._facts = facts
-
     def play(self, episode: Episode) -> None:
         cell, clock = seen_cell(episode)
-        arm = self._facts.arm
+        arm = self.facts.arm
         state = DriveState.holding(cell.sense(), arm)
-        state.friction, state.links, state.gap = self._facts.friction, self._facts.links, 0.0
+        state.friction, state.links, state.gap = self.facts.friction, self.facts.links, 0.0
         drive = ArmDrive(cell=cell, arm=arm, state=state, arithmetic=CompiledArm)
         start = drive.hand()[:3, 3]
         face = float(start[2]) - GAP_TO_FACE

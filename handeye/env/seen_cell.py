@@ -7,6 +7,7 @@ action space, and knows only what the observations say.
 from handeye.core.pose import Array
 from handeye.env.policies import Episode
 from handeye.env.spaces import encoded
+from handeye.ports.camera import CLOSE_UP, Picture, Renderer, TvCamera
 from handeye.ports.clock import Clock
 from handeye.ports.workcell import ArmPort, ArmReading, HandPort, HandReading, ScrewdriverPort, Workcell
 
@@ -23,6 +24,7 @@ class _Commands:
         """Carry out the commands for a servo period. Raises EpisodeOver at the end of the episode."""
         driven = {} if self.torque is None else {f"torque.{k}": each for k, each in enumerate(self.torque, 1)}
         values = {**self.values, **driven, "brake": float(self.torque is None), "done": float(done)}
+        self.values |= dict.fromkeys(("set_lens", "set_aim", "set_focus"), 0.0)
         self.episode.step(encoded(self.episode.facts.components, values))
 
 
@@ -65,6 +67,47 @@ class _Screwdriver(ScrewdriverPort):
         self._commands.values["magnet"] = float(on)
 
 
+class _Camera(TvCamera):
+    """The television camera. Its mechanism takes time that the observation does not show, so every duration is 0, and
+    the wait for a picture includes the wait for the mechanism.
+    """
+
+    def __init__(self, commands: _Commands) -> None:
+        self._commands = commands
+
+    def lens(self, focal_length: float) -> float:
+        if self._commands.values.get("set_aim") or self._commands.values.get("set_focus"):
+            self._commands.step()  # in one action, the lens comes first
+        return self._send(set_lens=1.0, close_up=float(focal_length == CLOSE_UP))
+
+    def aim(self, pan: float, tilt: float) -> float:
+        return self._send(set_aim=1.0, pan=pan, tilt=tilt)
+
+    def focus(self, distance: float) -> float:
+        return self._send(set_focus=1.0, focus=1 / distance)
+
+    def pots(self) -> tuple[float, float]:
+        pan, tilt = self._commands.episode.observation["camera"]
+        return float(pan), float(tilt)
+
+    def digitise(self, *, hold_target: bool = False) -> Picture:
+        self._commands.values |= {"look": 1.0, "hold_target": float(hold_target)}
+        self._commands.step()
+        self._commands.values["look"] = 0.0
+        while self._commands.episode.observation["picture_age"][0] != 0.0:
+            self._commands.step()
+        picture: Picture = self._commands.episode.observation["picture"]
+        return picture
+
+    @property
+    def renderer(self) -> Renderer:
+        return Renderer(method="none")
+
+    def _send(self, **values: float) -> float:
+        self._commands.values |= values
+        return 0.0
+
+
 class SeenClock(Clock):
     """The clock of an episode. Each servo period that passes is a step of the environment."""
 
@@ -88,5 +131,11 @@ def seen_cell(episode: Episode) -> tuple[Workcell, SeenClock]:
     """Return the devices and the clock of an episode whose actions are torques."""
     commands = _Commands(episode)
     clock = SeenClock(commands)
-    cell = Workcell(clock=clock, arm=_Arm(commands), hand=_Hand(commands), screwdriver=_Screwdriver(commands))
+    cell = Workcell(
+        clock=clock,
+        arm=_Arm(commands),
+        hand=_Hand(commands),
+        screwdriver=_Screwdriver(commands),
+        camera=_Camera(commands) if "picture" in episode.observation else None,
+    )
     return cell, clock

@@ -1,5 +1,6 @@
 """The layout of observations and actions: names, units and ranges."""
 
+import math
 from collections.abc import Mapping
 from typing import Any, Final, Literal
 
@@ -38,9 +39,10 @@ class Component(Record, frozen=True, kw_only=True):
     signed: bool = False  # range of the Box: -1 to 1, else 0 to 1
 
 
-def components(kind: ActionKind, arm: ArmModel) -> tuple[Component, ...]:
-    """Return the components of an action, in order."""
-    return (*_driven(kind, arm), *_rest(kind, arm))
+def components(kind: ActionKind, arm: ArmModel, *, pictures: bool) -> tuple[Component, ...]:
+    """Return the components of an action, in order. With `pictures`, they include the commands to the camera."""
+    done = Component(name="done", scale=1.0, unit="")
+    return (*_driven(kind, arm), *_hand(arm), *(_CAMERA if pictures else ()), done)
 
 
 def _driven(kind: ActionKind, arm: ArmModel) -> tuple[Component, ...]:
@@ -58,14 +60,31 @@ def _driven(kind: ActionKind, arm: ArmModel) -> tuple[Component, ...]:
     return (*moves, *turns, Component(name="load", scale=LOAD, unit="N"))
 
 
-def _rest(kind: ActionKind, arm: ArmModel) -> tuple[Component, ...]:
+_CAMERA: Final = (
+    Component(name="set_lens", scale=1.0, unit=""),
+    Component(name="close_up", scale=1.0, unit=""),
+    Component(name="set_aim", scale=1.0, unit=""),
+    Component(name="pan", scale=math.pi, unit="rad", signed=True),
+    Component(name="tilt", scale=math.pi, unit="rad", signed=True),
+    Component(name="set_focus", scale=1.0, unit=""),
+    Component(name="focus", scale=4.0, unit="1/m"),
+    Component(name="hold_target", scale=1.0, unit=""),
+    Component(name="look", scale=1.0, unit=""),
+)
+"""Commands to the television camera. `set_lens`, `set_aim` and `set_focus` send the values that follow them; `focus` is
+the reciprocal of the distance. `look` asks for a picture, which arrives when the mechanism has come to rest and the
+picture is digitised.
+"""
+
+
+def _hand(arm: ArmModel) -> tuple[Component, ...]:
+    """Return the components for fingers, brakes and screwdriver."""
     return (
         Component(name="brake", scale=1.0, unit=""),
         Component(name="gap", scale=arm.hand.gap_max, unit="m"),
         Component(name="grip", scale=arm.hand.grip, unit="N"),
         Component(name="driver", scale=SPINDLE, unit="rad/s", signed=True),
         Component(name="magnet", scale=1.0, unit=""),
-        Component(name="done", scale=1.0, unit=""),
     )
 
 
@@ -95,8 +114,9 @@ def observation_space(arm: ArmModel, *, pictures: bool) -> spaces.Dict:
         "clock": spaces.Box(low=0.0, high=_LATE, shape=(1,), dtype=np.float64),
     }
     if pictures:
+        found["camera"] = box(_FAR, (2,))
         found["picture"] = spaces.Box(low=0, high=15, shape=(ROWS, COLUMNS), dtype=np.uint8)
-        found["picture_age"] = spaces.Box(low=0.0, high=_LATE, shape=(1,), dtype=np.float64)
+        found["picture_age"] = spaces.Box(low=-1.0, high=_LATE, shape=(1,), dtype=np.float64)
     return spaces.Dict(found)
 
 

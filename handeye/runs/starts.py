@@ -1,4 +1,4 @@
-"""The states in which episodes start: the program's own work up to a stage, executed once per world and then kept.
+"""The states in which stages of a program begin: its work up to a stage, executed once per world and then kept.
 
 A start is a checkpoint. It depends on the plan, the world, the renderer, the versions and the kind of processor, and
 a digest of all of these is the name of its file, so a file made under other conditions is never used.
@@ -11,9 +11,11 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
+from msgspec.structs import replace
 
 from handeye import tasks
 from handeye.core.errors import InvalidInput
+from handeye.core.faults import Fault
 from handeye.core.files import write_whole
 from handeye.core.processor import processor
 from handeye.core.record import Record
@@ -49,14 +51,24 @@ class Conditions(Record, frozen=True, kw_only=True):
         return f"{hashlib.sha256(line).hexdigest()[:32]}{ENDING}"
 
 
+def starts_folder() -> Path | None:
+    """Return the folder of the user's starts; None if nothing is kept."""
+    kept = cache_folder()
+    return None if kept is None else kept / "starts"
+
+
+def kept_starts(folder: Path | None) -> list[Path]:
+    """Return the files of the starts in a folder, the newest first."""
+    found = () if folder is None else folder.glob(f"[0-9a-f]*{ENDING}")
+    return sorted(found, key=lambda path: path.stat().st_mtime, reverse=True)
+
+
 class StartStates:
     """The starts of one task, in a folder. Without a folder, every start is made again."""
 
     def __init__(self, task: str, camera: str, folder: Path | None = None) -> None:
         """Keep the starts in a folder, by default in the user's cache."""
-        kept = cache_folder()
-        self._task, self._camera = task, camera
-        self._folder = folder or (None if kept is None else kept / "starts")
+        self._task, self._camera, self._folder = task, camera, folder or starts_folder()
 
     def before(self, stage: int, world: WorldSpec) -> Checkpoint | None:
         """Return the state in which the program begins a stage, numbered from 0, in a world; None if the program
@@ -107,6 +119,19 @@ class StartStates:
         return self._folder / wanted.name
 
 
+def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
+    """Return a start in whose world a fault begins with the stage of the fault; until then the two worlds are equal."""
+    setup, snapshot = start.setup, start.snapshot
+    assert snapshot is not None
+    assert snapshot.cell is not None
+    world = replace(setup.world, faults=(*setup.world.faults, fault))
+    fresh, kept = tasks.task(setup.task).cell(world, setup.camera).capture(), snapshot.cell
+    cell = replace(
+        kept, figures={**fresh.figures, **kept.figures}, mechanisms={**fresh.mechanisms, **kept.mechanisms}
+    )
+    return replace(start, setup=replace(setup, world=world), snapshot=replace(snapshot, cell=cell))
+
+
 @cache
 def own_plan(task: str) -> Plan:
     """Return the plan of a task's own program."""
@@ -117,9 +142,8 @@ def own_plan(task: str) -> Plan:
 
 def _trim(folder: Path) -> None:
     """Remove the oldest starts beyond the limit."""
-    dated = sorted(((path.stat().st_mtime, path) for path in folder.glob(f"*{ENDING}")), reverse=True)
     together = 0
-    for _, path in dated:
+    for path in kept_starts(folder):
         together += path.stat().st_size
         if together > MOST:
             path.unlink(missing_ok=True)
