@@ -28,6 +28,7 @@ LAYERS: list[set[str]] = [
     {"api"},
     {"trials"},
     {"agents"},
+    {"env"},
     {"cli"},
     {"systems"},
     {"__init__", "__main__"},
@@ -54,6 +55,9 @@ MAKERS = {
     "core.versions": {"importlib.metadata.version"},
 }
 """Modules that name another one at run time, and by which means."""
+
+
+POLICIES = {"env.program_policy", "env.scripted_pin"}
 
 
 def room(module: str) -> str:
@@ -210,12 +214,28 @@ def test_the_working_phase_sees_the_cell_through_its_ports_only() -> None:
 
 def test_the_referee_speaks_only_to_tasks_results_and_trials() -> None:
     listeners = crossing(MODULES, "judge")
-    allowed = {"judge", "tasks", "results", "trials", "cli", "systems", "__init__"}
+    allowed = {"judge", "tasks", "results", "trials", "env", "cli", "systems", "__init__"}
     assert {module for module in listeners if room(module) not in allowed} <= {"runs.system"}  # its hooks
 
 
 def test_the_referee_is_asked_by_the_results_alone() -> None:
     assert {m for m in MODULES if "judge" in called(m)} == {"results.judging"}
+
+
+def test_only_the_environments_know_gymnasium() -> None:
+    assert {room(m) for m in MODULES if "gymnasium" in outside(m)} == {"env"}
+
+
+def test_the_included_policies_know_the_cell_by_what_they_observe() -> None:
+    policies = [m for m in MODULES if m in ("env.policies", "env.seen_cell") or m in POLICIES]
+    assert len(policies) == 2 + len(POLICIES)
+    seen = crossing(policies, "cell", "judge", "tasks", "results")
+    arithmetic, drawings = "cell.compiled_arm", "tasks.__init__"
+    assert {
+        m: others - {arithmetic, drawings} for m, others in seen.items() if others - {arithmetic, drawings}
+    } == {}
+    truthful = {"truth", "capture", "setup", "values", "reset"}
+    assert {m: called(m) & truthful for m in policies if called(m) & truthful} == {}
 
 
 def test_cell_and_referee_know_no_task() -> None:

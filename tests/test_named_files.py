@@ -31,7 +31,8 @@ EXAMPLES |= {
     "plan.json",
 }
 EXAMPLES |= {"pallet.trig.json", "job.json", ".trig.json", "FILE.toml", "languages.toml", "scene.xml"}
-"""Files that an example, a user or a run makes."""
+EXAMPLES |= {f"handeye/{job}-v0" for job in ("Pin", "Screw", "GasketAndTop", "Pump", "Resume", "Mend")}
+"""Files that an example, a user or a run makes; and ids of environments, which look like paths."""
 ELSEWHERE = (".venv/", "stanford/", "base/")
 """What the first start makes; names in the scene, which look like paths."""
 

@@ -60,6 +60,9 @@ trials compare = batches:compare_trials: Compare batches of trials with a first 
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
+env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
+env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
+env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, steps of the work reached, peak force and time.
 bench: Benchmarks: stage times, and inserting a pin into a hole.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.

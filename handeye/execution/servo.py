@@ -193,7 +193,7 @@ class Servo:
             self.state.crept, self.state.rest = before.q - self.state.rest, None
         if tau is not None:
             self.track.note(self.state.q, self.state.gap)
-        self._put_out(tau)
+        self.put_out(tau)
         yield periods * self.period
         sensed = self.sensed
         moved = (before.qd + sensed.qd) / 2 * self.period
@@ -245,7 +245,7 @@ class Servo:
         blow = blown(here, rest - rest.clip(-rub, rub))
         return jumped(self.arm, moved, before.qd, after.qd, blow)
 
-    def _put_out(self, tau: Array | None) -> None:
+    def put_out(self, tau: Array | None) -> None:
         """Command all devices of the cell for the next servo period."""
         cell = self.cell
         cell.arm.drive(tau)

@@ -29,6 +29,7 @@ _OURS: Final = {
     "chaos": "handeye.trials.chaos.trials:CHAOS",
     "insertion": "handeye.trials.insertion:INSERTION",
     "eye": "handeye.trials.eye:EYE",
+    "episodes": "handeye.env.evaluation:EPISODES",
 }
 
 

@@ -9,6 +9,6 @@ ENTRY = Entry(
     system="handeye.systems.stanford.executor_run:PROGRAM",
     can=("plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "python"),
     commands="""
-cache = handeye.systems.stanford.cache:cache: List the kept camera calibrations, or remove them.
+cache = handeye.systems.stanford.cache:cache: List the kept camera calibrations and start states, or remove them.
 """,
 )

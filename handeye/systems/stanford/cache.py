@@ -8,6 +8,8 @@ from handeye.cli.common import Json, put_json, say
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from handeye.systems.stanford.kept_calibrations import KeptCalibration, KeptCalibrations
 
 SHOWN: Final = 20  # the newest calibrations
@@ -16,21 +18,26 @@ _AGES: Final = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
 def cache(
     *,
-    clear: Annotated[bool, Parameter(help="Remove all kept calibrations.")] = False,
+    clear: Annotated[bool, Parameter(help="Remove all kept calibrations and start states.")] = False,
     json: Json = False,
 ) -> int:
-    """List the kept camera calibrations, or remove them.
+    """List the kept camera calibrations and start states, or remove them.
 
     Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the
     results, and uses them in later runs with the same world, kind of pictures and versions. Such a run starts at once,
     and gives the same bytes as a run that measures. `--calibrate` measures again. One calibration takes about 6 kB. All
     calibrations together take at most 16 MB; to keep this limit, the oldest are removed. The environment variable
     HANDEYE_CACHE names another folder; if it is empty, nothing is kept.
+
+    The environments for learned policies also keep the states in which their episodes start, at most 256 MB.
     """
+    from handeye.runs.starts import kept_starts, starts_folder
     from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 
-    kept = KeptCalibrations.of_user()
+    kept, starts = KeptCalibrations.of_user(), kept_starts(starts_folder())
     removed = kept.clear() if clear else 0
+    for start in starts if clear else ():
+        start.unlink(missing_ok=True)
     entries = list(kept.entries())
     if json:
         put_json(
@@ -39,13 +46,26 @@ def cache(
                 "most_bytes": kept.most,
                 "removed": removed,
                 "calibrations": entries,
+                "starts": 0 if clear else len(starts),
             }
         )
     elif clear:
-        say(f"{counted(removed, 'calibration')} removed")
+        also = f" and {counted(len(starts), 'start state')}" if starts else ""
+        say(f"{counted(removed, 'calibration')}{also} removed")
     else:
         _show(kept, entries)
+        _show_starts(starts)
     return 0
+
+
+def _show_starts(starts: "list[Path]") -> None:
+    if starts:
+        from handeye.runs.starts import MOST
+
+        size = sum(path.stat().st_size for path in starts)
+        say(
+            f"{counted(len(starts), 'start state')} of environments, {size / 1e6:.1f} MB of at most {MOST >> 20} MB"
+        )
 
 
 def _show(kept: "KeptCalibrations", entries: list["KeptCalibration"]) -> None:

@@ -174,6 +174,11 @@ def shoulder(data: mujoco.MjData) -> float:
     return float(data.body("pin").xpos[2]) - FACE
 
 
+def off_hole(data: mujoco.MjData) -> float:
+    """Return the horizontal distance of the pin's origin from the axis of the hole (m)."""
+    return float(np.hypot(*(data.body("pin").xpos - data.body("plate").xpos)[:2]))
+
+
 def off_holder(data: mujoco.MjData) -> tuple[float, float]:
     """Return how far the pin is from its position in the holder (m), and the tilt of the pin (rad)."""
     pin = data.body("pin")

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.judge.finding import Findings, at_most
+from handeye.judge.finding import Findings, all_right, at_most
 from handeye.tasks.inserting import InsertionTask, InsertionTruth
 from handeye.tasks.interface import Words
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions
@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 HOLDER_PLACE: Final = 3.0
 """Greatest distance (mm) of a returned pin from its original position: the clearance plus the chamfer of the
 holder's hole, as in the pump's cell.
+"""
+HOLE_PLACE: Final = 2.5
+"""Greatest distance (mm) of an inserted pin from the axis of its hole: the radius of its nose. A pin that lies on the
+table beside the plate is lower than a seated one, but not in the hole.
 """
 HOLDER_LEAN: Final = 10.0  # deg; a pin tilted by more leans out of the holder
 
@@ -57,14 +61,7 @@ class Insertion(InsertionTask):
         return InsertionCell(InsertionWorld.draw(spec))
 
     def judge(self, truth: Truth) -> Findings:
-        from handeye.tasks.insertion.cell import SEATED, shoulder
-
-        high = shoulder(truth.data) * 1e3
-        return {
-            "seat": at_most(
-                high, SEATED * 1e3, "mm", "height of the pin's shoulder above the face of the plate"
-            )
-        }
+        return _inserted(truth)
 
     def judge_apart(self, truth: Truth) -> Findings:
         from handeye.tasks.insertion.cell import off_holder
@@ -90,11 +87,22 @@ class Insertion(InsertionTask):
         return {f"plate.{axis}": float(end[k] - HOLE[k] + error[k]) for k, axis in enumerate("xy")}
 
     def witnessed(self, cell: SimulatedCell) -> InsertionTruth:
-        from handeye.tasks.insertion.cell import SEATED, InsertionCell, shoulder
+        from handeye.tasks.insertion.cell import InsertionCell
 
         assert isinstance(cell, InsertionCell)
-        seen, right = cell.witness, shoulder(cell.truth.data) <= SEATED
+        seen, right = cell.witness, all_right(_inserted(cell.truth))
         return InsertionTruth(peak=seen.peak, first=seen.first, seated=seen.seated, right=right)
+
+
+def _inserted(truth: Truth) -> Findings:
+    """Judge whether the pin stands in the hole, on its shoulder."""
+    from handeye.tasks.insertion.cell import SEATED, off_hole, shoulder
+
+    high, away = shoulder(truth.data) * 1e3, off_hole(truth.data) * 1e3
+    return {
+        "seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder above the face of the plate"),
+        "place": at_most(away, HOLE_PLACE, "mm", "distance of the pin from the axis of the hole"),
+    }
 
 
 INSERTION: Final = Insertion()

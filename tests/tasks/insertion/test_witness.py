@@ -122,3 +122,13 @@ def test_the_bench_is_a_task_with_its_own_quantities_and_the_pumps_arm() -> None
         quantities
     )
     assert not [name for name in quantities if name.startswith(("camera", "light", "fixtures", "parts"))]
+
+
+def test_a_pin_on_the_table_beside_the_plate_is_low_enough_but_not_in_the_hole() -> None:
+    cell = INSERTION.cell(WORLD, "ray")
+    pin = cell.truth.data.joint("pin")
+    for place, right in (((*HOLE, FACE), True), ((HOLE[0] + 0.1, HOLE[1], 0.004), False)):
+        pin.qpos[:3] = place
+        mujoco.mj_kinematics(cell.truth.model, cell.truth.data)
+        found = INSERTION.judge(cell.truth)
+        assert (found["seat"].ok, found["place"].ok, INSERTION.witnessed(cell).right) == (True, right, right)

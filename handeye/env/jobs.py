@@ -1,0 +1,130 @@
+"""The jobs of the environments: where each episode starts, and what the referee requires at its end."""
+
+from collections.abc import Mapping
+from typing import Final
+
+import msgspec
+
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import NoSuchName
+from handeye.core.record import Record
+
+ALWAYS: Final = (
+    "as_drawn",
+    "bonds",
+    "numbers",
+    "held",
+    "motor",
+    "still",
+    "arm_still",
+    "rest",
+    "floor",
+    "overlap",
+)
+"""Findings on the cell that must hold whatever part of the pump is built."""
+
+
+class Job(Record, frozen=True, kw_only=True):
+    """One job. An episode starts in the state in which the task's own program begins a stage of its work."""
+
+    id: str  # name of the environment
+    meaning: str  # sentence that says what has to be done
+    task: str
+    stages: tuple[int, ...] = (0,)
+    """Stages of the program, from 0, before which an episode may start. If there are several, the seed chooses."""
+    limit_s: float  # time limit of an episode, s on the cell's clock
+    goal: tuple[str, ...] = ()
+    """Beginnings of the names of the referee's findings that must hold. Empty: all findings must hold."""
+    limits: Mapping[str, float] = msgspec.field(default_factory=dict)
+    """Limits that replace the referee's own because only a part of the work is done, by finding."""
+    plants: tuple[str, ...] = ()
+    """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
+    sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
+    steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
+    """Steps of the work in their order, each with the beginnings of the names of the findings that show it."""
+
+    def requires(self, finding: str) -> bool:
+        """Return True if a finding of the referee must hold at the end of the job."""
+        return not self.goal or finding.startswith((*self.goal, *ALWAYS))
+
+
+_LAYERS: Final = {
+    "stand the base at its blocks": ("base",),
+    "lay the gasket": ("gasket",),
+    "lay the top": ("top",),
+}
+_SCREWS: Final = {"drive the screws": ("screws",)}
+_PUMP: Final = {
+    **_LAYERS,
+    **_SCREWS,
+    "put pins and screwdriver back": ("pins", "rack"),
+    "leave the rotor free": ("rotor",),
+}
+_PART: Final = ("base", "gasket", "top", "rack", "dispenser")
+"""Findings on a pump that is not finished: its layers, and what must be in its place."""
+
+JOBS: Final = (
+    Job(
+        id="handeye/Pin-v0",
+        meaning="The hand holds a pin over a hole whose place is not exactly known. Insert the pin.",
+        task="insertion",
+        stages=(1,),
+        limit_s=120.0,
+        steps={"insert the pin": ("seat", "place")},
+    ),
+    Job(
+        id="handeye/Screw-v0",
+        meaning="Base, gasket and top lie on two aligning pins. Drive the first two screws, and put the screwdriver "
+        "back.",
+        task="water_pump",
+        stages=(7,),
+        limit_s=240.0,
+        goal=(*_PART, "screws"),
+        limits={"screws": 2.0},
+        steps={**_LAYERS, **_SCREWS, "put the screwdriver back": ("rack",)},
+    ),
+    Job(
+        id="handeye/GasketAndTop-v0",
+        meaning="The base stands at its blocks, with two aligning pins. Lay the gasket and the top on it.",
+        task="water_pump",
+        stages=(4,),
+        limit_s=240.0,
+        goal=_PART,
+        steps=_LAYERS,
+    ),
+    Job(
+        id="handeye/Pump-v0",
+        meaning="The base lies somewhere on the belt. Assemble the whole pump.",
+        task="water_pump",
+        stages=(0,),
+        limit_s=1800.0,
+        steps=_PUMP,
+    ),
+    Job(
+        id="handeye/Resume-v0",
+        meaning="The program has stopped before one of its stages. Finish the pump.",
+        task="water_pump",
+        stages=tuple(range(12)),
+        limit_s=1800.0,
+        steps=_PUMP,
+    ),
+    Job(
+        id="handeye/Mend-v0",
+        meaning="The pump is assembled, but one of its screws is loose. Find the screw and tighten it.",
+        task="water_pump",
+        stages=(11,),
+        limit_s=900.0,
+        plants=tuple(f"screw.{number}.loose" for number in range(1, 7)),
+        sizes=(0.5, 1.5),
+        steps=_PUMP,
+    ),
+)
+
+
+def job_named(name: str) -> Job:
+    """Return the job of an environment. Raises NoSuchName if there is none."""
+    found = {job.id: job for job in JOBS}
+    if name not in found:
+        near = suggestion(name, found) or f"the environments are {', '.join(map(quoted, found))}"
+        raise NoSuchName(f"there is no environment {quoted(name)}; {near}")
+    return found[name]

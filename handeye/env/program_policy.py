@@ -1,0 +1,49 @@
+"""The task's own program as a policy: the executor of programs, acting only through the action space."""
+
+from handeye.cell.compiled_arm import CompiledArm
+from handeye.core.mutable_records import copied
+from handeye.env.policies import Episode, Facts, Policy
+from handeye.env.seen_cell import seen_cell
+from handeye.env.spaces import ActionKind
+from handeye.execution.context import ExecutionContext
+from handeye.execution.executor import Executor
+from handeye.runs.starts import own_plan
+from handeye.tasks import task
+from handeye.vision.camera_model import CameraModel
+
+
+def _camera(facts: Facts) -> CameraModel | None:
+    """Return the camera as the program has calibrated it, or as its drawing describes it."""
+    if facts.memory.calibration is not None:
+        return facts.memory.calibration.model
+    eye = task(facts.task).eye
+    return None if eye is None else eye.drawing
+
+
+class ProgramPolicy(Policy):
+    """Continues the program from the state in which the episode starts, with what the program remembers there.
+
+    It says done when the program has come to its end. When the program calls the operator, the policy sets the brakes
+    and waits for the time limit.
+    """
+
+    actions: tuple[ActionKind, ...] = ("torques",)
+    pictures = True
+
+    def play(self, episode: Episode) -> None:
+        cell, clock = seen_cell(episode)
+        plan = own_plan(self.facts.task)
+        context = ExecutionContext(
+            plan=plan,
+            arm=self.facts.arm,
+            cell=cell,
+            camera=_camera(self.facts),
+            emit=lambda _: None,
+            arithmetic=CompiledArm,
+        )
+        context.restore(copied(self.facts.memory))
+        executor = Executor(run=context)
+        while context.state.at is not None:
+            executor.step()
+        if executor.finish():
+            clock.done()

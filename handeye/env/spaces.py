@@ -1,0 +1,146 @@
+"""The layout of observations and actions: names, units and ranges."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Final, Literal
+
+import numpy as np
+from gymnasium import spaces
+
+from handeye.arm.model import ArmModel, constants
+from handeye.core.pose import Array
+from handeye.core.record import Record
+from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.workcell import Sensed
+
+ActionKind = Literal["torques", "hand"]
+Observation = dict[str, Any]  # see `observation_space`
+
+STEP: Final = 0.002
+"""Greatest displacement of the hand's set-point along each axis in a servo period (m): .12 m/s. Chosen."""
+TURN: Final = 0.01
+"""Greatest turn of the set-point about each axis in a servo period (rad): .6 rad/s. Chosen."""
+SPINDLE: Final = 40.0
+"""Greatest speed of the screwdriver (rad/s): twice the 190 turns a minute at which the program drives screws."""
+LOAD: Final = 50.0  # greatest weight in the hand that the servo compensates, N: twice that of the pump's base
+SWITCHED: Final = 0.5  # a switch of the action is on above this value
+
+_RATE: Final = 1e3  # beyond any rate of a joint, rad/s or m/s
+_FAR: Final = 1e3  # beyond any reading of a position (rad or m) or of the screwdriver (N m)
+_LATE: Final = 1e6  # beyond any reading of the clock, s
+
+
+class Component(Record, frozen=True, kw_only=True):
+    """One component of an action. Its value is the component of the Box times `scale`, in `unit`."""
+
+    name: str
+    scale: float
+    unit: str
+    signed: bool = False  # range of the Box: -1 to 1, else 0 to 1
+
+
+def components(kind: ActionKind, arm: ArmModel, *, pictures: bool) -> tuple[Component, ...]:
+    """Return the components of an action, in order. With `pictures`, they include the commands to the camera."""
+    done = Component(name="done", scale=1.0, unit="")
+    return (*_driven(kind, arm), *_hand(arm), *(_CAMERA if pictures else ()), done)
+
+
+def _driven(kind: ActionKind, arm: ArmModel) -> tuple[Component, ...]:
+    """Return the components that move the arm."""
+    if kind == "torques":
+        return tuple(
+            Component(
+                name=f"torque.{number}", scale=joint.effort, signed=True,
+                unit="N" if joint.kind == "prismatic" else "N m",
+            )
+            for number, joint in enumerate(arm.joints, 1)
+        )  # fmt: skip
+    moves = tuple(Component(name=f"move.{axis}", scale=STEP, unit="m", signed=True) for axis in "xyz")
+    turns = tuple(Component(name=f"turn.{axis}", scale=TURN, unit="rad", signed=True) for axis in "xyz")
+    return (*moves, *turns, Component(name="load", scale=LOAD, unit="N"))
+
+
+_CAMERA: Final = (
+    Component(name="set_lens", scale=1.0, unit=""),
+    Component(name="close_up", scale=1.0, unit=""),
+    Component(name="set_aim", scale=1.0, unit=""),
+    Component(name="pan", scale=math.pi, unit="rad", signed=True),
+    Component(name="tilt", scale=math.pi, unit="rad", signed=True),
+    Component(name="set_focus", scale=1.0, unit=""),
+    Component(name="focus", scale=4.0, unit="1/m"),
+    Component(name="hold_target", scale=1.0, unit=""),
+    Component(name="look", scale=1.0, unit=""),
+)
+"""Commands to the television camera. `set_lens`, `set_aim` and `set_focus` send the values that follow them; `focus` is
+the reciprocal of the distance. `look` asks for a picture, which arrives when the mechanism has come to rest and the
+picture is digitised.
+"""
+
+
+def _hand(arm: ArmModel) -> tuple[Component, ...]:
+    """Return the components for fingers, brakes and screwdriver."""
+    return (
+        Component(name="brake", scale=1.0, unit=""),
+        Component(name="gap", scale=arm.hand.gap_max, unit="m"),
+        Component(name="grip", scale=arm.hand.grip, unit="N"),
+        Component(name="driver", scale=SPINDLE, unit="rad/s", signed=True),
+        Component(name="magnet", scale=1.0, unit=""),
+    )
+
+
+def action_space(parts: tuple[Component, ...]) -> spaces.Box:
+    """Return the Box of an action with these components."""
+    low = np.array([-1.0 if part.signed else 0.0 for part in parts])
+    return spaces.Box(low=low, high=np.ones(len(parts)), dtype=np.float64)
+
+
+def observation_space(arm: ArmModel, *, pictures: bool) -> spaces.Dict:
+    """Return the space of the observations: the readings of all ports at the end of a servo period."""
+    n, effort = len(arm.joints), constants(arm).effort
+
+    def box(most: float | Array, shape: tuple[int, ...]) -> spaces.Box:
+        return spaces.Box(
+            low=-np.broadcast_to(most, shape), high=np.broadcast_to(most, shape), dtype=np.float64
+        )
+
+    found: dict[str, spaces.Space[Any]] = {
+        "q": box(_FAR, (n,)),
+        "qd": box(_RATE, (n,)),
+        "torque": box(effort, (n,)),
+        "gap": box(_FAR, (1,)),
+        "touch": spaces.MultiBinary(2),
+        "screwdriver": box(_FAR, (1,)),
+        "braked": spaces.MultiBinary(1),
+        "clock": spaces.Box(low=0.0, high=_LATE, shape=(1,), dtype=np.float64),
+    }
+    if pictures:
+        found["camera"] = box(_FAR, (2,))
+        found["picture"] = spaces.Box(low=0, high=15, shape=(ROWS, COLUMNS), dtype=np.uint8)
+        found["picture_age"] = spaces.Box(low=-1.0, high=_LATE, shape=(1,), dtype=np.float64)
+    return spaces.Dict(found)
+
+
+def observation(sensed: Sensed, torque: Array) -> Observation:
+    """Return the readings of a servo period as an observation. `torque` are the torques commanded in it, shape (n,)."""
+    return {
+        "q": sensed.q.copy(),
+        "qd": sensed.qd.copy(),
+        "torque": torque.copy(),
+        "gap": np.array([sensed.gap]),
+        "touch": np.array(sensed.touch, dtype=np.int8),
+        "screwdriver": np.array([sensed.tool_torque]),
+        "braked": np.array([sensed.braked], dtype=np.int8),
+        "clock": np.array([sensed.time]),
+    }
+
+
+def named(parts: tuple[Component, ...], action: Array) -> Mapping[str, float]:
+    """Return the values of an action in their units, by component. Values outside of the Box are clipped."""
+    least = np.array([-1.0 if part.signed else 0.0 for part in parts])
+    values = np.clip(action, least, 1.0)
+    return {part.name: float(value) * part.scale for part, value in zip(parts, values, strict=True)}
+
+
+def encoded(parts: tuple[Component, ...], values: Mapping[str, float]) -> Array:
+    """Return the action with these values, in their units. Components that are left out are 0."""
+    return np.array([values.get(part.name, 0.0) / part.scale for part in parts])
