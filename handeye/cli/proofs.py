@@ -67,7 +67,9 @@ def proved(file: Path, task_words: str | None, options: ProofOptions, *, json: b
         raise BadArgument("--out needs --graph svg or --graph dot")
     entry, _ = entry_of_file(file.name)
     if entry is not None:
-        raise Refused(f"{file} is a program of {entry.title}; --prove works only for programs that are planned")
+        raise Refused(
+            f"{file} is a program of {entry.title}; --prove works only for programs that are planned"
+        )
     plan = plan_at(file, task_words)
     proof = _proof(plan, options.settings or [])
     found = unproved(proof, plan.program)

@@ -5,7 +5,7 @@ and macros are called.
 """
 
 import math
-from typing import Final, Literal, NamedTuple
+from typing import ClassVar, Final, Literal, NamedTuple
 
 from handeye.core.record import Record, Vector3
 from handeye.program.flow_operations import Tool
@@ -100,6 +100,8 @@ def among(answers: list[Answer]) -> Answer:
 class Evidence(Record, frozen=True, kw_only=True, tag=True):
     """Base class of the kinds of evidence."""
 
+    operations: ClassVar[tuple[type[Operation], ...]]  # to which the kind can apply
+
     def shown(self, passed: Passed) -> Answer:
         """Say whether an executed step with this outcome is of this kind."""
         raise NotImplementedError
@@ -163,6 +165,8 @@ class Contact(Record, frozen=True, kw_only=True):
 class HeightWithin(Evidence, frozen=True, kw_only=True):
     """A HEIGHT after a contact, over the height of another contact, with a range (m) within limits."""
 
+    operations: ClassVar = (Height,)
+
     of: Contact
     over: Contact
     limits: Limits
@@ -183,6 +187,8 @@ class HeightWithin(Evidence, frozen=True, kw_only=True):
 class TravelWithin(Evidence, frozen=True, kw_only=True):
     """A TRAVEL after a contact, with a range (m) within limits."""
 
+    operations: ClassVar = (Travel,)
+
     of: Contact
     limits: Limits
 
@@ -198,6 +204,8 @@ class TravelWithin(Evidence, frozen=True, kw_only=True):
 class Contacted(Evidence, frozen=True, kw_only=True):
     """A motion that a contact has ended."""
 
+    operations: ClassVar = (Change,)
+
     of: Contact
 
     def shown(self, passed: Passed) -> Answer:
@@ -212,6 +220,8 @@ class FreeTurn(Evidence, frozen=True, kw_only=True):
     The arc is given by its ends (rad from table x, counter-clockwise) and by the sense of the turn, 1 for
     counter-clockwise or -1.
     """
+
+    operations: ClassVar = (Turn,)
 
     axis: Region
     arc: Limits
@@ -259,6 +269,8 @@ class FreeTurn(Evidence, frozen=True, kw_only=True):
 class Taken(Evidence, frozen=True, kw_only=True):
     """A picture of a comparison: the earlier or the later one. `picture` is its name; the prover fills it in."""
 
+    operations: ClassVar = (Look,)
+
     role: Literal["before", "after"]
     picture: str = ""
 
@@ -272,6 +284,8 @@ class Compared(Evidence, frozen=True, kw_only=True):
     """A comparison of two pictures of a part at a place (m, table frame): an INSPECT or a MATCH. `before` and `after`
     are the names of its pictures; the prover fills them in.
     """
+
+    operations: ClassVar = (Inspect, Match)
 
     by: Literal["inspect", "match"]
     part: Region
@@ -292,6 +306,8 @@ class Compared(Evidence, frozen=True, kw_only=True):
 class Gripped(Evidence, frozen=True, kw_only=True):
     """A step that closes the fingers at a place."""
 
+    operations: ClassVar = (Close, Center)
+
     where: Region | None = None  # None: anywhere
 
     def shown(self, passed: Passed) -> Answer:
@@ -302,6 +318,8 @@ class Gripped(Evidence, frozen=True, kw_only=True):
 
 class Released(Evidence, frozen=True, kw_only=True):
     """A step that opens the fingers at a place, to a gap of at least `least` (m)."""
+
+    operations: ClassVar = (Open,)
 
     where: Region | None = None
     least: float = 0.0
@@ -320,6 +338,8 @@ def _somewhere(where: Region | None, passed: Passed) -> Answer:
 class Went(Evidence, frozen=True, kw_only=True):
     """A MOVE that has reached a place."""
 
+    operations: ClassVar = (Move,)
+
     where: Region
 
     def shown(self, passed: Passed) -> Answer:
@@ -332,12 +352,16 @@ class Went(Evidence, frozen=True, kw_only=True):
 class Motion(Evidence, frozen=True, kw_only=True):
     """Any motion of the arm."""
 
+    operations: ClassVar = (Move, Change, Turn, Center)
+
     def shown(self, passed: Passed) -> Answer:
         return "yes" if isinstance(passed.operation, ArmMotion | Center) else "no"
 
 
 class Turned(Evidence, frozen=True, kw_only=True):
     """Any turn about an axis."""
+
+    operations: ClassVar = (Turn,)
 
     axis: Region
 
@@ -349,6 +373,8 @@ class Turned(Evidence, frozen=True, kw_only=True):
 
 class ToolSet(Evidence, frozen=True, kw_only=True):
     """A step that sets the speed of the screwdriver: off, on, or backwards."""
+
+    operations: ClassVar = (Tool,)
 
     to: Literal["off", "on", "backwards"]
     where: Region | None = None

@@ -70,6 +70,7 @@ class HandPlaces:
     def __init__(self, program: Program, graph: OutcomeGraph) -> None:
         self.program, self.graph = program, graph
         self._here = _reaching(program)
+        self._saved: dict[int, list[Situations]] = {}
         self._defined: dict[int, frozenset[Block]] = {here: frozenset() for here in self._here}
         for _ in range(ROUNDS):
             self.before = self._solved()
@@ -83,6 +84,11 @@ class HandPlaces:
 
     def references(self, node: int) -> list[Situations]:
         """Return the situations at the saves with which a HEIGHT may compare."""
+        if node not in self._saved:
+            self._saved[node] = self._references(node)
+        return self._saved[node]
+
+    def _references(self, node: int) -> list[Situations]:
         operation = self.graph.step(node).operation
         assert isinstance(operation, Height)
         found, seen, waiting = [], {node}, [node]

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Final, NamedTuple
 
 from handeye.program.flow_operations import Assign, Countdown, Test, Undo
+from handeye.program.operation import Operation
 from handeye.program.program import Step
 
 END: Final = -1  # the node behind the last step
@@ -39,6 +40,7 @@ class OutcomeGraph:
     edges: list[list[Edge]] = field(init=False)
     back: list[list[int]] = field(init=False)
     ends: list[int] = field(init=False)  # nodes with an edge to the end
+    kinds: dict[type[Operation], list[int]] = field(init=False)  # nodes by the kinds of their operations
 
     def __post_init__(self) -> None:
         numbers: dict[tuple[int, int], int] = {}
@@ -71,6 +73,10 @@ class OutcomeGraph:
         object.__setattr__(self, "back", back)
         ends = [number for number, leaving in enumerate(edges) if any(edge.to == END for edge in leaving)]
         object.__setattr__(self, "ends", ends)
+        kinds: dict[type[Operation], list[int]] = {}
+        for number, (step, _) in enumerate(nodes):
+            kinds.setdefault(type(self.steps[step].operation), []).append(number)
+        object.__setattr__(self, "kinds", kinds)
 
     def step(self, node: int) -> Step:
         return self.steps[self.nodes[node][0]]

@@ -30,8 +30,15 @@ class Effects:
 
     def __post_init__(self) -> None:
         tables, showing = {}, {}
-        for node, leaving in enumerate(self.places.graph.edges):
-            for number, edge in enumerate(leaving):
+        graph = self.places.graph
+        kinds = {
+            kind
+            for phase in self.claim.phases
+            for one in (*phase.by, *phase.undone)
+            for kind in one.operations
+        }
+        for node in sorted(node for kind in kinds for node in graph.kinds.get(kind, ())):
+            for number, edge in enumerate(graph.edges[node]):
                 passed = Passed(self.places, node, edge.outcome)
                 table = self._table(passed)
                 if table is not None:

@@ -81,21 +81,16 @@ class PumpClaims:
         )
 
     def tight(self, hole: int) -> Claim:
-        """The torque stop at a hole, after the other screws have gone into their threads."""
+        """The torque stop at a hole, once more after all screws have gone into their threads."""
         socket = self.places.socket(hole)
-        others = tuple(
-            each
-            for other in range(self.places.screws)
-            if other != hole
-            for each in self.threaded(other).phases[0].by
-        )
+        driven = [self.threaded(each).phases[0].by for each in range(self.places.screws)]
         return Claim(
-            says="after the other screws have gone into their threads, the torque stop ends a drive",
+            says="after all screws have gone into their threads, the torque stop ends one more drive",
             where=f"hole {hole + 1}",
             phases=(
                 Phase(
                     by=(Contacted(of=Contact(where=socket, torque=TORQUE)),),
-                    undone=(*others, ToolSet(to="backwards", where=socket)),
+                    undone=(*(one for each in driven for one in each), ToolSet(to="backwards", where=socket)),
                 ),
             ),
         )
@@ -183,6 +178,29 @@ class PumpClaims:
             says=f"the fingers feel the face of the base, {inches(base_top())} in over the table to within .04 in",
             where=f"hole {_CORNERS[corner] + 1}",
             phases=(Phase(by=(over,), undone=self.base_in_hand()),),
+        )
+
+    def level(self) -> Claim:
+        """The heights of the table on two sides of the base."""
+        places = self.places
+        left, right = (
+            places.touched(
+                Region(at=places.on_pump(x * INCH, 0.0), radius=2 * INCH, height=Limits(0.0, 0.6 * INCH))
+            )
+            for x in (5.5, -4.0)
+        )
+        limits = Limits(-0.03 * INCH, 0.03 * INCH)
+        return Claim(
+            says="the fingers feel the table on both sides of the base, at the same height to within .03 in",
+            phases=(
+                Phase(
+                    by=(
+                        HeightWithin(of=left, over=right, limits=limits),
+                        HeightWithin(of=right, over=left, limits=limits),
+                    ),
+                    undone=self.base_in_hand(),
+                ),
+            ),
         )
 
     def side(self, one: int, other: int) -> Claim:

@@ -31,7 +31,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
             rests="A push against the far block turns the straight edge of the base along the block.",
         ),
         Obligation(
-            finding="base_height", claims=tuple(claims.face(corner) for corner in range(4)),
+            finding="base_height", claims=(claims.level(), *map(claims.face, range(4))),
             rests="A base that is less than .04 in too high may remain unnoticed; the referee allows .02 in.",
         ),
         Obligation(
@@ -71,8 +71,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops .17 in high or more."),
         Obligation(
             finding="screws_clamp", claims=tight,
-            rests="A screw that is driven later shifts the load. The torque stop is felt, not the clamping force: a "
-            "thread that turns hard clamps less.",
+            rests="A screw that is driven later shifts the load of the others. The torque stop is felt, not the clamping "
+            "force: a thread that turns hard clamps less.",
         ),
         Obligation(finding="screws_strain", claims=(claims.gentle(),), rests=_CLUTCH),
         Obligation(finding="screws_turned", claims=(claims.gentle(),), rests=_CLUTCH),
