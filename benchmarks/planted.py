@@ -21,7 +21,8 @@ from handeye.proof.proof import Proof, prove
 CHECKS: Final = (
     ("SCREW", "HEIGHT  DS"), ("SCREW", "TRAVEL  .2 .3"), ("TIGHTEN", "CHANGE  [0 0 -1] .5"),
     ("RACKED", "HEIGHT  TABLE"), ("PRESS", "HEIGHT  TABLE"), ("FLATNESS", "HEIGHT  FACE1"),
-    ("FLATNESS", "HEIGHT  FACE5"), ("HEAD", "HEIGHT  OVER .493"), ("NUDGE", "TRAVEL  .2 .4"),
+    ("FLATNESS", "HEIGHT  FACE5"),
+    ("FLATNESS", "HEIGHT  TABLEL"), ("HEAD", "HEIGHT  OVER .493"), ("NUDGE", "TRAVEL  .2 .4"),
     ("PLUGGED", "HEIGHT  TABLE"), ("SWEEP", "TURN    AXIS"), ("BEARING", "HEIGHT  BARE"),
     ("", "INSPECT PUMP"), ("", "MATCH   PUMP"),
 )  # fmt: skip
@@ -41,7 +42,7 @@ CALLS: Final = (
     "NUDGE",
     "PRESS",
 )
-GUARDS: Final = ("SEAT", "STANDS", "PRESS", "FLATNESS", "HEAD", "NUDGE", "SWEEP", "BEARING", "TIGHTEN")
+GUARDS: Final = ("STANDS", "PRESS", "FLATNESS", "HEAD", "NUDGE", "SWEEP", "BEARING", "TIGHTEN")
 """Macros whose guards a hole loosens: those that feel what is checked last."""
 
 _STATEMENT: Final = re.compile(r"^(?P<label>[A-Z0-9]+:)?(?P<gap>\s+)(?P<body>[A-Z][^;]*?)(?P<end>\s*(;.*)?)$")
@@ -172,18 +173,14 @@ def _check_holes(of: Script, number: int) -> Iterator[Planted]:
         wide = f"{of.label(number)}\t{limits[1]}{least:.4f} {middle + half:.4f}"
         yield of.changed(f"limits four times as wide: {name}", number, number, [wide])
     if re.match(r"SKIP[EN]\s", first) and second.split(" ")[0] in ("JUMP", "WAIT"):
-        on = ["\tJUMP ZZ1", *of.lines[number + 3 : number + 4]]
+        test = of.lines[number + 1]
         if first.startswith("SKIPN"):  # its error leads to the next line
-            ignored = [of.lines[number], of.lines[number + 1], on[0], _labelled("ZZ1", on[1])]
-            yield of.changed(f"its error ignored: {name}", number, number + 3, ignored)
+            ignored = [f"{of.label(number + 2)}\tJUMP ZZ1", "ZZ1:\tWHERE"]
         else:  # its error skips the next line
-            ignored = [of.lines[number], f"\t{first.replace('SKIPE', 'SKIPN')}", *[of.lines[number + 2]] * 2]
-            yield of.changed(f"its error ignored: {name}", number, number + 2, ignored)
-
-
-def _labelled(label: str, line: str) -> str:
-    """Put a label before a line, which may have one already."""
-    return f"{label}:\n{line}"
+            test = test.replace("SKIPE", "SKIPN")
+            ignored = [of.lines[number + 2]] * 2
+        lines = [of.lines[number], test, *ignored]
+        yield of.changed(f"its error ignored: {name}", number, number + 2, lines)
 
 
 def _guard_holes(of: Script) -> Iterator[Planted]:

@@ -90,14 +90,14 @@ def test_the_seventh_screw_is_driven_but_its_head_is_not_felt() -> None:
     assert all("(hole 7)" in each.message for each in unproved(proof, found))
 
 
-@pytest.mark.parametrize("hole", sample(holes(script()), 9, seed=52), ids=lambda hole: hole.rule)
+@pytest.mark.parametrize("hole", sample(holes(script()), 7, seed=52), ids=lambda hole: hole.rule)
 def test_a_planted_hole_is_found(hole: Planted) -> None:
     proof = verdict(hole, SIX)
     assert verdicts(proof, "avoided")
     assert not proof.holds
 
 
-@pytest.mark.parametrize("variant", sample(variants(script()), 5, seed=52), ids=lambda variant: variant.rule)
+@pytest.mark.parametrize("variant", sample(variants(script()), 3, seed=52), ids=lambda variant: variant.rule)
 def test_a_sound_variant_is_accepted(variant: Planted) -> None:
     assert verdict(variant, SIX).holds
 
@@ -117,7 +117,8 @@ def test_check_prove_gives_the_proof_as_json_and_as_a_drawing(command: Command) 
     answer = json.loads(out)
     assert (code, answer["diagnostics"]) == (0, [])
     assert {claim["verdict"] for claim in answer["proof"]["claims"]} == {"shown"}
-    code, _, _ = command("check", "--prove", "water_pump", "--graph", "svg", "-o", "proof.svg")
+    plan = str(plans() / "water_pump.plan.json")
+    code, _, _ = command("check", "--prove", plan, "--graph", "svg", "-o", "proof.svg")
     assert code == 0
     assert "MATCH PUMP WHOLE DONE" in Path("proof.svg").read_text(encoding="utf-8")
 
@@ -128,7 +129,10 @@ def test_check_prove_gives_the_proof_as_json_and_as_a_drawing(command: Command) 
         (("check", "insertion", "--prove"), "declares no obligations"),
         (("check", "insertion", "--graph", "svg"), "need --prove"),
         (("check", "insertion", "--prove", "--watch"), "--prove and --watch"),
-        (("check", "water_pump", "--prove", "--set", "pump.screws=5"), "must be 6 or 7"),
+        (
+            ("check", str(plans() / "water_pump.plan.json"), "--prove", "--set", "pump.screws=5"),
+            "must be 6 or 7",
+        ),
         (("check", str(plans() / "train.ml"), "--prove"), "works only for programs that are planned"),
     ],
 )

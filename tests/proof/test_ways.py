@@ -49,7 +49,7 @@ def proof_of(text: str, claim: Claim = TOUCHED) -> ClaimProof:
         "PARK\nSKIPE 23\nJUMP F\nJUMP E\nF: " + FEEL + "E: PARK",
         FEEL + "OPEN 1\n" + FEEL,
     ],
-    ids=["untested", "call", "call elsewhere", "retries", "one round", "counted in", "error that is never raised", "again"],
+    ids=["untested", "call", "call elsewhere", "retries", "one round", "counted in", "error never raised", "again"],
 )  # fmt: skip
 def test_a_touch_that_every_way_makes_is_shown(text: str) -> None:
     assert proof_of(text).verdict == "shown"
@@ -87,7 +87,7 @@ def test_the_way_names_the_branch_that_avoids_the_touch() -> None:
     assert [program.steps[each.step].line for each in proof.way] == [1, 2, 4, 8]
     assert [each.raised for each in proof.way] == [4, None, None, None]
     assert proof.leaves is not None
-    assert program.steps[proof.way[proof.leaves].step].line == 2
+    assert program.steps[proof.way[proof.leaves].step].word == "PARK"  # and error 4 leads on from there
 
 
 def test_the_step_that_undoes_a_touch_is_named() -> None:

@@ -71,8 +71,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops .17 in high or more."),
         Obligation(
             finding="screws_clamp", claims=tight,
-            rests="A screw that is driven later shifts the load of the others. The torque stop is felt, not the clamping "
-            "force: a thread that turns hard clamps less.",
+            rests="A screw that is driven later shifts the load of the others. The torque stop is felt, not the "
+            "clamping force: a thread that turns hard clamps less.",
         ),
         Obligation(finding="screws_strain", claims=(claims.gentle(),), rests=_CLUTCH),
         Obligation(finding="screws_turned", claims=(claims.gentle(),), rests=_CLUTCH),
