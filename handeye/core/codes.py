@@ -77,7 +77,7 @@ CODES: Final[dict[str, Code]] = {
         phase="strict",
     ),
     "finding-undecided": _proof(
-        "whether every way to the end notices that a finding of the referee does not hold cannot be decided",
+        "it cannot be decided whether the program may end without noticing that a finding of the referee does not hold",
         "HERE A\nPARK\nMOVE A",
     ),
     "finding-unnoticed": _proof(

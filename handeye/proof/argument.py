@@ -150,9 +150,11 @@ def _undecided(
 ) -> Diagnostic:
     first = claims[0]
     says = said_of(first.says, [first])
+    silent = f"the program may end without noticing that `{finding.finding}` does not hold"
+    undecided = f"it cannot be decided whether {silent}"
     if first.too_many:
         span = _span(source, program.steps[-1])
-        message = f"whether every way shows `{finding.finding}` cannot be decided: the counters have too many values"
+        message = f"{undecided}: the counters have too many values"
         return problem("finding-undecided", message, span, notes=(f"not decided: {says}",))
     unknown = [program.steps[number] for number in first.unknown]
     message = (

@@ -21,6 +21,7 @@ pytestmark = pytest.mark.slow
 
 SIX = WATER_PUMP.obligations(WorldSpec(seed=0))
 SEVEN = WATER_PUMP.obligations(WorldSpec(seed=0, overrides=Overrides(set={"pump.screws": 7.0})))
+PICTURE = Path(__file__).parents[2] / "docs" / "pictures" / "proof.svg"
 RESULT = Path(__file__).parents[2] / "demo" / "result.json"
 
 
@@ -120,7 +121,9 @@ def test_check_prove_gives_the_proof_as_json_and_as_a_drawing(command: Command) 
     plan = str(plans() / "water_pump.plan.json")
     code, _, _ = command("check", "--prove", plan, "--graph", "svg", "-o", "proof.svg")
     assert code == 0
-    assert "MATCH PUMP WHOLE DONE" in Path("proof.svg").read_text(encoding="utf-8")
+    drawn = Path("proof.svg").read_text(encoding="utf-8")
+    assert "MATCH PUMP WHOLE DONE" in drawn
+    assert drawn == PICTURE.read_text(encoding="utf-8"), "draw it again, as docs/proof.md says"
 
 
 @pytest.mark.parametrize(
