@@ -65,12 +65,12 @@ def mutant_trials(
     work, spec, camera = planned(world.work), world.spec, camera_here(camera)
     if not work.obligations(spec):
         raise Refused(f"the task {quoted(work.name)} declares no obligations, so no mutant can be proved")
+    if most and checkpoints is None and not listed:
+        raise BadArgument("--checkpoints DIR is needed for the runs; --most 0 only proves")
     plan = plan_or_own(None, world.task)
     made = _chosen(list(mutants(plan.program)), only)
     if listed:
         return _list(made, json=options.json)
-    if most and checkpoints is None:
-        raise BadArgument("--checkpoints DIR is needed for the runs; --most 0 only proves")
     return carry_out_sweep(
         MUTANTS,
         MutantWork(

@@ -1,8 +1,10 @@
 """Finds the faults for which a check exists: those that its call or its error should name."""
 
+import re
 from collections.abc import Sequence
 from typing import Final
 
+from handeye.core import errors
 from handeye.core.faults import Catalogue, Fault, FaultKind
 from handeye.program.flow_operations import Test
 from handeye.program.program import Program
@@ -17,16 +19,19 @@ def faults_for(
     mutant: Mutant, program: Program, graph: OutcomeGraph, catalogue: Catalogue, most: int
 ) -> list[Fault]:
     """Return at most `most` faults for which the check that a mutant lacks exists in the program. Faults that can begin
-    at the mutant's stage come first, because their runs are short.
+    at the mutant's stage come first, because their runs are short; among them, those with the fewest right names. Of
+    faults that differ only in a number, the first stands for all.
     """
-    calls, errors = calls_of(mutant.steps, program, graph)
+    calls, stops = calls_of(mutant.steps, program, graph)
     kinds = [
         kind
         for kind in catalogue.kinds.values()
-        if any(map(kind.expected.called, calls)) or errors & set(kind.expected.errors)
+        if any(map(kind.expected.called, calls)) or stops & set(kind.expected.errors)
     ]
-    kinds.sort(key=lambda kind: kind.from_start)
-    return [_usual(kind, mutant.stage) for kind in kinds[:most]]
+    kinds.sort(key=lambda kind: (kind.from_start, len(kind.expected.calls) + len(kind.expected.errors)))
+    first = {re.sub(r"\d+", "", kind.name): kind for kind in reversed(kinds)}  # one of each group
+    chosen = [kind for kind in kinds if kind in first.values()]
+    return [_usual(kind, mutant.stage) for kind in chosen[:most]]
 
 
 def _usual(kind: FaultKind, stage: int) -> Fault:
@@ -37,7 +42,7 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
     """Return the calls to the operator nearest behind the failures of some steps, and the errors with which these steps
     stop the arm.
     """
-    changed, calls, errors = set(steps), [], set[int]()
+    changed, calls, stops = set(steps), list[str](), set[int]()
     waiting: list[int] = []
     for node, (number, error) in enumerate(graph.nodes):
         operation = program.steps[number].operation
@@ -49,9 +54,9 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
             waiting += [edge.to for edge in graph.edges[node]]
         elif operation.raising and not error:
             raised = {edge.outcome for edge in graph.edges[node]} - {SUCCESS, None}
-            errors |= _specific(program, number) - raised
+            stops |= _specific(program, number) - raised
             waiting += [edge.to for edge in graph.edges[node] if edge.outcome in _specific(program, number)]
-    return [*dict.fromkeys([*calls, *_nearest(graph, waiting)])][: CALLS * len(steps)], errors
+    return [*dict.fromkeys([*calls, *_nearest(graph, waiting)])][: CALLS * len(steps)], stops
 
 
 def _specific(program: Program, number: int) -> set[int]:
@@ -59,7 +64,8 @@ def _specific(program: Program, number: int) -> set[int]:
     operation = program.steps[number].operation
     if operation.guards:
         return {guard.error for guard in operation.guards}
-    return set(operation.raises) if operation.only_checks or operation.examines is not None else set()
+    checks = operation.only_checks or operation.examines is not None
+    return set(operation.raises) - {errors.WATCHDOG} if checks else set()
 
 
 def _nearest(graph: OutcomeGraph, starts: Sequence[int]) -> list[str]:
