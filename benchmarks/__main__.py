@@ -130,6 +130,37 @@ def language(
 
 
 @app.command
+def proof(
+    *,
+    planted: Annotated[WholeNumber, Parameter(name="--holes", help="Number of planted holes to try.")] = 50,
+    sound: Annotated[WholeNumber, Parameter(name="--variants", help="Number of sound variants to try.")] = 20,
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the sample.")] = 0,
+) -> int:
+    """Plant holes in the pump's program by rule, make sound variants of it by rule, and try whether `handeye check
+    --prove` finds every hole and accepts every variant. Numbers above the numbers of all holes and variants mean all.
+
+    Exit code 0: every hole was found, and at most one variant in 20 was refused; 1: one was not, or more were.
+    """
+    from benchmarks.planted import holes, sample, script, variants, verdict
+    from handeye.core.variation import WorldSpec
+    from handeye.tasks.water_pump.task import WATER_PUMP
+
+    positive(planted, "hole")
+    positive(sound, "variant")
+    obligations, whole = WATER_PUMP.obligations(WorldSpec(seed=0)), script()
+    wrong = []
+    for kind, made, count in (("hole", holes(whole), planted), ("variant", variants(whole), sound)):
+        drawn = sample(made, count, seed)
+        missed = [each for each in drawn if verdict(each, obligations).holds == (kind == "hole")]
+        for each in missed:
+            say(f"{'not found' if kind == 'hole' else 'refused'}: {each.rule}")
+        told = "not found" if kind == "hole" else "refused"
+        say(f"{counted(len(drawn), kind)} of {len(made)}: {len(missed)} {told}")
+        wrong.append(len(missed) / len(drawn))
+    return 0 if wrong[0] == 0 and wrong[1] <= 1 / 20 else 1
+
+
+@app.command
 def vision(
     *,
     poses: Annotated[WholeNumber, Parameter(help="Number of poses in which the camera sees the part.")] = 24,

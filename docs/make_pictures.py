@@ -1,6 +1,6 @@
 """Make the pictures of docs/, with these exceptions. `make_readme_pictures.py` makes those of the README, and
-`make_report_picture.py` makes `report.webp`. `pipeline.svg` is drawn by hand. docs/dismantling.md, docs/trig.md and
-docs/chess.md say how to make `apart.webp`, `palletiser*.webp` and `chess.webp`.
+`make_report_picture.py` makes `report.webp`. `pipeline.svg` is drawn by hand. docs/dismantling.md, docs/trig.md,
+docs/chess.md and docs/proof.md say how to make `apart.webp`, `palletiser*.webp`, `chess.webp` and `proof.svg`.
 
 python docs/make_pictures.py [DIR]
 

@@ -16,7 +16,7 @@ LAYERS: list[set[str]] = [
     {"core"},
     {"program", "planfile", "ports"},
     {"arm", "vision", "touch", "al"},
-    {"planning", "inspection", "execution"},
+    {"planning", "inspection", "execution", "proof"},
     {"cell", "judge"},
     {"machines", "tasks"},
     {"trace"},

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import msgspec
 from cyclopts import Parameter
@@ -18,16 +18,17 @@ from handeye.cli.common import (
     answer,
     complain,
     note,
-    put,
     put_json,
     say,
     show,
     show_unreadable,
 )
+from handeye.cli.drawings import write_drawing, write_text
 from handeye.cli.programs import compiled, plan_at, script_at
+from handeye.cli.proofs import PROOF, ProofOptions, proved, refuse_with_prove
 from handeye.core.diagnostics import arranged, has_errors
 from handeye.core.errors import BadArgument, InvalidInput
-from handeye.core.files import Kind, beside, check_place, read_whole, write_over
+from handeye.core.files import beside, check_place, read_whole
 from handeye.core.plain_text import counted
 from handeye.core.source import read_source
 from handeye.planfile.store import PLAN, write_plan
@@ -55,12 +56,26 @@ def check(
     watch: Annotated[
         bool, Parameter(help="Keep checking whenever the script, a required file or the taught file changes.")
     ] = False,
+    prove: Annotated[
+        bool,
+        Parameter(
+            group=PROOF,
+            help="Also prove for each finding of the task's referee that every way to the end of the program would "
+            "notice if the finding did not hold. FILE may also be a plan.",
+        ),
+    ] = False,
+    proof: ProofOptions | None = None,
 ) -> int:
     """Check a script and its taught positions, including the arm's reach; nothing moves.
 
     Exit code 0: no errors; 2: errors, or bad input. With --watch, Ctrl-C ends the command with the exit code of the
     last check.
     """
+    options = proof or ProofOptions()
+    if prove:
+        refuse_with_prove(strict=strict, watch=watch)
+        return proved(file, task, options, json=json)
+    options.refuse_without_prove()
     file, work = script_at(file, task)
 
     def once() -> int:
@@ -183,7 +198,6 @@ def stages(
 StageName = Annotated[
     str | None, Parameter(help="Only this stage, given by its number, its name, or part of its name.")
 ]
-DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
 
 
 def inspect(
@@ -201,8 +215,7 @@ def inspect(
 ) -> int:
     """Show what a plan does: stages, steps, times, guards, forces, and what each step depends on."""
     from handeye.debugger.breakpoints import stage_number
-    from handeye.inspection.drawing import flow_svg
-    from handeye.inspection.flow import flow, flow_dot
+    from handeye.inspection.flow import flow
     from handeye.inspection.inspection import inspection, inspection_text
 
     if graph is not None and json:
@@ -211,12 +224,7 @@ def inspect(
     number = None if stage is None else stage_number(stage, plan.program) + 1
     if graph is not None:
         shown = flow(plan, number)
-        _write(
-            flow_svg(shown) if graph == "svg" else flow_dot(shown),
-            output,
-            DRAWINGS[graph],
-            overwrite=overwrite,
-        )
+        write_drawing(shown, graph, output, overwrite=overwrite)
     elif output is not None:
         raise BadArgument("--out needs --graph svg or --graph dot")
     elif json:
@@ -253,13 +261,5 @@ def schema(
     """Print the JSON schema of the plan format."""
     from handeye.planfile.schema import SCHEMA, plan_schema
 
-    _write(plan_schema(), output, SCHEMA, overwrite=overwrite)
+    write_text(plan_schema(), output, SCHEMA, overwrite=overwrite)
     return 0
-
-
-def _write(text: str, output: Path | None, kind: Kind, *, overwrite: bool) -> None:
-    if output is None:
-        put(text.encode())
-    else:
-        check_place(output, kind, overwrite=overwrite)
-        write_over(output, text.encode(), kind)

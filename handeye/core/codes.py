@@ -16,7 +16,7 @@ class Code(Record, frozen=True, kw_only=True):
     severity: Severity
     meaning: str
     example: str
-    phase: Literal["language", "planning", "strict"] = "language"
+    phase: Literal["language", "planning", "strict", "proof"] = "language"
     required: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -26,6 +26,10 @@ def _error(meaning: str, example: str, required: Mapping[str, str] | None = None
 
 def _warning(meaning: str, example: str, required: Mapping[str, str] | None = None) -> Code:
     return Code(severity="warning", meaning=meaning, example=example, required=required or {})
+
+
+def _proof(meaning: str, example: str) -> Code:
+    return Code(severity="error", meaning=meaning, example=example, phase="proof")
 
 
 def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
@@ -71,6 +75,13 @@ CODES: Final[dict[str, Code]] = {
         meaning="a word or an operand was added by handeye, but only the language of the 1970s is allowed",
         example="LOAD 4",
         phase="strict",
+    ),
+    "finding-undecided": _proof(
+        "it cannot be decided whether the program may end without noticing that a finding of the referee does not hold",
+        "HERE A\nPARK\nMOVE A",
+    ),
+    "finding-unnoticed": _proof(
+        "the program can end without noticing that a finding of the referee does not hold", "PARK\nMOVE T"
     ),
     "force-beyond-arm": _planning(
         "a motion asks for more force or moment than the arm can exert",

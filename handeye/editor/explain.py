@@ -26,6 +26,7 @@ _FOUND: Final = {
     "language": "while the script is checked",
     "planning": "when its motions are planned",
     "strict": "only by `handeye check --strict-1973`",
+    "proof": "only by `handeye check --prove`",
 }
 _NUMBERS: Final = {str(number): number for number in ERRORS}
 SENTENCE_WIDTH: Final = 100  # columns
@@ -117,6 +118,10 @@ def example(code: str) -> tuple[Source, Diagnostic | None]:
         found = [*found, *planning(program)]
     if CODES[code].phase == "strict":
         found = [*found, *extensions(source)]
+    if CODES[code].phase == "proof" and program is not None:
+        from handeye.editor.checking import proving
+
+        found = [*found, *proving(program)]
     return source, next((diagnostic for diagnostic in found if diagnostic.code == code), None)
 
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:  # types only: plans are made and checked without a simulator
     from handeye.judge.finding import Findings
     from handeye.planfile.plan import Plan
     from handeye.program.program import Fixture
+    from handeye.proof.obligation import Obligation
     from handeye.tasks.trial import Trial
     from handeye.vision.calibration import CalibrationLook
     from handeye.vision.camera_model import CameraModel
@@ -219,6 +220,11 @@ class Task(AnyTask):
         Raises:
             InvalidInput: the world does not fit this task, or this renderer does not work on this computer.
         """
+
+    def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
+        """Return what a program must show before it ends, finding by finding of the referee; none by default. Each
+        finding occurs once. The world says what the job is, not how its errors are."""
+        return ()
 
     def disturbances(self) -> tuple[Disturbance, ...]:
         """Return the changes that can be made to the cell before the arm undoes its work; none by default."""

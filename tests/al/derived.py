@@ -10,7 +10,9 @@ from handeye.al.formatter import format_text
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operand_help import origin, part, takes
 from handeye.core.codes import CODES, Code
+from handeye.core.diagnostics import render
 from handeye.core.errors import ERRORS
+from handeye.editor.explain import example
 
 REFERENCE = MANUAL / "reference"
 END = "## Meaning\n"
@@ -96,14 +98,30 @@ def diagnostics() -> str:
         for code, entry in sorted(CODES.items())
     ]
     for code, entry in sorted(CODES.items()):
-        out += ["", f"## {code}", "", f"{entry.meaning[0].upper()}{entry.meaning[1:]}.", "", *_example(entry)]
+        out += [
+            "",
+            f"## {code}",
+            "",
+            f"{entry.meaning[0].upper()}{entry.meaning[1:]}.",
+            "",
+            *_example(code, entry),
+        ]
     return "\n".join(out) + "\n"
 
 
-_FOUND = {"language": "in the text", "planning": "in planning", "strict": "with `--strict-1973`"}
+_FOUND = {
+    "language": "in the text",
+    "planning": "in planning",
+    "strict": "with `--strict-1973`",
+    "proof": "with `--prove`",
+}
 
 
-def _example(entry: Code) -> list[str]:
+def _example(code: str, entry: Code) -> list[str]:
+    if entry.phase == "proof":
+        source, found = example(code)
+        assert found is not None
+        return ["```text", entry.example, "```", "", "```text", render(found, source), "```"]
     strict = entry.phase == "strict"
     required = {key: format_text(text) for key, text in entry.required.items()}
     case = Case(name="", program=format_text(entry.example), strict=strict, required=required)

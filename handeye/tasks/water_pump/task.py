@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from handeye.core.variation import Variation, WorldSpec
     from handeye.judge.finding import Findings
     from handeye.program.program import Fixture
+    from handeye.proof.obligation import Obligation
     from handeye.tasks.trial import Trial
 
 
@@ -87,6 +88,12 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
         return exported(PumpWorld.draw(world), truth, keyframe)
+
+    def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
+        from handeye.tasks.water_pump.obligations.findings import obligations
+        from handeye.tasks.water_pump.world.variation import screws
+
+        return obligations(screws(world))
 
     def disturbances(self) -> tuple[Disturbance, ...]:
         from handeye.tasks.water_pump.faults.after import disturbances

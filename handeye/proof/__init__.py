@@ -1,0 +1,3 @@
+"""Proves which checks every way through a program passes. It reads only the program: it uses no simulator, no clock
+and no random numbers.
+"""

@@ -1,0 +1,56 @@
+"""Obligations: what a task asks of every program, finding by finding of its referee."""
+
+from msgspec.structs import replace
+
+from handeye.core.record import Record
+from handeye.proof.evidence import Compared, Evidence, Taken
+
+
+class Phase(Record, frozen=True, kw_only=True):
+    """One part of a claim: steps of any of the kinds `by` show it."""
+
+    by: tuple[Evidence, ...] = ()
+    undone: tuple[Evidence, ...] = ()
+    """Kinds of steps after which the phase must be shown again, because they may change what it has shown."""
+
+
+class Claim(Record, frozen=True, kw_only=True):
+    """What some steps of a program show, in the order of its phases. If `at_first` is True, the claim holds when the
+    program begins, and need only be shown again after it was undone.
+    """
+
+    says: str  # clause, such as `the fingers feel the head`
+    where: str = ""  # where, if other claims say the same of another place, such as `hole 3`
+    phases: tuple[Phase, ...]
+    at_first: bool = False
+
+    def with_pictures(self, before: str, after: str) -> "Claim":
+        """Fill in the names of the two pictures of a comparison."""
+
+        def filled(evidence: Evidence) -> Evidence:
+            if isinstance(evidence, Taken):
+                return replace(evidence, picture=before if evidence.role == "before" else after)
+            return (
+                replace(evidence, before=before, after=after) if isinstance(evidence, Compared) else evidence
+            )
+
+        phases = tuple(
+            Phase(by=tuple(map(filled, phase.by)), undone=tuple(map(filled, phase.undone)))
+            for phase in self.phases
+        )
+        return replace(self, phases=phases)
+
+    @property
+    def compares(self) -> bool:
+        """True if the claim rests on two pictures."""
+        return any(isinstance(each, Compared) for phase in self.phases for each in phase.by)
+
+
+class Obligation(Record, frozen=True, kw_only=True):
+    """A finding of the referee, and the claims that a program must show so that it would notice if the finding did
+    not hold. Without claims, no program is asked to show the finding; `rests` gives the reason.
+    """
+
+    finding: str
+    claims: tuple[Claim, ...] = ()
+    rests: str  # sentence: on what the argument rests besides the claims, or how much may remain unnoticed

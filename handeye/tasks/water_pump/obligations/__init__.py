@@ -1,0 +1,1 @@
+"""What a program of the pump must show before it may end, finding by finding of the referee."""

@@ -1,0 +1,127 @@
+"""The findings of the pump's referee, each with the claims on which it rests."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from handeye.proof.obligation import Obligation
+from handeye.tasks.water_pump.obligations.claims import PumpClaims
+
+
+def obligations(screws: int) -> tuple[Obligation, ...]:
+    """Return the obligations for a pump with some number of screws."""
+    return (
+        *_sensed(screws),
+        *(Obligation(finding=name, rests=why) for name, why in _UNSENSED.items()),
+    )
+
+
+def _sensed(screws: int) -> Iterator[Obligation]:
+    claims = PumpClaims(screws)
+    heads, driven, tight, threaded, sizes = (
+        tuple(map(claim, range(screws)))
+        for claim in (claims.head, claims.driven, claims.tight, claims.threaded, claims.size)
+    )
+    far, left, free = claims.against("far"), claims.against("left"), claims.free()
+    pins, rack, bearing = (claims.pin(0), claims.pin(1)), (claims.rack(),), (claims.bearing(),)
+    yield from (
+        Obligation(finding="base_far", claims=(far,), rests=_SLIDES),
+        Obligation(finding="base_left", claims=(left,), rests=_SLIDES),
+        Obligation(
+            finding="base_yaw", claims=(far,),
+            rests="A push against the far block turns the straight edge of the base along the block.",
+        ),
+        Obligation(
+            finding="base_height", claims=(claims.level(), *map(claims.face, range(4))),
+            rests="A base that is less than .04 in too high may remain unnoticed; the referee allows .02 in.",
+        ),
+        Obligation(
+            finding="base_tilt", claims=(claims.side(0, 3), claims.side(1, 2)),
+            rests="A base that leans across the line of the large holes by less than .6 degrees may remain "
+            "unnoticed; the referee allows .3 degrees.",
+        ),
+        Obligation(finding="gasket_height", claims=heads, rests=_LAYERS),
+        Obligation(
+            finding="gasket_place", claims=(claims.gasket(),),
+            rests="The pictures show an edge of the gasket that is visibly out of place.",
+        ),
+        Obligation(finding="top_height", claims=heads, rests=_LAYERS),
+        Obligation(
+            finding="top_place", claims=threaded,
+            rests="A screw reaches its thread only through its hole in the top.",
+        ),
+        Obligation(
+            finding="screws", claims=(*driven, *heads), rests="Only a screw resists the driver and stands so high."
+        ),
+        Obligation(
+            finding="screws_depth", claims=heads,
+            rests="A head that stands less than .02 in too high may remain unnoticed; the referee allows .008 in.",
+        ),
+        Obligation(
+            finding="screws_thread", claims=threaded,
+            rests="The screw has the length of the drawing (screws_size).",
+        ),
+        Obligation(
+            finding="screws_place", claims=threaded, rests="A thread holds its screw on the axis of the hole."
+        ),
+        Obligation(
+            finding="screws_size", claims=sizes,
+            rests="Only the length of a screw is felt, to .12 in; the referee allows .014 in.",
+        ),
+        Obligation(finding="screws_lean", claims=heads, rests="A screw that leans stands on one side of its head."),
+        Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops .17 in high or more."),
+        Obligation(
+            finding="screws_clamp", claims=tight,
+            rests="A screw that is driven later shifts the load of the others. The torque stop is felt, not the "
+            "clamping force: a thread that turns hard clamps less.",
+        ),
+        Obligation(finding="screws_strain", claims=(claims.gentle(),), rests=_CLUTCH),
+        Obligation(finding="screws_turned", claims=(claims.gentle(),), rests=_CLUTCH),
+        Obligation(finding="pins", claims=pins, rests=_HOLDER),
+        Obligation(finding="pins_tilt", claims=pins, rests=_HOLDER),
+        Obligation(finding="rack", claims=rack, rests=_RACK),
+        Obligation(finding="rack_tilt", claims=rack, rests=_RACK),
+        Obligation(
+            finding="dispenser", claims=driven, rests="If each thread has its screw, no screw is loose."
+        ),
+        Obligation(
+            finding="rotor", claims=free,
+            rests="A rotor that needs less than .125 N m may remain unnoticed; the referee allows .1 N m.",
+        ),
+        Obligation(finding="rotor_place", claims=bearing, rests=_BEARING),
+        Obligation(finding="rotor_lean", claims=bearing, rests=_BEARING),
+        Obligation(finding="hand", claims=(claims.away(),), rests="No part stands at that place."),
+        Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
+        Obligation(
+            finding="rest", claims=(claims.released(),),
+            rests="A part that hangs elsewhere than in the hand is felt only where another finding asks for a touch.",
+        ),
+    )  # fmt: skip
+
+
+_SLIDES: Final = "A push with more than 40 oz slides the pump on the table."
+_LAYERS: Final = (
+    "What lies under a head raises it; less than .02 in may remain unnoticed, and the referee allows .012 in."
+)
+_CLUTCH: Final = "The clamping force to which a torque leads depends on the friction of thread and head."
+_HOLDER: Final = "A pin that leans or stands beside its hole ends lower or higher than one that stands in it."
+_RACK: Final = "A screwdriver that leans or hangs on its guides ends lower or higher than one that stands."
+_BEARING: Final = (
+    "Only the height of the crank pin's end is felt. A bent crank may remain unnoticed, and so may a rotor that is "
+    "less than .07 in out of its bearing; the referee allows .004 in."
+)
+_SERVO: Final = "Arm and hand have no command left, because each step waits for the end of its motion."
+_UNSENSED: Final = {
+    "screws_hold": "To try whether a screw holds would be to loosen it.",
+    "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
+    "floor": "No step looks under the table.",
+    "tray": "It is a property of the simulation: a screw in its thread exists once.",
+    "still": "No step waits to see whether a part comes to rest.",
+    "arm_still": "The program does not measure this; the servo ends each motion at rest, or raises an error.",
+    "overlap_bores": "It is a property of the simulation: solids do not pass through each other.",
+    "overlap": "It is a property of the simulation: solids do not pass through each other.",
+    "as_drawn": "It is a property of the simulation: no part changes during a run.",
+    "bonds": "It is a property of the simulation: its constraints are those of the work.",
+    "held": "It is a property of the simulation: nothing but the arm acts on the parts.",
+    "numbers": "It is a property of the simulation: its numbers are finite.",
+}
+"""Findings that no program is asked to show, with the reason."""

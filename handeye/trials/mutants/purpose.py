@@ -1,0 +1,87 @@
+"""Finds the faults for which a check exists: those that its call or its error should name."""
+
+import re
+from collections.abc import Sequence
+from typing import Final
+
+from handeye.core import errors
+from handeye.core.faults import Catalogue, Fault, FaultKind
+from handeye.program.flow_operations import Test
+from handeye.program.program import Program
+from handeye.proof.outcomes import END, SUCCESS, OutcomeGraph
+from handeye.trials.mutants.rules import Mutant
+
+NEAR: Final = 40  # nodes behind a failed check among which its call is searched
+CALLS: Final = 3  # calls, at most
+
+
+def faults_for(
+    mutant: Mutant, program: Program, graph: OutcomeGraph, catalogue: Catalogue, most: int
+) -> list[Fault]:
+    """Return at most `most` faults for which the check that a mutant lacks exists in the program. Faults that can begin
+    at the mutant's stage come first, because their runs are short; among them, those with the fewest right names. Of
+    faults that differ only in a number, the first stands for all.
+    """
+    calls, stops = calls_of(mutant.steps, program, graph)
+    kinds = [
+        kind
+        for kind in catalogue.kinds.values()
+        if any(map(kind.expected.called, calls)) or stops & set(kind.expected.errors)
+    ]
+    kinds.sort(key=lambda kind: (kind.from_start, len(kind.expected.calls) + len(kind.expected.errors)))
+    first = {re.sub(r"\d+", "", kind.name): kind for kind in reversed(kinds)}  # one of each group
+    chosen = [kind for kind in kinds if kind in first.values()]
+    return [_usual(kind, mutant.stage) for kind in chosen[:most]]
+
+
+def _usual(kind: FaultKind, stage: int) -> Fault:
+    return kind.usual(None if kind.from_start else stage)
+
+
+def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tuple[list[str], set[int]]:
+    """Return the calls to the operator nearest behind the failures of some steps, and the errors with which these steps
+    stop the arm.
+    """
+    changed, calls, stops = set(steps), list[str](), set[int]()
+    waiting: list[int] = []
+    for node, (number, error) in enumerate(graph.nodes):
+        operation = program.steps[number].operation
+        if number not in changed:
+            continue
+        if operation.calls is not None:
+            calls.append(operation.calls)
+        elif isinstance(operation, Test):
+            waiting += [edge.to for edge in graph.edges[node]]
+        elif operation.raising and not error:
+            raised = {edge.outcome for edge in graph.edges[node]} - {SUCCESS, None}
+            stops |= _specific(program, number) - raised
+            waiting += [edge.to for edge in graph.edges[node] if edge.outcome in _specific(program, number)]
+    return [*dict.fromkeys([*calls, *_nearest(graph, waiting)])][: CALLS * len(steps)], stops
+
+
+def _specific(program: Program, number: int) -> set[int]:
+    """Return the errors that only some actions of the kind of a step can raise, or that are the purpose of a check."""
+    operation = program.steps[number].operation
+    if operation.guards:
+        return {guard.error for guard in operation.guards}
+    checks = operation.only_checks or operation.examines is not None
+    return set(operation.raises) - {errors.WATCHDOG} if checks else set()
+
+
+def _nearest(graph: OutcomeGraph, starts: Sequence[int]) -> list[str]:
+    found: list[str] = []
+    for start in starts:
+        seen, waiting = {start}, [start]
+        while waiting and len(seen) < NEAR:
+            node = waiting.pop(0)
+            if node == END:
+                continue
+            call = graph.step(node).operation.calls
+            if call is not None:
+                found.append(call)
+                break
+            for edge in graph.edges[node]:
+                if edge.to not in seen:
+                    seen.add(edge.to)
+                    waiting.append(edge.to)
+    return found
