@@ -14,7 +14,8 @@ from handeye.core.record import Record
 from handeye.program.system_state import SystemState
 from handeye.runs.hand_over import HandOver, Kind, StationMemory
 from handeye.runs.setup import Setup
-from handeye.runs.system import RunCallbacks, RunningSystem
+from handeye.runs.system import ExecutedStep, Listing, RunCallbacks, RunningSystem
+from handeye.runs.systems import system_named
 
 if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
@@ -67,11 +68,37 @@ class LegSystem(ABC):
     state: type[SystemState]  # of its running legs
     stages_in_text = False  # True: the text itself is divided into stages; False: it is one leg
     words: frozenset[str] | None = None
-    """Operations (`program/operations.py`) for which the language has words; None: for all of them."""
+    """Operations (`program/operations.py`) for which the language has words; None: for all of them. `Restore` stands
+    for saved differences in a motion, and `Comply` for the control of the force in a motion.
+    """
 
     @abstractmethod
     def read(self, file: Path) -> Record:
         """Read a program and make its plan. Raises InvalidInput if it has errors."""
+
+    def encode(self, plan: Record) -> bytes:
+        """Encode a plan as bytes. By default, plans of legs are plans of the system."""
+        return system_named(self.system).encode(plan)
+
+    def decode(self, data: bytes, name: str) -> Record:
+        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput."""
+        plan: Record = system_named(self.system).decode(data, name)
+        return plan
+
+    def digest(self, plan: Record, data: bytes) -> str:
+        """Return sixteen hexadecimal digits that identify a plan. `data` is the encoded plan."""
+        return system_named(self.system).digest(plan, data)
+
+    def alike(self, one: Record, other: Record) -> bool:
+        """Return True if two plans agree, apart from the last digits of computed numbers."""
+        return system_named(self.system).alike(one, other)
+
+    def listing(self, plan: Record) -> Listing:
+        return system_named(self.system).listing(plan)
+
+    def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
+        """Return the executed steps of a plan that have not been undone, according to a state."""
+        return system_named(self.system).executed(plan, state)
 
     @abstractmethod
     def steps(self, plan: Record, stage: str) -> range:

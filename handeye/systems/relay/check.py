@@ -7,6 +7,8 @@ from typing import Literal
 from handeye.core.entries import entry_named
 from handeye.core.errors import BadFile
 from handeye.core.record import Record
+from handeye.program.motion_operations import Move
+from handeye.program.operation import Operation
 from handeye.program.program import Program
 from handeye.runs.hand_over import Kind
 from handeye.systems.relay.plan import Leg, RelayPlan, legs
@@ -77,13 +79,24 @@ def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
             continue
         stage = program.stages.index(leg.stage)
         for step in program.steps:
-            word = type(step.operation).__name__
-            if step.stage == stage and word not in leg.system.words:
+            if step.stage == stage and not demands(step.operation) <= leg.system.words:
                 title = entry_named(leg.system.system).title
                 yield LegFinding(
                     kind="cannot-express", stage=leg.stage, system=leg.system.system, file=step.file or file,
                     line=step.line, sentence=f"{title} has no words for {step.text.strip()}",
                 )  # fmt: skip
+
+
+def demands(operation: Operation) -> set[str]:
+    """Return what a language needs words for: the operation, the use of saved differences in a motion (`Restore`), and
+    the control of the force in a motion (`Comply`).
+    """
+    found = {type(operation).__name__}
+    if isinstance(operation, Move) and operation.restore:
+        found.add("Restore")
+    if operation.complies or operation.press is not None:
+        found.add("Comply")
+    return found
 
 
 @lru_cache(maxsize=2)

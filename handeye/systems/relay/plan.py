@@ -15,7 +15,6 @@ from handeye.core.source import LARGEST, Source, line_name
 from handeye.program import numbered
 from handeye.runs.legs import LegSystem, leg_system
 from handeye.runs.system import Listing, StepFacts
-from handeye.runs.systems import system_named
 from handeye.systems.relay.reading import LegLine, parsed
 
 TASK: Final = "water_pump"
@@ -121,10 +120,11 @@ def made(source: Source, folder: Path) -> RelayPlan:
     programs = []
     for file, line in files.items():
         try:
-            plan = leg_system(line.system).read(folder / file)
+            system = leg_system(line.system)
+            plan = system.read(folder / file)
         except BadFile as error:
             raise BadFile(f"{source.name}, line {line.line}: {error}") from None
-        written = system_named(line.system).encode(plan).decode()
+        written = system.encode(plan).decode()
         programs.append(ProgramPlan(file=file, system=line.system, plan=written))
     made = RelayPlan(
         name=Path(source.name).name,
@@ -162,7 +162,7 @@ def decoded(program: ProgramPlan) -> Any:
 
 @lru_cache(maxsize=16)
 def _decoded(system: str, file: str, plan: str) -> Any:
-    return system_named(system).decode(plan.encode(), file)
+    return leg_system(system).decode(plan.encode(), file)
 
 
 @lru_cache(maxsize=4)
@@ -200,7 +200,7 @@ def listing(plan: RelayPlan) -> RelayListing:
     errors: set[int] = set()
     required = {}
     for leg in legs(plan):
-        own: Listing = system_named(leg.system.system).listing(leg.plan)
+        own: Listing = leg.system.listing(leg.plan)
         errors |= {*own.errors}
         required[leg.file] = own.source
         required |= {f"{leg.file}/{name}": text for name, text in own.required.items()}

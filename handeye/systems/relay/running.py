@@ -59,6 +59,7 @@ class RunningRelay(RunningSystem):
         self._cell = work.cell(setup.world, around.parts.camera or setup.camera)
         self._state = state
         mine = replace(around, emit=self._retell)
+        self._held: list[AnyEvent] | None = None  # events of a leg that is taking the arm over; None: emit at once
         self._programs: dict[str, RunningLeg] = {}
         for leg in self._legs:
             if leg.file not in self._programs:
@@ -233,16 +234,20 @@ class RunningRelay(RunningSystem):
         state = self._state
         assert state.record is not None
         assert state.station is not None
+        self._held = []
         try:
             state.record.check_hand(self._cell.devices.sense(), self._arm)
             if self._legs[state.leg - 1].file != self.leg.file:
                 self._running.take_over(self.leg.stage, state.record, state.station)
         except Refused as refused:
+            self._held = None
             self._refuse(str(refused), number)
             return False
         self._running.stand_at(self.leg.stage)
         state.entered, state.refused = True, False
-        self._around.emit(self._taken_over())
+        held, self._held = self._held, None
+        for event in (self._taken_over(), *held):
+            self._around.emit(event)
         return True
 
     def _taken_over(self) -> LegStarted:
@@ -341,7 +346,10 @@ class RunningRelay(RunningSystem):
             event = msgspec.structs.replace(event, step=leg.number(number))
         elif "stage" in event.__struct_fields__:
             event = msgspec.structs.replace(event, stage=self._stage(event.stage))  # type: ignore[union-attr]
-        self._around.emit(event)
+        if self._held is None:
+            self._around.emit(event)
+        else:
+            self._held.append(event)
 
     def _stage(self, name: str) -> str:
         """Return the stage of the relay that a program calls `name`."""
@@ -373,7 +381,7 @@ def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
     """Return the executed steps of all legs that have not been undone, in the order of the legs."""
     found = []
     for leg in legs(plan)[: state.leg + 1]:
-        own = system_named(leg.system.system).executed(leg.plan, memories(plan, state)[leg.file])
+        own = leg.system.executed(leg.plan, memories(plan, state)[leg.file])
         found += [
             LegStep(leg.first + each.step - leg.steps[0], each.enters)
             for each in own
@@ -397,5 +405,5 @@ def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> Reve
         )
     if undoing.left >= len(done):
         raise Refused("there is nothing to undo")
-    whole = len(system_named(here.system.system).executed(here.plan, memories(plan, state)[here.file]))
+    whole = len(here.system.executed(here.plan, memories(plan, state)[here.file]))
     return msgspec.structs.replace(undoing, left=whole - (len(done) - undoing.left))

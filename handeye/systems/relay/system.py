@@ -12,10 +12,10 @@ from handeye.execution.state import ReversalOrder
 from handeye.planfile.store import written_digest
 from handeye.program.events import Choice
 from handeye.program.numbered import encode
+from handeye.runs.legs import leg_system
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.system import ExecutedStep, Listing, RunCallbacks, StepperWords, System
-from handeye.runs.systems import system_named
 from handeye.systems.relay import ENTRY
 from handeye.systems.relay.check import check_plan
 from handeye.systems.relay.plan import RelayPlan, decode, decoded, listing
@@ -50,12 +50,12 @@ class RelaySystem(System):
 
     def digest(self, plan: RelayPlan, data: bytes) -> str:
         """Return a digest of the relay's text and of the digests of its programs."""
-        own = [system_named(each.system).digest(decoded(each), each.plan.encode()) for each in plan.programs]
+        own = [leg_system(each.system).digest(decoded(each), each.plan.encode()) for each in plan.programs]
         return written_digest(msgspec.json.encode([plan.name, plan.text, plan.task, own]))
 
     def alike(self, one: RelayPlan, other: RelayPlan) -> bool:
         return (one.text, len(one.programs)) == (other.text, len(other.programs)) and all(
-            (a.file, a.system) == (b.file, b.system) and system_named(a.system).alike(decoded(a), decoded(b))
+            (a.file, a.system) == (b.file, b.system) and leg_system(a.system).alike(decoded(a), decoded(b))
             for a, b in zip(one.programs, other.programs, strict=True)
         )
 
