@@ -24,11 +24,23 @@ OWN: Final = (
     "handeye.systems.trig:ENTRY",
     "handeye.systems.sigma:ENTRY",
     "handeye.systems.ml:ENTRY",
+    "handeye.systems.relay:ENTRY",
 )  # need no installed metadata
 PLANNED: Final = "program"  # the system that executes plans of motions; the default
 
 Capability = Literal[
-    "plans", "undo", "compare", "faults", "levels", "senses", "video", "chaos", "format", "console", "python"
+    "plans",
+    "undo",
+    "compare",
+    "faults",
+    "levels",
+    "senses",
+    "video",
+    "chaos",
+    "format",
+    "console",
+    "python",
+    "leg",
 ]
 VERBS: Final[Mapping[Capability, str]] = {
     "plans": "run a plan of motions",
@@ -42,6 +54,7 @@ VERBS: Final[Mapping[Capability, str]] = {
     "format": "format its scripts",
     "console": "accept typed lines",
     "python": "continue its runs from Python",
+    "leg": "do a leg of a relay",
 }  # capabilities of a system, as words after `cannot`
 
 
@@ -64,6 +77,9 @@ class Entry(Record, frozen=True, kw_only=True):
     """
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending
+    leg: str = (
+        ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can do a leg of a relay
+    )
     files: tuple[str, ...] = ()  # files that its finished runs add to their folders
 
 

@@ -36,7 +36,7 @@ from handeye.touch.senses import (
     thick,
 )
 
-_SHUT: Final = -0.02  # gap set-point, in m, beyond any closed gap: the fingers press with full force
+SHUT: Final = -0.02  # gap set-point, in m, beyond any closed gap: the fingers press with full force
 
 
 def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
@@ -73,11 +73,11 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
     start = drive.state.gap = drive.sensed.gap
     least = least_gap(operation.minimum)
     floor = min(least, drive.state.gap)
-    while not all(_touch(run)) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > _SHUT:
+    while not all(_touch(run)) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > SHUT:
         drive.state.gap -= grasp.speed * drive.period
         drive.hold(1)
     driven = _driven(start, drive.state.gap)
-    drive.state.gap = _SHUT
+    drive.state.gap = SHUT
     drive.hold(grasp.settle)
     return _still(run, start, driven) or _held(run, least, operation.maximum)
 

@@ -69,6 +69,21 @@ class ToolAxes(Axes):
         self._goal = self._start if self._motion is not None else self._goal
         self._end(self._drive.zero())
 
+    @property
+    def goal(self) -> Array:
+        """The set-points x, y, z (m), O, A, T (rad) at the end of the last servo period, shape (6,)."""
+        self._finish()
+        return self._goal
+
+    def resume(self, goal: Array) -> None:
+        """Continue from set-points that `goal` has returned. The state of the drive must be that of the same moment."""
+        self._start = self._goal = goal
+        self._motion = None
+
+    def release(self) -> None:
+        """Give up the present goal, because the brakes were set. The arm stands where it is."""
+        self.resume(self._pose(self._drive.state.q))
+
     def read(self) -> AxesReading:
         self._finish()
         state, sensed = self._drive.state, self._drive.sensed

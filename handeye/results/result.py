@@ -28,6 +28,14 @@ class Stage(Record, frozen=True, kw_only=True):
     arm_s: float
 
 
+class LegResult(Record, frozen=True, kw_only=True):
+    """A leg of a relay: the name of its system, its stage, and how the stage has ended."""
+
+    system: str
+    stage: str
+    ended: Status
+
+
 class Timing(Record, frozen=True, kw_only=True):
     """Simulated and computing times of a run. No field mixes the two. The working phase is the execution of the plan.
 
@@ -171,6 +179,8 @@ class Result(Record, frozen=True, kw_only=True):
     """Figures that the system of the run adds. The keys are their names."""
     built: dict[str, Check] | UnsetType = UNSET
     """Findings on the finished work of a job, before the job undid the work; `referee` has those after the undoing."""
+    legs: tuple[LegResult, ...] | UnsetType = UNSET
+    """Only for a relay: its legs, in order."""
 
     @property
     def judged(self) -> bool | None:

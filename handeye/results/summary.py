@@ -26,7 +26,7 @@ from handeye.program.events import (
 )
 from handeye.program.senses import assumption
 from handeye.results.pauses import pause_sentence
-from handeye.results.result import CameraReport, Check, Result, Stage, Status, Timing
+from handeye.results.result import CameraReport, Check, LegResult, Result, Stage, Status, Timing
 from handeye.runs.advance import Pause
 from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.runner import Runner
@@ -43,7 +43,13 @@ def summary(
     names = runner.listing.stages
     cell = runner.system.cell
     renderer = Renderer(method="none") if cell is None else cell.renderer
+    stages = stage_times(names, runner.events)
+    ended = {stage.name: stage.status for stage in stages}
+    legs = tuple(
+        LegResult(system=system, stage=stage, ended=ended[stage]) for system, stage in runner.system.legs
+    )
     return Result(
+        legs=legs or UNSET,
         assembled=_assembled(runner, findings, built, completed=completed),
         apart=(all_right(findings) if findings else None) if runner.undone else UNSET,
         completed=completed,
@@ -53,7 +59,7 @@ def summary(
         message=pause_sentence(pause),
         interventions=tuple(interventions(runner.events)),
         warnings=tuple(warnings(runner.events)),
-        stages=stage_times(names, runner.events),
+        stages=stages,
         timing=timing(runner.events, runner.time, host),
         referee=_checks(findings or {}),
         built=_checks(built) if built else UNSET,

@@ -253,6 +253,11 @@ class RunningSystem(Protocol):
         return {}
 
     @property
+    def legs(self) -> Sequence[tuple[str, str]]:
+        """The system and the stage of each leg of a relay, in order; empty for any other run."""
+        return ()
+
+    @property
     def figures(self) -> Mapping[str, float]:
         """Figures that the result of the run shows in addition to the figures of every system; none by default."""
         return {}

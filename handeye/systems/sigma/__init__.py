@@ -8,7 +8,8 @@ ENTRY = Entry(
     title="SUPERSIGMA",
     help="Write parallel tasks in MAL, and try every order in which they may run (Milan, 1981).",
     system="handeye.systems.sigma.run.system:SIGMA",
-    can=("faults", "levels", "video", "console", "chaos"),
+    can=("faults", "levels", "video", "console", "chaos", "leg"),
+    leg="handeye.systems.sigma.bridge.leg:LEGS",
     reasons={
         "plans": "`handeye sigma run FILE.mal` runs its programs",
         "undo": "its arms cannot reverse their motions; in the stepper, `back` returns the simulation to an earlier "

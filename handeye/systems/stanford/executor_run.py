@@ -59,17 +59,19 @@ from handeye.vision.marks import Mark
 class RunningPlan(RunningSystem):
     """A plan that the arm of a simulated cell is executing."""
 
-    def __init__(self, setup: Setup, around: RunCallbacks) -> None:
-        """Build the cell. Raises InvalidInput if the plan was made for another arm, or if the camera cannot
-        work as requested.
+    def __init__(self, setup: Setup, around: RunCallbacks, cell: SimulatedCell | None = None) -> None:
+        """Build the cell, or use the given cell. Raises InvalidInput if the plan was made for another arm, or if the
+        camera cannot work as requested.
         """
         self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
         self._anew, self._prepared, self._took_up = around.calibrate, 0.0, False
         self._unkept: str | None = None
         self.plan = plan_of(setup)
         self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
-        PROGRAM.check(setup)
-        self._cell = task(setup.task).cell(setup.world, around.parts.camera or setup.camera)
+        if cell is None:
+            PROGRAM.check(setup)
+            cell = task(setup.task).cell(setup.world, around.parts.camera or setup.camera)
+        self._cell = cell
         check_devices(self.plan.program, self._cell.devices)
         self._context = ExecutionContext(
             plan=self.plan,

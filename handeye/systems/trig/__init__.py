@@ -9,7 +9,8 @@ ENTRY = Entry(
     title="TRIG",
     help="Teach a program by example, watch it grow, run it backwards (MIT, 1982).",
     system="handeye.systems.trig.run.system:TAUGHT",
-    can=("undo", "compare", "faults", "levels", "video", "chaos"),
+    can=("undo", "compare", "faults", "levels", "video", "chaos", "leg"),
+    leg="handeye.systems.trig.leg:LEGS",
     reasons={
         "python": "`handeye resume` continues a run",
         "plans": "each of its programs is taught in the world in which it runs; `handeye trig palletise`, "

@@ -59,6 +59,7 @@ class BorrowedArm(PerfectMotors):
         """Take an arm that is held in place, and bring its tool to the place that the axes have at power-on."""
         super().__init__()
         self._drive, self._axes, self._at = drive, ToolAxes(drive), at
+        self._top, self._open = TOP, OPEN  # mm
         self._limits: dict[int, float | None] = dict.fromkeys(_AXES)  # N
         self._slow: set[int] = set()  # motors whose motion has a constant speed
         self.felt = np.zeros(3)  # N on the hand, along X, Y and Z
@@ -130,8 +131,8 @@ class BorrowedArm(PerfectMotors):
         """Return the goal of the tool now: x, y, z (m), O, A, T (rad), and the gap (m)."""
         places = [self._place(number) for number in _AXES]
         x, y, z = places
-        tool = ((self._at[0] + x) * _MM, (self._at[1] + y) * _MM, (TOP - z) * _MM)
-        gap = 0.0 if self._memory.devices[_HAND].get(0) else OPEN * _MM
+        tool = ((self._at[0] + x) * _MM, (self._at[1] + y) * _MM, (self._top - z) * _MM)
+        gap = 0.0 if self._memory.devices[_HAND].get(0) else self._open * _MM
         return np.array([*tool, *DOWN, gap])
 
     def _place(self, number: int) -> float:

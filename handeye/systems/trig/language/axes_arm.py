@@ -51,13 +51,15 @@ class ArmMemory(Record, frozen=True, kw_only=True):
 class AxesArm(TrigArm):
     """The six axes of a machine (X, Y, Z, roll, pitch and yaw) and its hand, as a TRIG arm."""
 
-    def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits) -> None:
+    def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits, *, ready: bool = False) -> None:
+        """Take the arm. Unless it is `ready`, its hand is opened."""
         self._axes, self._clock, self._limits = axes, clock, limits
         self._goal, self._closed, self._opening = self._where(), False, limits.open
         self._met_force = 0.0
         self._speed = np.array([spec.speed for spec in axes.specs[:-1]])
         self._acceleration = np.array(limits.acceleration)
-        self._wait(self._limits.grasping)
+        if not ready:
+            self._wait(self._limits.grasping)
 
     def here(self) -> Place:
         return Place(*map(float, self._goal))

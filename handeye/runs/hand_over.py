@@ -1,0 +1,118 @@
+"""What one leg of a relay hands over to the next: a small record in SI units, which no language owns.
+
+Each system writes and reads the record in its own way (`handeye/runs/legs.py`). The record says where the hand is,
+what it holds, and which places the programs have found. It contains only what sensors and programs know.
+"""
+
+from typing import Final, Literal
+
+import numpy as np
+from msgspec import field
+
+from handeye.arm.kinematics import forward
+from handeye.arm.model import ArmModel
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import Refused
+from handeye.core.mutable_records import MutableRecord
+from handeye.core.plain_text import counted
+from handeye.core.pose import Array, hand
+from handeye.core.record import Record
+from handeye.ports.workcell import Sensed
+from handeye.program.world_model import rounded_place
+from handeye.vision.calibration import Calibration
+
+MOVED: Final = 3e-3
+"""Distance (m) by which the hand may be off its place in the record. Chosen: brakes let the hand sink by less."""
+TURNED: Final = 0.02  # rad by which the hand may be turned. Chosen.
+GAP_CHANGED: Final = 1e-3
+"""Change (m) of the gap up to which the hand still holds the same part. Chosen: a part that straightens between the
+fingers changes the gap by up to 1.1 mm / 2 each way.
+"""
+MOST_NAMES: Final = 200
+
+Kind = Literal["place", "difference", "height"]
+"""A place of the hand or of a part (x, y, z, O, A, T), a difference between two places (x, y, z), or a height (z)."""
+SIZES: Final[dict[Kind, int]] = {"place": 6, "difference": 3, "height": 1}
+"""How many numbers a value has, by kind."""
+UNITS: Final = ("m", "rad", "N")
+
+
+class HandOver(Record, frozen=True, kw_only=True):
+    """The record that is handed over between two legs."""
+
+    units: tuple[str, ...] = UNITS  # of lengths, angles and forces
+    hand: tuple[float, ...]  # x, y, z in W and O, A, T, by the potentiometers
+    gap: float  # of the fingers, as sensed
+    held: str = ""  # the part that the hand holds, as its program calls it; empty: none
+    load: float = 0.0  # weight of what the hand holds, as the program knows it
+    named: dict[Kind, dict[str, tuple[float, ...]]] = field(default_factory=dict)
+    """What programs have found: the numbers of each value, by kind and name."""
+
+    def check(self) -> None:
+        """Raise Refused unless all values are finite numbers in SI units."""
+        if self.units != UNITS:
+            raise Refused(
+                f"the hand-over record is in {', '.join(self.units)}; it must be in {', '.join(UNITS)}"
+            )
+        if len(self.hand) != SIZES["place"] or not np.isfinite([*self.hand, self.gap, self.load]).all():
+            raise Refused("the hand, gap and load of the hand-over record must be eight finite numbers")
+        if sum(map(len, self.named.values())) > MOST_NAMES:
+            raise Refused(f"the hand-over record has more than {MOST_NAMES} names")
+        for kind, values in self.named.items():
+            for name, numbers in values.items():
+                if len(numbers) != SIZES[kind] or not np.isfinite(numbers).all():
+                    raise Refused(
+                        f"the {kind} {quoted(name)} of the hand-over record must have "
+                        f"{counted(SIZES[kind], 'finite number')}, not {len(numbers)}"
+                    )
+
+    def value(self, name: str, kind: Kind) -> Array:
+        """Return the numbers of a value, SI. Raises Refused if it is missing or of another kind."""
+        found = self.named.get(kind, {}).get(name)
+        if found is not None:
+            return np.array(found)
+        other = next((other for other, values in self.named.items() if name in values), None)
+        if other is None:
+            raise Refused(f"the hand-over record has no {kind} {quoted(name)}")
+        raise Refused(f"{quoted(name)} is a {other} in the hand-over record, but the leg needs a {kind}")
+
+    def check_hand(self, sensed: Sensed, arm: ArmModel) -> None:
+        """Raise Refused unless hand and fingers are as the record says, according to the sensors."""
+        self.check()
+        X_WT, told = forward(arm, sensed.q), hand(*self.hand)
+        off = float(np.linalg.norm(X_WT[:3, 3] - told[:3, 3]))
+        if off > MOVED:
+            raise Refused(
+                f"the hand is {off * 1e3:.1f} mm from its place in the hand-over record; at most {MOVED * 1e3:g} mm "
+                "are allowed"
+            )
+        cosine = (float(np.trace(X_WT[:3, :3].T @ told[:3, :3])) - 1) / 2
+        turned = float(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        if turned > TURNED:
+            raise Refused(
+                f"the hand is turned by {np.degrees(turned):.1f} degrees from its pose in the hand-over record; at "
+                f"most {np.degrees(TURNED):.1f} degrees are allowed"
+            )
+        if self.held and abs(sensed.gap - self.gap) > GAP_CHANGED:
+            raise Refused(
+                f"the hand-over record says that the hand holds {self.held} with a gap of {self.gap * 1e3:.1f} mm, "
+                f"but the gap is {sensed.gap * 1e3:.1f} mm"
+            )
+
+
+def place_now(sensed: Sensed, arm: ArmModel) -> tuple[float, ...]:
+    """Return the place of the hand by the potentiometers."""
+    return rounded_place(forward(arm, sensed.q))
+
+
+class StationMemory(MutableRecord, kw_only=True):
+    """What the station has measured of itself before the first leg, and the state of its camera. It belongs to the
+    devices and not to a program, so every leg may use it. Joint arrays have shape (n,).
+    """
+
+    friction: Array  # Coulomb friction (N m, N); 0 if unknown
+    links: Array | None = None  # measured weights of the links, divided by the weights in the model
+    weights: Array | None = None  # later estimate, see `arm.torque_balance`
+    calibration: Calibration | None = None  # of the camera; None if no program takes pictures
+    lens: float | None = None  # focal length of the lens in place (m); None: unknown
+    camera_ready: float = 0.0  # time (s) at which the camera's mechanism is ready

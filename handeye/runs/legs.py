@@ -1,0 +1,134 @@
+"""Defines the interface of a system that can do a leg of a relay.
+
+A relay is a list of legs; each leg does one stage of a task in the language of one system, on the cell that all legs
+share. The relay (`handeye/systems/relay`) finds the other systems by their entries: `Entry.leg` names a `LegSystem`.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from handeye.core.entries import entry_named, loaded, require
+from handeye.core.record import Record
+from handeye.program.system_state import SystemState
+from handeye.runs.hand_over import HandOver, Kind, StationMemory
+from handeye.runs.setup import Setup
+from handeye.runs.system import ExecutedStep, Listing, RunCallbacks, RunningSystem
+from handeye.runs.systems import system_named
+
+if TYPE_CHECKING:
+    from handeye.cell.simulated import SimulatedCell
+
+
+class Use(NamedTuple):
+    """A named value that a leg reads or writes, and the line that does so first."""
+
+    name: str
+    kind: Kind
+    line: int
+
+
+class Lack(NamedTuple):
+    """What a leg cannot do, with the line of its text."""
+
+    line: int
+    sentence: str
+
+
+class RunningLeg(RunningSystem):
+    """A program during its legs. Between its legs, the program keeps its memory, and others may move the arm."""
+
+    @abstractmethod
+    def stand_at(self, stage: str) -> None:
+        """Stand at the first step of a stage, unless the program already stands in this stage."""
+
+    @abstractmethod
+    def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
+        """Take the arm over from another program, for a stage. Raises Refused, and changes nothing, if the record lacks
+        a value that the stage needs, or has it in another kind.
+        """
+
+    @abstractmethod
+    def leave(self, record: HandOver | None) -> HandOver:
+        """Set the brakes, and return the record for the next leg. The new record keeps the values of the last one that
+        this program does not know.
+        """
+
+    @property
+    @abstractmethod
+    def station(self) -> StationMemory:
+        """What the station knows of itself now."""
+
+
+class LegSystem(ABC):
+    """A system that can do legs of a relay."""
+
+    system: str  # its entry's name
+    state: type[SystemState]  # of its running legs
+    stages_in_text = False  # True: the text itself is divided into stages; False: it is one leg
+    words: frozenset[str] | None = None
+    """Operations (`program/operations.py`) for which the language has words; None: for all of them. `Restore` stands
+    for saved differences in a motion, and `Comply` for the control of the force in a motion.
+    """
+
+    @abstractmethod
+    def read(self, file: Path) -> Record:
+        """Read a program and make its plan. Raises InvalidInput if it has errors."""
+
+    def encode(self, plan: Record) -> bytes:
+        """Encode a plan as bytes. By default, plans of legs are plans of the system."""
+        return system_named(self.system).encode(plan)
+
+    def decode(self, data: bytes, name: str) -> Record:
+        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput."""
+        plan: Record = system_named(self.system).decode(data, name)
+        return plan
+
+    def digest(self, plan: Record, data: bytes) -> str:
+        """Return sixteen hexadecimal digits that identify a plan. `data` is the encoded plan."""
+        return system_named(self.system).digest(plan, data)
+
+    def alike(self, one: Record, other: Record) -> bool:
+        """Return True if two plans agree, apart from the last digits of computed numbers."""
+        return system_named(self.system).alike(one, other)
+
+    def listing(self, plan: Record) -> Listing:
+        return system_named(self.system).listing(plan)
+
+    def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
+        """Return the executed steps of a plan that have not been undone, according to a state."""
+        return system_named(self.system).executed(plan, state)
+
+    @abstractmethod
+    def steps(self, plan: Record, stage: str) -> range:
+        """Return the steps of a stage in the listing of a plan. Raises NoSuchName if it has no such stage."""
+
+    def reads(self, plan: Record, stage: str) -> Sequence[Use]:
+        """Return the values that a stage needs from the record or from an earlier stage of the same program."""
+        return ()
+
+    def writes(self, plan: Record, stage: str) -> Sequence[Use]:
+        """Return the values that a stage adds to the record."""
+        return ()
+
+    def lacks(self, plan: Record, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
+        """Return what a stage demands that a leg cannot do. `earlier` has the stages that earlier legs of the same
+        program do.
+        """
+        return ()
+
+    def takes_pictures(self, plan: Record) -> bool:
+        """Return True if a program takes pictures."""
+        return False
+
+    @abstractmethod
+    def build(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> RunningLeg:
+        """Build the running system of a program on a cell that others use, too."""
+
+
+def leg_system(name: str) -> LegSystem:
+    """Return what lets a system do legs. Raises Refused if the system cannot, NoSuchName if there is none."""
+    require(name, "leg")
+    found: LegSystem = loaded(entry_named(name).leg)
+    return found

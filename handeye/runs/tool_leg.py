@@ -1,0 +1,113 @@
+"""What all legs share that move the arm as a machine of tool axes (`handeye/execution/tool_axes.py`)."""
+
+from typing import Final
+
+import numpy as np
+from msgspec import field
+
+from handeye.arm.model import ArmModel
+from handeye.cell.compiled_arm import CompiledArm
+from handeye.cell.simulated import SimulatedCell
+from handeye.core.errors import BadFile
+from handeye.core.mutable_records import MutableRecord
+from handeye.execution.drive import ArmDrive
+from handeye.execution.hand_actions import SHUT
+from handeye.execution.state import DriveState
+from handeye.execution.tool_axes import ToolAxes
+from handeye.program.world_model import rounded_place
+from handeye.runs.hand_over import HandOver, Kind, StationMemory, place_now
+from handeye.runs.system import RunCallbacks
+from handeye.touch.senses import EMPTY_GAP
+
+_SIZE: Final = 7  # axes of the tool
+
+
+class ToolMemory(MutableRecord, kw_only=True):
+    """The state of the arm between two steps of a program that moves it by tool axes."""
+
+    drive: DriveState
+    goal: tuple[float, ...] = ()  # set-points x, y, z (m), O, A, T (rad); empty: the arm was not taken over
+    station: StationMemory = field(default_factory=lambda: StationMemory(friction=np.zeros(0)))
+
+
+class ToolArm:
+    """The arm of a cell, for a program that moves its tool axes. Between the legs of the program, others may move
+    the arm.
+    """
+
+    def __init__(self, cell: SimulatedCell, arm: ArmModel, around: RunCallbacks) -> None:
+        self.cell, self.arm = cell, arm
+        self.memory = ToolMemory(drive=DriveState.holding(cell.devices.sense(), arm))
+        self.drive = ArmDrive(cell=cell.devices, arm=arm, state=self.memory.drive, arithmetic=CompiledArm)
+        self.drive.halt, self.drive.watch = around.halt, around.watch
+        self.axes = ToolAxes(self.drive)
+
+    @property
+    def time(self) -> float:
+        """Time on the clock of the cell (s), rounded to its period."""
+        period = self.arm.servo.period
+        return round(round(self.drive.sensed.time / period) * period, 6)
+
+    def take_over(self, record: HandOver, station: StationMemory) -> None:
+        """Hold the arm as it stands, and a part as the record says."""
+        memory, drive = self.memory, self.memory.drive
+        drive.friction, drive.links, drive.weights = station.friction, station.links, station.weights
+        drive.hold_anew(self.cell.devices.sense(), self.arm)
+        drive.load = record.load
+        if record.held:
+            drive.gap = SHUT
+        memory.station = station
+        self.axes = ToolAxes(self.drive)
+        self.axes.tare()
+        self.rest()
+
+    def rest(self) -> None:
+        """Note the set-points after a step."""
+        self.memory.goal = tuple(map(float, self.axes.goal))
+
+    def resume(self) -> None:
+        """Go on from a restored memory. Raises BadFile if it does not fit."""
+        goal = self.memory.goal
+        if len(goal) not in (0, _SIZE - 1) or not np.isfinite(goal).all():
+            raise BadFile("the state of the run does not fit this arm")
+        self.axes = ToolAxes(self.drive)
+        if goal:
+            self.axes.resume(np.array(goal))
+
+    def stop(self) -> None:
+        """Set the brakes."""
+        self.drive.state.tool = 0.0
+        self.drive.stop()
+        self.axes.release()
+
+    @property
+    def station(self) -> StationMemory:
+        """What the station knows of itself: only the program of 1973 improves the weights and uses the camera."""
+        return self.memory.station
+
+    def hand_over(
+        self, record: HandOver | None, held: str, load: float, places: dict[str, np.ndarray]
+    ) -> HandOver:
+        """Set the brakes, and return the record for the next leg.
+
+        Args:
+            held: the name of the part in the hand, if the fingers hold anything.
+            places: the poses `X_WT` of the hand that the program hands over, by name.
+        """
+        self.stop()
+        sensed = self.drive.sensed
+        holds = bool(held) and sensed.gap > EMPTY_GAP
+        named: dict[Kind, dict[str, tuple[float, ...]]] = {
+            kind: {**values} for kind, values in ({} if record is None else record.named).items()
+        }
+        named["place"] = {
+            **named.get("place", {}),
+            **{name: rounded_place(X) for name, X in places.items()},
+        }
+        return HandOver(
+            hand=place_now(sensed, self.arm),
+            gap=round(sensed.gap, 6),
+            held=held if holds else "",
+            load=load if holds else 0.0,
+            named=named,
+        )

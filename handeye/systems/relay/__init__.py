@@ -1,0 +1,20 @@
+"""The relay: the stages of one task, each done by a program in the language of one system, on one arm."""
+
+from handeye.core.entries import Entry
+
+ENTRY = Entry(
+    name="relay",
+    title="the relay",
+    help="Let programs of several systems do the stages of one pump, one after the other, on the same arm.",
+    system="handeye.systems.relay.system:RELAY",
+    can=("undo", "faults", "levels", "video"),
+    reasons={
+        "plans": "`handeye relay run FILE.relay` runs its programs",
+        "leg": "its own legs are programs of other systems",
+    },
+    commands="""
+relay = handeye.systems.relay.cli.commands:relay: Let programs of several systems do the stages of one pump, one after the other, on the same arm.
+""",  # noqa: E501 - a command a line
+    languages={".relay": "handeye.systems.relay.language:LANGUAGE"},
+    events="handeye.systems.relay.happenings:EVENTS",
+)

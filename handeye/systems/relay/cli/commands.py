@@ -1,0 +1,85 @@
+"""The commands of the relay: run and check."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import WholeNumber, put_json, say, show
+from handeye.cli.judged_jobs import ANY_RUN, JobOptions, carry_out_job
+from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
+
+RelayFile = Annotated[
+    Path, Parameter(help="A relay, `.relay`: a list of stages and of the programs that do them.")
+]
+
+relay = App(
+    name="relay",
+    help="Let programs of several systems do the stages of one pump, one after the other, on the same arm.",
+)
+
+
+def run(
+    file: RelayFile,
+    /,
+    *,
+    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: it determines all its errors.")] = 0,
+    errors: OwnErrorOptions = ANY_OWN_ERRORS,
+    options: JobOptions = ANY_RUN,
+) -> int:
+    """Run the legs of a relay. `handeye relay FILE` does the same.
+
+    Between two legs, the brakes are set, and a small record is handed over: where the hand is, what it holds, and the
+    places that the programs have found. A leg that does not find hand and part as the record says refuses to begin.
+
+    Exit code 0: right; 1: a program stopped before its end, or a leg refused to begin; 3: all programs ended, but the
+    referee disagrees; 2: bad input; 130: interrupted.
+    """
+    from handeye.core.source import read_source
+    from handeye.runs.setup import Setup
+    from handeye.systems.relay.check import check_plan
+    from handeye.systems.relay.plan import TASK, made
+
+    plan = made(read_source(file), file.parent)
+    check_plan(plan)
+    world = errors.of(TASK).spec(seed)
+    return carry_out_job(Setup(system="relay", plan=plan, world=world, camera="auto", judged=True), options)
+
+
+def check(
+    file: RelayFile,
+    /,
+    *,
+    json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
+) -> int:
+    """Check a relay and its programs, without moving anything: do the legs fit together? Then list, for each leg, the
+    lines of the pump's own program for which the language of the leg has no words.
+
+    Exit code 0: no errors; 2: bad input, or a relay with errors.
+    """
+    from handeye.core.diagnostics import has_errors
+    from handeye.core.source import read_source
+    from handeye.systems.relay.check import inexpressible, misfits
+    from handeye.systems.relay.plan import made
+    from handeye.systems.relay.reading import parsed
+
+    source = read_source(file)
+    mistakes = parsed(source)[1]
+    if has_errors(mistakes):
+        show(mistakes, source, json=json)
+        return 2
+    plan = made(source, file.parent)
+    wrong, without = [*misfits(plan)], [*inexpressible(plan)]
+    if json:
+        put_json([*wrong, *without])
+    else:
+        for finding in (*wrong, *without):
+            say(finding.told, whole=True)
+        if not wrong:
+            say(f"{file}: no errors")
+    return 2 if wrong else 0
+
+
+relay.default(run)
+relay.command(run)
+relay.command(check)

@@ -1,0 +1,409 @@
+"""A relay during a run. Each step is a step of the leg that has the arm."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import msgspec
+
+from handeye.cell.simulated import SimulatedCell
+from handeye.core.entries import entry_named
+from handeye.core.errors import BadFile, Refused
+from handeye.core.mutable_records import put_back
+from handeye.execution.state import ReversalOrder, Shot
+from handeye.planfile.store import written_digest
+from handeye.ports.axes import Channel
+from handeye.program.events import (
+    AnyEvent,
+    Choice,
+    OperatorAnswered,
+    OperatorCalled,
+    RunFinished,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+    StepFinished,
+    StepStarted,
+)
+from handeye.program.system_state import SystemState
+from handeye.runs.legs import RunningLeg
+from handeye.runs.setup import Setup
+from handeye.runs.system import RunCallbacks, RunningSystem, Settable
+from handeye.runs.systems import system_named
+from handeye.systems.relay import ENTRY
+from handeye.systems.relay.happenings import LegStarted
+from handeye.systems.relay.plan import Leg, RelayPlan, legs, listing
+from handeye.systems.relay.state import RelayCore
+from handeye.tasks import task
+from handeye.vision.marks import Mark
+
+
+@dataclass(frozen=True, slots=True)
+class LegStep:
+    """An executed step of a leg that has not been undone."""
+
+    step: int
+    enters: bool
+
+
+class RunningRelay(RunningSystem):
+    """The programs of a relay on their common cell."""
+
+    def __init__(self, setup: Setup, around: RunCallbacks, state: RelayCore) -> None:
+        """Build the cell and all programs. `state` is the empty state of the relay."""
+        assert isinstance(setup.plan, RelayPlan)
+        self._setup, self._around, self._plan = setup, around, setup.plan
+        self._legs, self._listing = legs(self._plan), listing(self._plan)
+        work = task(setup.task)
+        self._arm = work.arm
+        self._cell = work.cell(setup.world, around.parts.camera or setup.camera)
+        self._state = state
+        mine = replace(around, emit=self._retell)
+        self._held: list[AnyEvent] | None = None  # events of a leg that is taking the arm over; None: emit at once
+        self._programs: dict[str, RunningLeg] = {}
+        for leg in self._legs:
+            if leg.file not in self._programs:
+                own = msgspec.structs.replace(setup, system=leg.system.system, plan=leg.plan)
+                self._programs[leg.file] = leg.system.build(own, mine, self._cell)
+        self._keep_memories()
+
+    # -- knowing ------------------------------------------------------------------------------------------
+
+    @property
+    def state(self) -> RelayCore:
+        return self._state
+
+    @property
+    def cell(self) -> SimulatedCell:
+        return self._cell
+
+    @property
+    def arm_cell(self) -> SimulatedCell:
+        return self._cell
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return tuple(joint.name for joint in self._arm.joints)
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        known = {channel.name: channel for each in self._programs.values() for channel in each.channels}
+        return tuple(known.values())
+
+    @property
+    def time(self) -> float:
+        return self._running.time
+
+    @property
+    def trouble(self) -> str | None:
+        return self._running.trouble
+
+    @property
+    def switched_on(self) -> float:
+        return self._programs[self._legs[0].file].switched_on
+
+    @property
+    def unkept(self) -> str | None:
+        return self._programs[self._legs[0].file].unkept
+
+    @property
+    def shots(self) -> Mapping[str, Shot]:
+        return self._running.shots
+
+    def marks(self, picture: str) -> Sequence[Mark]:
+        return self._running.marks(picture)
+
+    @property
+    def just_found(self) -> tuple[str, Sequence[Mark]]:
+        return self._running.just_found
+
+    @property
+    def leg(self) -> Leg:
+        """The leg that has the arm, or had it last."""
+        return self._legs[self._state.leg]
+
+    @property
+    def legs(self) -> tuple[tuple[str, str], ...]:
+        return tuple((leg.system.system, leg.stage) for leg in self._legs)
+
+    @property
+    def _running(self) -> RunningLeg:
+        return self._programs[self.leg.file]
+
+    @property
+    def shown(self) -> Mapping[str, Any]:
+        record = self._state.record
+        return {
+            "leg": self.leg.stage,
+            "system": entry_named(self.leg.system.system).title,
+            "record": None if record is None else msgspec.to_builtins(record),
+            "program": self._running.shown,
+        }
+
+    # -- going on -----------------------------------------------------------------------------------------
+
+    def begin(self) -> Sequence[AnyEvent]:
+        begun, *others = self._running.begin()
+        assert isinstance(begun, RunStarted)
+        kind, plan = system_named(ENTRY.name), self._plan
+        data = kind.encode(plan)
+        arm, digest = kind.machine(plan)
+        started = msgspec.structs.replace(
+            begun,
+            system=ENTRY.name,
+            program=plan.name,
+            steps=len(self._listing.steps),
+            plan=kind.digest(plan, data),
+            content=written_digest(data),
+            arm=arm,
+            arm_digest=digest,
+        )
+        self._state.station = self._running.station
+        self._running.stand_at(self.leg.stage)
+        self._keep_memories()
+        self._state.entered = True
+        self._mirror()
+        return [started, *others, self._taken_over()]
+
+    def step(self) -> None:
+        state = self._state
+        assert state.at is not None
+        if not state.entered and not self._enter(state.at):
+            return
+        self._cell.begin_stage(state.leg + 1)
+        undoing = self._undoing
+        self._running.step()
+        self._go_on(undoing=undoing)
+
+    def answer(self, choice: Choice) -> None:
+        if self._state.refused:
+            self._answer_refusal(choice)
+            return
+        self._running.answer(choice)
+        self._go_on()
+
+    def _go_on(self, *, undoing: bool = False) -> None:
+        """Follow the program that has the arm. If its leg has ended, the arm is handed over. With `undoing`, the last
+        step has been an undo, which may have gone back into an earlier leg of the same program.
+        """
+        self._mirror(undoing=undoing)
+        if undoing or self._running.state.stopped is not None or self._running.state.stage is not None:
+            return
+        if self._running.state.at not in self.leg.steps:
+            self._leave()
+
+    def _mirror(self, *, undoing: bool = False) -> None:
+        """Take over the place of the program that has the arm."""
+        state, own = self._state, self._running.state
+        if undoing:
+            place = own.at if own.at is not None else own.onward
+            same = (leg.index for leg in self._legs if leg.file == self.leg.file and place in leg.steps)
+            state.leg = next(same, state.leg)
+        state.stopped = own.stopped
+        ended = own.at is None and (own.stopped is not None or self._turned)
+        state.at = None if ended else self.leg.number(own.at)
+        state.onward = None if own.onward is None and own.stopped is None else self.leg.number(own.onward)
+        state.stage = None if own.stage is None else state.leg
+
+    @property
+    def _undoing(self) -> bool:
+        return getattr(self._running.state, "undoing", None) is not None
+
+    @property
+    def _turned(self) -> bool:
+        """True if the program stands where the arm has undone its steps."""
+        return self._running.state.onward is not None
+
+    # -- handing over -------------------------------------------------------------------------------------
+
+    def _leave(self) -> None:
+        """Set the brakes, and make the record for the next leg."""
+        state = self._state
+        state.record = self._running.leave(state.record)
+        state.station = self._running.station
+        if self.leg.onward is not None:
+            before = self.leg
+            state.leg, state.entered = state.leg + 1, False
+            own = self._running.state
+            goes_on = self.leg.file == before.file and own.at in self.leg.steps
+            state.at = self.leg.number(own.at) if goes_on else self.leg.first
+            state.stage = None
+
+    def _enter(self, number: int) -> bool:
+        """Let the program of the leg take the arm over. Returns False if it has refused."""
+        state = self._state
+        assert state.record is not None
+        assert state.station is not None
+        self._held = []
+        try:
+            state.record.check_hand(self._cell.devices.sense(), self._arm)
+            if self._legs[state.leg - 1].file != self.leg.file:
+                self._running.take_over(self.leg.stage, state.record, state.station)
+        except Refused as refused:
+            self._held = None
+            self._refuse(str(refused), number)
+            return False
+        self._running.stand_at(self.leg.stage)
+        state.entered, state.refused = True, False
+        held, self._held = self._held, None
+        for event in (self._taken_over(), *held):
+            self._around.emit(event)
+        return True
+
+    def _taken_over(self) -> LegStarted:
+        record = self._state.record
+        named = {name for values in ({} if record is None else record.named).values() for name in values}
+        return LegStarted(
+            time=self.time,
+            stage=self.leg.stage,
+            system=self.leg.system.system,
+            program=self.leg.file,
+            held="" if record is None else record.held,
+            gap=round(self._cell.devices.sense().gap, 6),
+            named=tuple(sorted(named)),
+        )
+
+    def _refuse(self, why: str, number: int) -> None:
+        """Call the operator, because a leg cannot begin."""
+        state, step = self._state, self._listing.steps[number]
+        if state.stage is None:
+            state.stage = state.leg
+            self._around.emit(StageStarted(time=self.time, stage=self.leg.stage))
+        self._around.emit(
+            StepStarted(time=self.time, step=number, file=step.file, line=step.line, text=step.text)
+        )
+        self._around.emit(StepFinished(time=self.time, step=number, hand=None, planned=None, gap=None))
+        state.stopped = OperatorCalled(time=self.time, message=why)
+        state.at, state.onward, state.refused = None, number, True
+        self._around.emit(state.stopped)
+
+    def _answer_refusal(self, choice: Choice) -> None:
+        """Follow the operator's answer to a refusal: try again, or leave the leg out."""
+        state = self._state
+        state.at = self.leg.onward if choice == "skip" else state.onward
+        state.stopped, state.onward, state.refused = None, None, False
+        self._around.emit(OperatorAnswered(time=self.time, choice=choice, step=state.at))
+        if choice == "skip":
+            self._around.emit(StageFinished(time=self.time, stage=self.leg.stage, status="skipped"))
+            state.stage = None
+            if self.leg.onward is not None:
+                state.leg += 1
+
+    def settables(self) -> Mapping[str, Settable]:
+        return self._running.settables()
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        self._running.set_value(what, name, value)
+
+    # -- undoing ------------------------------------------------------------------------------------------
+
+    @property
+    def executed(self) -> Sequence[LegStep]:
+        return executed(self._plan, self._state)
+
+    def reverse(self, undoing: ReversalOrder) -> None:
+        order = own_order(self._plan, self._state, undoing)
+        self._state.leg, self._state.entered = last_leg(self._state), True
+        self._running.reverse(order)
+        self._mirror(undoing=True)
+
+    # -- ending -------------------------------------------------------------------------------------------
+
+    def finish(self) -> bool:
+        state = self._state
+        if state.stage is not None:
+            self._around.emit(StageFinished(time=self.time, stage=self.leg.stage, status="stopped"))
+        completed = state.at is None and state.stopped is None
+        self._around.emit(RunFinished(time=self.time, completed=completed))
+        return completed
+
+    def restore(self, state: SystemState) -> None:
+        if not isinstance(state, RelayCore) or not fits(self._plan, state):
+            raise BadFile("the state of the run does not fit this relay")
+        put_back(self._state, state)
+        for file, memory in memories(self._plan, state).items():
+            self._programs[file].restore(memory)
+        self._keep_memories()
+
+    def _keep_memories(self) -> None:
+        """Let the state hold the memories of the programs themselves, which change in place."""
+        for program in self._plan.programs:
+            getattr(self._state, program.system)[program.file] = self._programs[program.file].state
+
+    # -- events -------------------------------------------------------------------------------------------
+
+    def _retell(self, event: AnyEvent) -> None:
+        """Emit an event of a program with the numbers and stages of the relay."""
+        if isinstance(event, StageStarted | StageFinished):
+            if isinstance(event, StageStarted) and self._state.stage == self._state.leg:
+                return  # begun when the leg refused to take the arm over
+            event = msgspec.structs.replace(event, stage=self._stage(event.stage))
+        elif "step" in event.__struct_fields__:
+            number = event.step  # type: ignore[union-attr]
+            leg = next(
+                (leg for leg in self._legs if leg.file == self.leg.file and number in leg.steps), self.leg
+            )
+            event = msgspec.structs.replace(event, step=leg.number(number))
+        elif "stage" in event.__struct_fields__:
+            event = msgspec.structs.replace(event, stage=self._stage(event.stage))  # type: ignore[union-attr]
+        if self._held is None:
+            self._around.emit(event)
+        else:
+            self._held.append(event)
+
+    def _stage(self, name: str) -> str:
+        """Return the stage of the relay that a program calls `name`."""
+        return name if name in self._listing.stages else self.leg.stage
+
+
+def memories(plan: RelayPlan, state: RelayCore) -> dict[str, SystemState]:
+    """Return the memories of the programs, by file. Raises BadFile if one is missing."""
+    try:
+        return {program.file: getattr(state, program.system)[program.file] for program in plan.programs}
+    except KeyError as missing:
+        raise BadFile(f"the state of the run has no memory of {missing}") from None
+
+
+def fits(plan: RelayPlan, state: RelayCore) -> bool:
+    """Return True if all places of a state are in a relay."""
+    count = range(len(listing(plan).steps))
+    return state.leg in range(len(plan.legs)) and all(
+        number is None or number in count for number in (state.at, state.onward)
+    )
+
+
+def last_leg(state: RelayCore) -> int:
+    """Return the index of the leg that moved the arm last."""
+    return state.leg if state.entered or not state.leg else state.leg - 1
+
+
+def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
+    """Return the executed steps of all legs that have not been undone, in the order of the legs."""
+    found = []
+    for leg in legs(plan)[: state.leg + 1]:
+        own = leg.system.executed(leg.plan, memories(plan, state)[leg.file])
+        found += [
+            LegStep(leg.first + each.step - leg.steps[0], each.enters)
+            for each in own
+            if each.step in leg.steps
+        ]
+    return found
+
+
+def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder:
+    """Return an order to reverse steps, in the numbers of the program that has the arm. Raises Refused if it would
+    reverse steps of another program.
+    """
+    here = legs(plan)[last_leg(state)]
+    others = [leg for leg in legs(plan)[: here.index] if leg.file != here.file]
+    own = legs(plan)[others[-1].index + 1 if others else 0]
+    done = executed(plan, state)
+    kept = sum(each.step < own.first for each in done)
+    if undoing.left < kept:
+        raise Refused(
+            f"only the steps of {here.file} can be undone here; {others[-1].file} did the leg before them"
+        )
+    if undoing.left >= len(done):
+        raise Refused("there is nothing to undo")
+    whole = len(here.system.executed(here.plan, memories(plan, state)[here.file]))
+    return msgspec.structs.replace(undoing, left=whole - (len(done) - undoing.left))

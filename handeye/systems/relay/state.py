@@ -1,0 +1,35 @@
+"""The state of a relay between two steps: which leg has the arm, the record, and the memory of each program."""
+
+from typing import Any
+
+import msgspec
+from msgspec import field
+
+from handeye.core.entries import entries
+from handeye.program.system_state import SystemState
+from handeye.runs.hand_over import HandOver, StationMemory
+from handeye.runs.legs import leg_system
+
+
+class RelayCore(SystemState, kw_only=True):
+    """The state of a relay without the memories of its programs."""
+
+    leg: int = 0  # index of the leg that has the arm, or had it last
+    entered: bool = False  # the leg has taken the arm over
+    refused: bool = False  # the leg has refused to take it over
+    record: HandOver | None = None  # from the leg before; None for the first one
+    station: StationMemory | None = None  # None: not measured yet
+
+
+def state_type() -> type[RelayCore]:
+    """Return the type of the state of a relay. For each system that can do legs, it has a field with the name of the
+    system: the states of the system's programs, by their files.
+    """
+    fields: list[Any] = [
+        (entry.name, dict[str, leg_system(entry.name).state], field(default_factory=dict))  # type: ignore[misc]
+        for entry in entries().values()
+        if "leg" in entry.can
+    ]
+    made: Any = msgspec.defstruct("RelayState", fields, bases=(RelayCore,), kw_only=True, module=__name__)
+    kind: type[RelayCore] = made
+    return kind
