@@ -124,7 +124,8 @@ def test_an_unknown_system_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPa
     data = encode(Runner(begin_toy()).checkpoint())
     monkeypatch.setattr(entries, "_registered", {})
     with pytest.raises(
-        InvalidInput, match=r"^there is no system `toy` here; the systems are program, trig, sigma, ml$"
+        InvalidInput,
+        match=r"^there is no system `toy` here; the systems are program, trig, sigma, ml, relay$",
     ):
         decode(data, "it")
 

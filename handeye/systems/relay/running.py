@@ -59,7 +59,9 @@ class RunningRelay(RunningSystem):
         self._cell = work.cell(setup.world, around.parts.camera or setup.camera)
         self._state = state
         mine = replace(around, emit=self._retell)
-        self._held: list[AnyEvent] | None = None  # events of a leg that is taking the arm over; None: emit at once
+        self._held: list[AnyEvent] | None = (
+            None  # events of a leg that is taking the arm over; None: emit at once
+        )
         self._programs: dict[str, RunningLeg] = {}
         for leg in self._legs:
             if leg.file not in self._programs:

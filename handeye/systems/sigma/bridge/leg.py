@@ -254,11 +254,7 @@ def _on_table(x: float, y: float, z: float) -> tuple[float, ...]:
 
 def _variables(plan: MalPlan, op: Literal["PUSHV", "POPV"]) -> set[str]:
     """Return the names of the variables that a program reads (PUSHV) or sets (POPV)."""
-    return {
-        each.operand
-        for each in plan.program.code
-        if each.op == op and isinstance(each.operand, str)
-    }
+    return {each.operand for each in plan.program.code if each.op == op and isinstance(each.operand, str)}
 
 
 def _counted(plan: MalPlan) -> set[str]:
@@ -303,7 +299,9 @@ class MalLegs(LegSystem):
         given = _variables(plan, "PUSHV") - _variables(plan, "POPV") - _counted(plan)
         kinds: dict[str, Kind] = {"X": "place", "Y": "place", "Z": "place", "H": "height"}
         return [
-            Use(name[:-1], kinds[name[-1]], _line_of(plan, name)) for name in sorted(given) if name[-1] in kinds
+            Use(name[:-1], kinds[name[-1]], _line_of(plan, name))
+            for name in sorted(given)
+            if name[-1] in kinds
         ]
 
     def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
