@@ -19,6 +19,7 @@ from cells import ARM, cell_of
 from handeye import al
 from handeye.al import AL
 from handeye.arm.ik import solve
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.diagnostics import Diagnostic, arranged, render
 from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
@@ -108,7 +109,12 @@ def carried_out(plan: Plan, cell: str) -> list[AnyEvent]:
     assert at_rest is not None
     events: list[AnyEvent] = []
     run = ExecutionContext(
-        plan=plan, arm=ARM, cell=cell_of(cell, at_rest), camera=DRAWING, emit=events.append
+        plan=plan,
+        arm=ARM,
+        cell=cell_of(cell, at_rest),
+        camera=DRAWING,
+        emit=events.append,
+        arithmetic=CompiledArm,
     )
     executor = Executor(run=run)
     while executor.state.at is not None:

@@ -7,6 +7,7 @@ from released_arm import arm_alone
 from handeye.arm.line import straight
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.pose import Array
 from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.execution.drive import ArmDrive
@@ -29,7 +30,9 @@ def felt(seed: int, *, known: bool) -> Array:
     if known:
         state.friction = world.arm_build.friction
     periods: list[ServoPeriod] = []
-    drive = ArmDrive(cell=cell.devices, arm=STANFORD, state=state, watch=periods.append)
+    drive = ArmDrive(
+        cell=cell.devices, arm=STANFORD, state=state, watch=periods.append, arithmetic=CompiledArm
+    )
     for way in (UP, DOWN):
         periods.clear()
         line = straight(STANFORD, state.q, 2 * INCH * way, INCH)

@@ -12,12 +12,14 @@ from robots import ROBOTS
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.errors import FrictionUnknown
 from handeye.core.faults import Fault
 from handeye.core.variation import WorldSpec
-from handeye.execution.friction_measurement import at_rest, measure_joints
+from handeye.execution.friction_measurement import JointMeasurement, at_rest, measure_joints
 from handeye.execution.servo import Halted
 from handeye.execution.state import DriveState
+from handeye.ports.workcell import Workcell
 from handeye.tasks import task
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
@@ -40,8 +42,13 @@ def drawn(name: str, seed: int) -> tuple[float, ...]:
     return tuple(expected * np.random.default_rng(seed).uniform(0.5, 1.5, len(expected)))
 
 
+def found_by(cell: Workcell, arm: ArmModel, state: DriveState) -> JointMeasurement:
+    """What an arm finds that computes as in a run."""
+    return measure_joints(cell, arm, state, arithmetic=CompiledArm)
+
+
 def measured(bench: Bench) -> np.ndarray:
-    return measure_joints(bench.drive.cell, bench.arm, bench.drive.state).friction
+    return found_by(bench.drive.cell, bench.arm, bench.drive.state).friction
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -61,7 +68,7 @@ def test_the_pump_s_arm_finds_its_friction_with_wrong_masses_and_wrong_sensors(t
     world = PumpWorld.sample(4)
     world = world if times is None else rubbing(world, times)
     cell = build_cell(world, camera="ray").devices
-    found = measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD)).friction
+    found = found_by(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD)).friction
     off = np.abs(found - world.arm_build.friction)
     assert (off < stated(STANFORD, world.arm_build.friction)).all()
 
@@ -101,7 +108,7 @@ def test_a_pull_that_no_weight_of_a_link_explains_is_told() -> None:
         FrictionUnknown,
         match=r"^the links could not be weighed: the link of the wrist roll would be 0\.34 times",
     ):
-        measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
+        found_by(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
 
 
 @pytest.mark.parametrize(
@@ -112,14 +119,14 @@ def test_a_drive_that_bears_no_weight_and_gives_half_of_its_torque_is_told(numbe
         task().cell(WorldSpec(seed=3, faults=(Fault(name=f"drive.{number}.weak", value=0.5),)), "ray").devices
     )
     with pytest.raises(FrictionUnknown, match=f"^the {said}"):
-        measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
+        found_by(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
 
 
 @pytest.mark.parametrize("seed", [3, 4])
 def test_a_joint_of_a_world_with_twice_the_errors_is_no_weak_drive(seed: int) -> None:
     """In seed 4 the hand's roll takes 1.75 times its data; one in eighty such worlds goes beyond 1.8."""
     cell = task().cell(WorldSpec(seed=seed, level="high"), "ray").devices
-    measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
+    found_by(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
 
 
 def test_the_panic_button_stops_the_measurement() -> None:

@@ -8,6 +8,7 @@ from fakes import FakeCell
 
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.errors import Refused
 from handeye.core.pose import Array, hand
 from handeye.execution.drive import ArmDrive
@@ -71,9 +72,9 @@ def test_a_guarded_descent_stops_on_the_table_near_its_limit() -> None:
     simulated = build_cell(PumpWorld.nominal(), camera="ray")
     cell = simulated.devices
     state = DriveState.holding(cell.sense(), STANFORD)
-    measured = measure_joints(cell, STANFORD, state)
+    measured = measure_joints(cell, STANFORD, state, arithmetic=CompiledArm)
     state.friction, state.links = measured.friction, measured.links
-    drive = ArmDrive(cell=cell, arm=STANFORD, state=state)
+    drive = ArmDrive(cell=cell, arm=STANFORD, state=state, arithmetic=CompiledArm)
     over = (0.80, 0.75, 0.10, pi / 2, pi / 2, 0.0)
     joints, start = solve(STANFORD, hand(*over), state.q).q, state.q.copy()
     assert joints is not None

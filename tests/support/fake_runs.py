@@ -9,6 +9,7 @@ from fakes import FakeCell
 from handeye.al import compile_text
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.pose import Array, hand
 from handeye.core.source import Source
 from handeye.core.units import DEGREE, INCH
@@ -92,5 +93,7 @@ def fake_run(
     plan, problems = make_plan(program, STANFORD, task="water_pump", start=AT_T)
     assert plan is not None, problems
     cell, events = FakeCell(AT_T), list[Event]()
-    context = ExecutionContext(plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append)
+    context = ExecutionContext(
+        plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append, arithmetic=CompiledArm
+    )
     return FakeRun(cell=cell, executor=Executor(run=context), events=events)

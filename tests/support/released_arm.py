@@ -7,6 +7,7 @@ import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
+from handeye.cell.compiled_arm import CompiledArm
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array
@@ -45,9 +46,9 @@ def let_go(world: PumpWorld, seconds: float, push: tuple[float, float, float] = 
     """Let go of an arm that has weighed itself, while its hand is pushed (N, axes of W), and see how far it goes."""
     cell = arm_alone(world)
     data, arm, state = cell.truth.data, cell.arm, DriveState.holding(cell.devices.sense(), STANFORD)
-    state.links = measure_joints(cell.devices, STANFORD, state).links
+    state.links = measure_joints(cell.devices, STANFORD, state, arithmetic=CompiledArm).links
     hand = data.site(f"{ARM}tool").xpos.copy()
     data.xfrc_applied[arm.last_link, :3] = push
-    ArmDrive(cell=cell.devices, arm=STANFORD, state=state).float(seconds)
+    ArmDrive(cell=cell.devices, arm=STANFORD, state=state, arithmetic=CompiledArm).float(seconds)
     away = np.linalg.norm(data.site(f"{ARM}tool").xpos - hand)
     return Drift(joints=np.abs(data.qpos[arm.qpos] - PARK), hand=float(away))
