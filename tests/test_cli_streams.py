@@ -66,7 +66,7 @@ CHEAP = {
     "export mjcf": "export mjcf ✓ -o ✓",
     "export glb": "export glb ✓ -o ✓.jpg",
     "trials assembly": "trials assembly --seeds ✓",
-    "trials dismantling": "trials dismantling --to ✓",
+    "trials dismantling": "trials dismantling --set ✓",
     "trials disturbed": "trials disturbed --seed ✓",
     "trials pallet": "trials pallet --n ✓",
     "trials compare": "trials compare ✓ ✓",

@@ -177,6 +177,19 @@ def test_every_command_refuses_a_name_it_does_not_know(command: Command, words: 
     assert err.endswith("the world has no quantity `camra`; did you mean `camera`?\n")
 
 
+@pytest.mark.parametrize("words", ["assemble", "trials assembly", "trials dismantling", "trials disturbed"])
+@pytest.mark.parametrize(
+    ("option", "told"),
+    [("--set camra=1", "no quantity `camra`"), ("--seed -1", "a seed must be a whole number")],
+)
+def test_a_world_that_there_is_not_is_refused_before_a_program_is_planned(
+    command: Command, monkeypatch: pytest.MonkeyPatch, words: str, option: str, told: str
+) -> None:
+    monkeypatch.setattr("handeye.planning.planner.plan_source", None)  # planning would fail
+    code, out, err = command(*words.split(), *option.split())
+    assert (code, out, told in err) == (2, "", True)
+
+
 def test_an_unknown_level_is_refused(command: Command) -> None:
     code, _, err = command("assemble", "--level", "hihg")
     assert (code, "high" in err) == (2, True)

@@ -103,6 +103,8 @@ def assembly_trials(
     for limit in (simulated_limit, cpu_limit):
         if not 0 < limit < inf:
             raise BadArgument(f"a time limit must be more than 0 s, not {limit:g}")
+    if plan is None:
+        errors.check(chosen[0])
     record = plan_or_own(plan, errors.task)
     errors, spared = errors.of(record.task).apart(record.program.calls)
     world = broken(errors.spec(chosen[0]), fault, errors.work, record.program)
@@ -183,6 +185,8 @@ def dismantling_trials(
 
     positive(n, "trial")
     positive(options.jobs, "worker")
+    if plan is None:
+        errors.check(seed)
     record = plan_or_own(plan, errors.task)
     errors, spared = errors.of(record.task).apart(record.program.calls)
     if not errors.work.judges_apart:

@@ -106,6 +106,7 @@ def assemble(
             "--report writes a page into the folder of the run, but with --no-keep "
             "there is no folder; leave out one of them"
         )
+    world.check()
     started = time.process_time()
     plan = plan_or_own(None, world.task)
     planning = time.process_time() - started

@@ -153,7 +153,7 @@ def disturbed_trials(
         for each in chosen:
             say(f"{each.name:16} {each.meaning}")
         return 0
-    plan, spec, camera = plan_or_own(None, world.task), world.spec, camera_here(camera)
+    spec, plan, camera = world.spec, plan_or_own(None, world.task), camera_here(camera)
     return carry_out_sweep(
         DISTURBED,
         DisturbanceWork(plan=plan, world=spec, camera=camera),

@@ -100,6 +100,12 @@ class ErrorOptions:
         self.work.variation().check(spec)
         return spec
 
+    def check(self, seed: int) -> None:
+        """Check seed, level, values and factors, before the program is planned; only the program says which names
+        after --without are its own. Raises InvalidInput.
+        """
+        replace(self, without=None).spec(seed)
+
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
         """Split `--without`: the options with only the errors of the world, and the senses and macros that the program
         must do without, each once.
@@ -172,6 +178,10 @@ class WorldOptions:
     def spec(self) -> WorldSpec:
         """The world; raises InvalidInput if a seed, name, unit or value is invalid."""
         return self.errors.spec(self.seed or 0)
+
+    def check(self) -> None:
+        """Check the options, except --without, before the program is planned. Raises InvalidInput."""
+        self.errors.check(self.seed or 0)
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
         """Split `--without`: the options with only the errors of the world, and the senses and macros that the program
