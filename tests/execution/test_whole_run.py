@@ -14,7 +14,6 @@ from running_notebooks import SCRIPTS, runs_to_its_end
 from whole_runs import STAGES, Whole, whole_in
 
 from handeye.core.errors import NO_FORCE
-from handeye.core.world_options import by_number, faults
 from handeye.program.events import (
     AnyEvent,
     ErrorRaised,
@@ -22,18 +21,11 @@ from handeye.program.events import (
     GuardTripped,
     OperatorCalled,
     PartInspected,
-    PartMatched,
     PartSeen,
     StepFinished,
     StepStarted,
 )
-from handeye.runs.advance import advance
-from handeye.runs.checkpoint_store import CheckpointStore
-from handeye.runs.folder import CHECKPOINTS
-from handeye.runs.runner import Runner
-from handeye.tasks import task
 from handeye.tasks.water_pump.referee.findings import judge
-from handeye.trials.sound_run import with_faults
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]
 
@@ -147,19 +139,3 @@ def test_time_never_goes_back(whole: Whole) -> None:
 def test_every_step_that_began_has_ended(whole: Whole) -> None:
     events = list(whole.events)
     assert count(events, StepStarted) == count(events, StepFinished) > 200
-
-
-@pytest.mark.parametrize("fault", ["base.removed", "base.moved.x=0.5in", "base.moved.y=-0.812in"])
-def test_a_pump_that_somebody_moves_behind_the_last_touch_is_not_done(folder: Path, fault: str) -> None:
-    """What chaos found: the arm has parked, and only the last picture is to come, in half a second."""
-    setup = whole_in(folder).runner.setup
-    before = CheckpointStore(folder / CHECKPOINTS).for_stage(setup, STAGES.index("inspect the pump"))
-    assert before is not None
-    runner = Runner(before)
-    while runner.next is None or not runner.next.text.startswith("LOOK    DONE"):
-        runner.step()
-    given = faults(task().faults(setup.world), [f"{fault}@{len(STAGES)}"], by_number)
-    moved = Runner(with_faults(runner.checkpoint(), given))
-    paused = advance(moved)
-    matches = [event.ok for event in moved.events if isinstance(event, PartMatched)]
-    assert (paused.kind, matches) == ("operator", [False])

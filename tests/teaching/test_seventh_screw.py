@@ -14,11 +14,18 @@ from handeye.core.resources import plans
 from handeye.core.source import Source
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import Overrides, WorldSpec
+from handeye.core.world_options import by_number, faults
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
+from handeye.program.events import PartMatched
 from handeye.program.program import Position
 from handeye.program.taught import load_taught
+from handeye.runs.advance import advance
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.tasks import task
+from handeye.trials.sound_run import with_faults
 
 pytestmark = pytest.mark.slow
 
@@ -103,3 +110,25 @@ def test_row_58_the_times_of_another_run_add_up(whole: Whole) -> None:
     assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
     assert timing.working_s == pytest.approx(timing.manipulation_s + whole.lens(), abs=0.01)
     assert timing.vision_cpu_s < 0.02 * timing.working_s
+
+
+@pytest.fixture(scope="module")
+def parked(whole: Whole) -> Checkpoint:
+    """The state in which the arm has parked, and only the last picture is to come."""
+    steps = whole.runner.listing.steps
+    (before,) = (
+        state
+        for state in whole.runner.history
+        if state.state.at is not None and steps[state.state.at].text.startswith("LOOK    DONE")
+    )
+    return whole.runner.checkpoint(before)
+
+
+@pytest.mark.parametrize("fault", ["base.removed", "base.moved.x=0.5in", "base.moved.y=-0.812in"])
+def test_a_pump_that_somebody_moves_behind_the_last_touch_is_not_done(parked: Checkpoint, fault: str) -> None:
+    """What chaos found: the pump moves in the half second before the last picture."""
+    given = faults(task().faults(parked.setup.world), [f"{fault}@{len(STAGES)}"], by_number)
+    moved = Runner(with_faults(parked, given))
+    paused = advance(moved)
+    matches = [event.ok for event in moved.events if isinstance(event, PartMatched)]
+    assert (paused.kind, matches) == ("operator", [False])
