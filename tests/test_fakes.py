@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from compiled_mechanics import CompiledMechanics
 from driving import Drive, tick
-from fakes import FakeArm, FakeAxes, FakeCell, FakeClock, Wall
+from fakes import FakeArm, FakeAxes, FakeCell, FakeClock, Wall, by_formulas
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian
@@ -21,6 +22,14 @@ def test_the_fake_arm_rests_under_its_own_gravity_torque() -> None:
     for _ in range(60):
         tick(cell.devices, Drive(torque=gravity(STANFORD, cell.arm.q)))
     assert np.abs(cell.arm.q - PARK).max() < 1e-6
+
+
+def test_the_mechanics_in_c_are_those_of_the_formulas() -> None:
+    rng, compiled = np.random.default_rng(0), CompiledMechanics()
+    for _ in range(20):
+        q, qd = PARK + rng.normal(0, 0.2, 6), rng.normal(0, 1, 6)
+        for one, other in zip(compiled(q, qd), by_formulas(q, qd), strict=True):
+            np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9)
 
 
 def test_a_fake_wall_carries_what_presses_on_it() -> None:

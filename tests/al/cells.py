@@ -22,6 +22,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from compiled_mechanics import CompiledMechanics
 from fakes import FakeCell, Wall
 from pump_bench import at_standard, put, settle
 
@@ -55,7 +56,7 @@ def cell_of(words: str, q: Array) -> Workcell:
     lines = words.splitlines()
     if SIMULATED in lines:
         return _simulated(lines)
-    cell = FakeCell(q)
+    cell = FakeCell(q, CompiledMechanics())
     for line in lines:
         _furnish(cell, line)
     return cell.devices

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
+from compiled_mechanics import CompiledMechanics
 from fakes import FakeCell
 
 from handeye.al import compile_text
@@ -92,7 +93,7 @@ def fake_run(
     assert program is not None, diagnostics
     plan, problems = make_plan(program, STANFORD, task="water_pump", start=AT_T)
     assert plan is not None, problems
-    cell, events = FakeCell(AT_T), list[Event]()
+    cell, events = FakeCell(AT_T, CompiledMechanics()), list[Event]()
     context = ExecutionContext(
         plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append, arithmetic=CompiledArm
     )

@@ -28,6 +28,16 @@ STIFFNESS = 20e3  # N/m of whatever the hand meets
 CRITICAL = 800.0  # N s/m, keeps it from ringing
 
 
+Mechanics = Callable[[Array, Array], tuple[Array, Array]]
+"""Mass matrix of the Stanford arm, and torques that keep it moving without friction, from q and its rates."""
+
+
+def by_formulas(q: Array, qd: Array) -> tuple[Array, Array]:
+    """The mechanics by the formulas; `compiled_mechanics.py` has them in C."""
+    damping = np.array([joint.damping for joint in STANFORD.joints])
+    return mass_matrix(STANFORD, q), bias(STANFORD, q, qd) - damping * qd
+
+
 class Device(Protocol):
     """Something that time passes for."""
 
@@ -66,8 +76,8 @@ class Wall:
 class FakeArm(ArmPort):
     """Rigid bodies without error or noise, at rest at `q` first; `push` (N) and walls act on the tool centre point."""
 
-    def __init__(self, q: Array) -> None:
-        self.q, self.qd = np.array(q, dtype=np.float64), np.zeros(len(q))
+    def __init__(self, q: Array, mechanics: Mechanics = by_formulas) -> None:
+        self.q, self.qd, self.mechanics = np.array(q, dtype=np.float64), np.zeros(len(q)), mechanics
         self.walls: list[Wall] = []
         self.push = np.zeros(3)
         self.braked, self.cut, self.torque, self.unanswered = True, False, None, 0.0
@@ -95,10 +105,10 @@ class FakeArm(ArmPort):
 
     def _move(self, torque: Array, seconds: float, steps: int = 16) -> None:
         """Semi-implicit steps under a held torque; the arm's matrices are taken once for all of them."""
-        inverse = np.linalg.inv(mass_matrix(STANFORD, self.q))
+        M, frictionless = self.mechanics(self.q, self.qd)
+        inverse = np.linalg.inv(M)
         pushed = self._pushes() if self.walls or self.push.any() else (lambda q, qd: 0.0)
         damping, step = np.array([joint.damping for joint in STANFORD.joints]), seconds / steps
-        frictionless = bias(STANFORD, self.q, self.qd) - damping * self.qd
         for _ in range(steps):
             tau = torque - frictionless - damping * self.qd + pushed(self.q, self.qd)
             self.qd = self.qd + inverse @ tau * step
@@ -232,8 +242,8 @@ class FakeAxes(Axes):
 class FakeCell:
     """One fake device of each kind, and the cell that they make."""
 
-    def __init__(self, q: Array) -> None:
-        self.arm = FakeArm(q)
+    def __init__(self, q: Array, mechanics: Mechanics = by_formulas) -> None:
+        self.arm = FakeArm(q, mechanics)
         self.hand = FakeHand(self.arm)
         self.screwdriver, self.lamp, self.camera = FakeScrewdriver(), FakeLamp(), FakeCamera()
         self.clock = FakeClock(self.arm, self.hand)
