@@ -98,7 +98,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         self.components = components(action, self._work.arm, pictures=pictures)
         self._actions = action_space(self.components)
         self._observations = observation_space(self._work.arm, pictures=pictures)
-        self.action_space = cast(spaces.Space[Array], self._actions)
+        self.action_space = cast(gymnasium.Space[Array], self._actions)
         self.observation_space = self._observations
         self._action, self._starts = action, StartStates(self.job.task, camera)
         self._pictures = pictures
