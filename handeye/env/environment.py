@@ -1,7 +1,7 @@
 """The environment: one job in many worlds, one servo period a step."""
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any, Final, cast
 
 import gymnasium
 import numpy as np
@@ -98,7 +98,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         self.components = components(action, self._work.arm, pictures=pictures)
         self._actions = action_space(self.components)
         self._observations = observation_space(self._work.arm, pictures=pictures)
-        self.action_space, self.observation_space = self._actions, self._observations
+        self.action_space = cast(gymnasium.Space[Array], self._actions)
+        self.observation_space = self._observations
         self._action, self._starts = action, StartStates(self.job.task, camera)
         self._pictures = pictures
         self._television: Television | None = None

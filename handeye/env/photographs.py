@@ -1,4 +1,4 @@
-"""Photographs of an episode, for people: no policy sees them."""
+"""Photographs of an episode, for the user: no policy sees them."""
 
 from handeye.cell.photograph import Photograph, photograph
 from handeye.runs.runner import Runner

@@ -23,7 +23,7 @@ def _camera(facts: Facts) -> CameraModel | None:
 class ProgramPolicy(Policy):
     """Continues the program from the state in which the episode starts, with what the program remembers there.
 
-    It says done when the program has come to its end. When the program calls the operator, the policy sets the brakes
+    It says done when the program has ended. When the program calls the operator, the policy sets the brakes
     and waits for the time limit.
     """
 

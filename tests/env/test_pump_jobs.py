@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 import handeye
 from handeye.cell.camera import TURRET
@@ -106,9 +107,12 @@ LOOKING = """
 
 
 @pytest.mark.slow
-def test_a_program_takes_its_pictures_through_the_actions(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_program_takes_its_pictures_through_the_actions(
+    begun: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
     plan = handeye.plan(LOOKING, taught=plans() / "water_pump.toml").record
-    start = Runner(Checkpoint(setup=Setup(plan=plan, world=WorldSpec(seed=0), camera="ray"))).checkpoint()
+    start = begun.checkpoint(begun.history[0])  # its camera is not calibrated
+    start = replace(start, setup=replace(start.setup, plan=plan))
     env = AssemblyEnv("handeye/Pump-v0", action="torques", pictures=True, limit_s=60.0)
     monkeypatch.setattr(env, "_start", lambda _: start)
     monkeypatch.setattr(program_policy, "own_plan", lambda _: plan)
