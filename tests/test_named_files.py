@@ -30,6 +30,7 @@ EXAMPLES |= {
     "result.json",
     "plan.json",
 }
+EXAMPLES |= {"solution.al", "solution.toml", "brief.md", "task.toml", "feedback.md"}
 EXAMPLES |= {"pallet.trig.json", "job.json", ".trig.json", "FILE.toml", "languages.toml", "scene.xml"}
 """Files that an example, a user or a run makes."""
 ELSEWHERE = (".venv/", "stanford/", "base/")

@@ -60,8 +60,9 @@ trials compare = batches:compare_trials: Compare batches of trials with a first 
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
-bench: Benchmarks: stage times, and inserting a pin into a hole.
+bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
+bench agents = agents:bench_agents: Score programs that agents write: in worlds that they have not seen, by the referee; silent failures count twice.
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 """  # noqa: E501 - a command a line
 """Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first
