@@ -31,6 +31,7 @@ EXAMPLES |= {
     "plan.json",
 }
 EXAMPLES |= {"site/"}  # what `python3 run.py docs` builds
+EXAMPLES |= {"solution.al", "solution.toml", "brief.md", "task.toml", "feedback.md"}
 EXAMPLES |= {"pallet.trig.json", "job.json", ".trig.json", "FILE.toml", "languages.toml", "scene.xml"}
 EXAMPLES |= {f"handeye/{job}-v0" for job in ("Pin", "Screw", "GasketAndTop", "Pump", "Resume", "Mend")}
 """Files that an example, a user or a run makes; and ids of environments, which look like paths."""

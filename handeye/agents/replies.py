@@ -7,6 +7,7 @@ from typing import Any, Final
 import msgspec
 from msgspec import UNSET
 
+from handeye.agents.judging import outcome_of
 from handeye.api.diagnostic import Diagnostic
 from handeye.api.plans import Plan
 from handeye.api.run import Run
@@ -109,16 +110,9 @@ OUTCOMES: Final = {
 }
 
 
-def outcome(result: Result) -> str:
-    """Return the outcome of a run that has ended: one of OUTCOMES."""
-    if not result.completed:
-        return "stopped"
-    return "accepted" if result.judged else "silent"
-
-
 def on_result(name: str, result: Result) -> Reply:
     """Reply with the verdict on a run that has ended."""
-    word = outcome(result)
+    word = outcome_of(result)
     findings = [check.told for check in result.checks]
     lines = [f"run {name}: {word}; {OUTCOMES[word]}"]
     lines += [result.message] if result.message else []

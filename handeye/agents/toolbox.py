@@ -1,15 +1,17 @@
 """The tools of an agent, as functions from a request to a reply. They know nothing of the protocol."""
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
+
+import msgspec
 
 from handeye.agents import replies, requests
 from handeye.agents.agent_folder import AgentFolder
 from handeye.agents.call import Call
+from handeye.agents.judging import Verdict, judged, setup_of
 from handeye.agents.open_runs import OpenRuns
 from handeye.agents.replies import Reply
 from handeye.agents.scripts import Scripts, included
-from handeye.agents.submission import judged
 from handeye.api.state import Answer
 from handeye.api.worlds import World
 from handeye.core import resources
@@ -148,17 +150,18 @@ class Toolbox:
         """Run a program in several worlds, and let the referee judge each."""
         plan = self.scripts.plan(asked.script, asked.taught, asked.task)
         seeds = range(asked.seed, asked.seed + asked.worlds)
-        worlds = [World(seed, level=asked.level, task=plan.record.task) for seed in seeds]
-        found = judged(plan, worlds, call)
+        found: list[Verdict] = []
+        for seed in seeds:
+            call.report(len(found), asked.worlds, f"world {len(found) + 1} of {asked.worlds}")
+            world = World(seed, level=asked.level, task=plan.record.task)
+            found.append(judged(setup_of(plan, world.spec), call))
         tally = {word: sum(each.outcome == word for each in found) for word in replies.OUTCOMES}
         lines = [", ".join(f"{number} {word}" for word, number in tally.items()) + f" of {len(found)} worlds"]
-        lines += [
-            f"seed {each.seed}: {each.outcome}. {'; '.join(filter(None, (each.message, *each.rejected)))}".rstrip(
-                ". "
-            )
-            for each in found
-        ]
-        data: dict[str, Any] = {**tally, "worlds": [asdict(each) for each in found]}
+        lines += [f"seed {each.seed}: {each.told}" for each in found]
+        rows = [msgspec.to_builtins(each) for each in found]
+        for row in rows:
+            del row["steps"]
+        data: dict[str, Any] = {**tally, "worlds": rows}
         return Reply(text="\n".join(lines), data=data)
 
 

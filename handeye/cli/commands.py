@@ -64,8 +64,9 @@ trials mutants = mutants:mutant_trials: Take away or weaken each check of the pr
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
 env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, steps of the work reached, peak force and time.
-bench: Benchmarks: stage times, and inserting a pin into a hole.
+bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
+bench agents = agents:bench_agents: Score programs that agents write: in worlds that they have not seen, by the referee; silent failures count twice.
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 """  # noqa: E501 - a command a line
 """Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first

@@ -75,6 +75,10 @@ class Entry(Record, frozen=True, kw_only=True):
     """`module:NAME` of a function that takes the name of a task and a world, and returns the kind of sweep and the
     work of `handeye faults`. Empty if the system has no such trials.
     """
+    programs: str = ""
+    """`module:NAME` of a function that takes the name of a task, and the name and text of a program, and returns the
+    plan with which the program does the task. Empty if the system has no such tasks, or if it runs plans of motions.
+    """
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending
     leg: str = (

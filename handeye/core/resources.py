@@ -1,4 +1,4 @@
-"""Finds the folders included with handeye (`scenes`, `plans`, `demo`, `docs`) and the user's cache folder."""
+"""Finds the folders included with handeye (`scenes`, `plans`, `benches`, `demo`, `docs`), and the user's cache folder."""
 
 import os
 import sys
@@ -13,8 +13,8 @@ _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)  # in an installed wheel, and in 
 
 
 def folder(name: str) -> Path:
-    """Return the path of the folder `scenes`, `plans`, `demo` or `docs`. Raises BadFile if the installation is
-    incomplete.
+    """Return the path of the folder `scenes`, `plans`, `benches`, `demo` or `docs`. Raises BadFile if the installation
+    is incomplete.
     """
     for root in _ROOTS:
         if (root / name).is_dir():
@@ -30,6 +30,11 @@ def scenes() -> Path:
 def plans() -> Path:
     """Return the folder of arm programs with their taught positions and compiled plans."""
     return folder("plans")
+
+
+def benches() -> Path:
+    """Return the folder of benches, with the tasks of the agents' bench."""
+    return folder("benches")
 
 
 def demo() -> Path:

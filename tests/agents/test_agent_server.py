@@ -7,7 +7,7 @@ from typing import Any
 
 import anyio
 import pytest
-from mcp import Client, StdioServerParameters
+from mcp import Client, StdioServerParameters, stdio_client
 from mcp.types import CallToolResult
 
 import handeye
@@ -70,7 +70,7 @@ async def pin_task(found: Session) -> None:
 
 def connected(folder: Path) -> Client:
     words = ["-m", "handeye", "mcp", "--folder", str(folder)]
-    return Client(StdioServerParameters(command=sys.executable, args=words))
+    return Client(stdio_client(StdioServerParameters(command=sys.executable, args=words)))
 
 
 async def broken_off(client: Client, scope: anyio.CancelScope) -> None:

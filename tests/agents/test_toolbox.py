@@ -80,7 +80,7 @@ def test_a_false_report_of_success_is_a_silent_failure(agent: Agent) -> None:
 
 
 def test_a_program_without_an_end_is_stopped(agent: Agent, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("handeye.agents.submission.MOST_STEPS", 100)
+    monkeypatch.setattr("handeye.agents.judging.MOST_STEPS", 100)
     reply = agent("submit", script=ENDLESS, worlds=1, **PIN)
     assert reply.data is not None
     assert reply.data["stopped"] == 1

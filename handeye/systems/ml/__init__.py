@@ -48,6 +48,7 @@ trials typewriter = handeye.systems.ml.cli.support:typewriter_trials: Take a bar
         "bin": "handeye.systems.ml.run.job_trials:BIN_TRIALS",
         "typewriter": "handeye.systems.ml.run.job_trials:TYPEWRITER_TRIALS",
     },
+    programs="handeye.systems.ml.run.jobs:program_plan",
     faults="handeye.systems.ml.run.fault_trials:fault_trials",
     events="handeye.systems.ml.happenings:EVENTS",
     files=("tables.gz", "follow.json"),

@@ -40,6 +40,7 @@ trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line i
         "prco": "handeye.systems.sigma.run.job_trials:PRCO_TRIALS",
         "line": "handeye.systems.sigma.run.job_trials:LINE_TRIALS",
     },
+    programs="handeye.systems.sigma.run.jobs:program_plan",
     faults="handeye.systems.sigma.run.fault_trials:fault_trials",
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

@@ -28,6 +28,7 @@ trials pallet = handeye.systems.trig.cli.jobs:pallet_trials: Palletise in many w
         ".trig": "handeye.systems.trig.own_language:LANGUAGE",
         ".trig.json": "handeye.systems.trig.own_language:LANGUAGE",
     },
+    programs="handeye.systems.trig.run.job:program_plan",
     sweeps={"pallet": "handeye.systems.trig.run.pallet_trials:PALLET"},
     files=("job.json", "program.trig.json"),
 )

@@ -7,7 +7,7 @@ from handeye.core.variation import WorldSpec
 from handeye.runs.setup import Setup
 from handeye.systems.ml import ENTRY
 from handeye.systems.ml.language.assembler import assembled, decks
-from handeye.systems.ml.run.plan import MlPlan
+from handeye.systems.ml.run.plan import MlPlan, sound
 
 PROGRAMS: Final = {
     "follow": "curve_follower.ml",
@@ -29,6 +29,13 @@ def job_plan(job: str, variant: str = "") -> MlPlan:
     source = decks([plans() / each for each in (name, *others)])
     text = assembled(source)[0] if name.endswith(SYMBOLIC) else source.text
     return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant or USUAL.get(job, ""))
+
+
+def program_plan(task: str, name: str, text: str) -> MlPlan:
+    """Return the plan with which a user's program does a job. Raises BadFile if the program has errors."""
+    plan = MlPlan(name=name, text=text, arm="rectilinear", job=task, variant=USUAL.get(task, ""))
+    sound(plan)
+    return plan
 
 
 def job_setup(plan: MlPlan, world: WorldSpec) -> Setup:

@@ -7,7 +7,7 @@ from handeye.core.source import read_source
 from handeye.core.variation import WorldSpec
 from handeye.runs.setup import Setup
 from handeye.systems.sigma import ENTRY
-from handeye.systems.sigma.run.plan import JobName, MalPlan
+from handeye.systems.sigma.run.plan import JobName, MalPlan, sound
 from handeye.tasks import any_task
 
 if TYPE_CHECKING:  # plans are made without a simulator
@@ -26,6 +26,16 @@ def job_plan(job: JobName, pieces: int) -> MalPlan:
     """Return the plan of a job's own program, for a number of pieces."""
     name = PROGRAMS[job]
     return MalPlan(name=name, text=read_source(plans() / name).text, arm="gantries", job=job, pieces=pieces)
+
+
+def program_plan(task: str, name: str, text: str) -> MalPlan:
+    """Return the plan with which a user's program does a job, with the usual number of pieces. Raises BadFile if the
+    program has errors.
+    """
+    job = next(job for job in PROGRAMS if job == task)
+    plan = MalPlan(name=name, text=text, arm="gantries", job=job, pieces=job_task(job).usual)
+    sound(plan)
+    return plan
 
 
 def job_task(job: JobName) -> "JobTask":

@@ -61,6 +61,11 @@ def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpo
     return Checkpoint(setup=setup)
 
 
+def program_plan(task: str, name: str, text: str) -> TaughtPlan:
+    """Return the plan with which a user's script does a job."""
+    return TaughtPlan(job="bucket" if task == "bucket" else "palletise", script=text)
+
+
 def job_of(runner: Runner) -> RunningJob:
     assert isinstance(runner.system, RunningJob)
     return runner.system

@@ -1,0 +1,133 @@
+"""The result of the agents' bench: scores as a record, as text, and as a page."""
+
+from collections.abc import Sequence
+from html import escape
+from typing import Final
+
+import msgspec
+
+from handeye.agents.bench_task import PROTOCOL
+from handeye.agents.judging import Verdict
+from handeye.core.record import Record
+from handeye.core.versions import HANDEYE
+
+
+class TaskScore(Record, frozen=True, kw_only=True):
+    """The score of an entrant in one task."""
+
+    task: str
+    title: str
+    language: str
+    tier: str
+    worlds: int
+    accepted: int
+    silent: int
+    stopped: int
+    score: float  # (accepted - 2 silent) / worlds: from -2 to 1
+    rounds: int  # effort: how often the command was run
+    wall_s: float  # effort: wall-clock time of the command
+    verdicts: tuple[Verdict, ...]
+
+
+class BenchResult(Record, frozen=True, kw_only=True):
+    """The result of an entrant."""
+
+    protocol: int = PROTOCOL
+    handeye: str = HANDEYE
+    entrant: str
+    feedback: str
+    seeds: str  # `public` or `hidden`
+    tasks: tuple[TaskScore, ...]
+
+    @property
+    def score(self) -> float:
+        """The mean of the scores of all tasks."""
+        return round(sum(each.score for each in self.tasks) / len(self.tasks), 4)
+
+
+def scored(
+    task: str, title: str, language: str, tier: str, found: Sequence[Verdict], *, rounds: int, wall_s: float
+) -> TaskScore:
+    """Count the verdicts on a solution, and compute its score."""
+    accepted, silent = (sum(each.outcome == word for each in found) for word in ("accepted", "silent"))
+    return TaskScore(
+        task=task,
+        title=title,
+        language=language,
+        tier=tier,
+        worlds=len(found),
+        accepted=accepted,
+        silent=silent,
+        stopped=len(found) - accepted - silent,
+        score=round((accepted - 2 * silent) / len(found), 4),
+        rounds=rounds,
+        wall_s=wall_s,
+        verdicts=tuple(msgspec.structs.replace(each, steps=()) for each in found),
+    )
+
+
+def to_json(result: BenchResult) -> bytes:
+    """Encode the result as one JSON object. Hidden seeds are left out: the verdicts are then in the order of the file
+    of hidden seeds.
+    """
+    told = msgspec.to_builtins(result) | {"score": result.score}
+    if result.seeds == "hidden":
+        for task in told["tasks"]:
+            for number, verdict in enumerate(task["verdicts"]):
+                verdict["seed"] = number
+    return msgspec.json.format(msgspec.json.encode(told), indent=1) + b"\n"
+
+
+HEADS: Final = ("task", "tier", "accepted", "stopped", "silent", "score", "rounds", "wall, s")
+TEXTS: Final = 2  # of the first heads are above texts, the others above numbers
+
+
+def rows(result: BenchResult) -> list[tuple[str, ...]]:
+    """Return the table of the scores, a row for each task."""
+    return [
+        (
+            each.task,
+            f"{each.tier}, {each.language}",
+            f"{each.accepted} of {each.worlds}",
+            *map(str, (each.stopped, each.silent)),
+            f"{each.score:.2f}",
+            str(each.rounds),
+            f"{each.wall_s:.0f}",
+        )
+        for each in result.tasks
+    ]
+
+
+def page(result: BenchResult) -> str:
+    """Write the result as one HTML page without scripts."""
+    heads = "".join(f"<th>{head}</th>" for head in HEADS)
+    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows(result))
+    details = "".join(
+        f"<details><summary>{escape(each.title)}</summary><ol>"
+        + "".join(f'<li class="{verdict.outcome}">{escape(verdict.told)}</li>' for verdict in each.verdicts)
+        + "</ol></details>"
+        for each in result.tasks
+    )
+    told = f"{escape(result.entrant)}, {result.seeds} worlds, feedback: {escape(result.feedback)}"
+    return _PAGE.format(
+        told=told, protocol=result.protocol, score=result.score, heads=heads, body=body, details=details
+    )
+
+
+_PAGE: Final = """<!doctype html>
+<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>The agents' bench: {told}</title>
+<style>
+body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222; }}
+table {{ border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }}
+th, td {{ text-align: right; padding: .3rem .6rem; border-bottom: 1px solid #ddd; }}
+th:nth-child(-n+2), td:nth-child(-n+2) {{ text-align: left; }}
+summary {{ cursor: pointer; margin-top: .8rem; font-weight: 600; }}
+.accepted {{ color: #14612e; }} .stopped {{ color: #6b5300; }} .silent {{ color: #a11313; font-weight: 600; }}
+</style>
+<h1>The agents' bench</h1>
+<p>{told}. Protocol {protocol}. The mean score is <strong>{score:.2f}</strong>; the best possible score is 1. A silent failure counts -2.</p>
+<table><tr>{heads}</tr>{body}</table>
+{details}
+</html>
+"""

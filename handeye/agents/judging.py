@@ -1,0 +1,95 @@
+"""Judges programs: runs each to its end in a world, and lets the referee judge the result."""
+
+import warnings
+from typing import Final, Literal
+
+from handeye.agents.call import Call
+from handeye.api.plans import Plan
+from handeye.core.errors import HandeyeError, Refused
+from handeye.core.record import Record
+from handeye.core.variation import Seed, WorldSpec
+from handeye.debugger.reply import step_summaries
+from handeye.execution.servo import Halted
+from handeye.results.finishing import outcome as result_of
+from handeye.results.result import Result
+from handeye.runs.advance import AfterSteps, advance
+from handeye.runs.host_seconds import Meter
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+
+MOST_SECONDS: Final = 1800.0  # simulated; a program that runs longer is stopped. The pump of 1973 took 300 s
+MOST_STEPS: Final = 20_000  # executed; for a program that loops without moving
+AT_ONCE: Final = 200  # steps between two looks at the limits
+TRACED: Final = 60  # last steps that a verdict lists
+Outcome = Literal["accepted", "stopped", "silent"]
+
+
+class Verdict(Record, frozen=True, kw_only=True):
+    """The referee's verdict on a program in one world."""
+
+    seed: Seed
+    outcome: Outcome
+    message: str = ""  # why the program stopped
+    rejected: tuple[str, ...] = ()  # findings that the referee rejects, in words
+    seconds: float = 0.0  # simulated
+    steps: tuple[str, ...] = ()  # the last steps, and what each did
+
+    @property
+    def told(self) -> str:
+        """The verdict as a sentence."""
+        return ": ".join(
+            filter(None, (self.outcome, "; ".join(filter(None, (self.message, *self.rejected)))))
+        )
+
+
+def outcome_of(result: Result) -> Outcome:
+    """Return the outcome of a run that has ended."""
+    if not result.completed:
+        return "stopped"
+    return "accepted" if result.judged else "silent"
+
+
+def setup_of(plan: Plan, world: WorldSpec) -> Setup:
+    """Return the setup of a run of a plan that the referee judges. Pictures are made by ray casting, which gives the
+    same pictures on every computer.
+    """
+    return Setup(plan=plan.record, world=world, camera="ray", judged=True)
+
+
+def judged(setup: Setup, call: Call) -> Verdict:
+    """Run a program to its end, or to the limits of time and steps. Raises Refused if the call is cancelled."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            runner = Runner(Checkpoint(setup=setup), halt=call.cancelled.is_set)
+            return _judged(runner, call)
+    except Halted:
+        raise Refused("the judging was cancelled") from None
+    except HandeyeError as error:
+        if call.cancelled.is_set():
+            raise
+        return Verdict(seed=setup.world.seed, outcome="stopped", message=str(error))
+
+
+def _judged(runner: Runner, call: Call) -> Verdict:
+    late = ""
+    while True:
+        pause = advance(runner, steps=AT_ONCE)
+        if call.cancelled.is_set():
+            raise Refused("the judging was cancelled")
+        if not isinstance(pause.met, AfterSteps):
+            break
+        if runner.time > MOST_SECONDS or runner.position > MOST_STEPS:
+            late = f"the program was still running after {runner.position} steps and {runner.time:.0f} s"
+            break
+    result = result_of(runner, pause, Meter(), judged=True)
+    shown = step_summaries(runner.events, runner.listing, runner.task.measures)[-TRACED:]
+    return Verdict(
+        seed=runner.setup.world.seed,
+        outcome=outcome_of(result),
+        message=late or ("" if result.completed else result.message),
+        rejected=tuple(check.told for check in result.checks if check.refuses),
+        seconds=result.timing.working_s,
+        steps=tuple(f"{each.line or '-'} {each.text}: {each.outcome}".rstrip(": ") for each in shown),
+    )
