@@ -117,6 +117,14 @@ def test_a_check_that_has_failed_must_be_made_again() -> None:
     assert proof_of(FEEL + FEEL + checked + "E: PARK").verdict == "avoided"
 
 
+def test_a_step_undoes_a_touch_even_if_it_raises_an_error() -> None:
+    assert proof_of(FEEL + "OPEN 1\nSKIPN 51\nJUMP E\n" + FEEL + "E: PARK").verdict == "avoided"
+
+
+def test_any_action_may_raise_the_error_of_the_gap() -> None:
+    assert proof_of("PARK\nSKIPE 51\nJUMP F\nJUMP E\nF: " + FEEL + "E: PARK").verdict == "avoided"
+
+
 def test_an_undone_stage_is_taken_to_show_nothing() -> None:
     text = 'STAGE "A"\nPARK\nSTAGE "B"\n' + FEEL + "SKIPN 23\nUNDO STAGE\nPARK"
     assert proof_of(text).verdict == "avoided"  # after the last reversal, the program goes on
