@@ -50,7 +50,7 @@ def mutant_trials(
 
     A mutant that `handeye check --prove` does not refuse runs from the beginning of its stage, once with each fault for
     which the missing check exists. It is `caught` if it stops, `silent` if it reports success with wrong work, and
-    `unnoticed` if no run shows a difference.
+    `unnoticed` if all runs end with the right work. If there is no such fault, it is `not run`.
 
     Exit code 0: no mutant was silent; 1: no trial finished; 3: a mutant was silent; 2: bad input; 130: interrupted.
     """

@@ -11,7 +11,9 @@ class Phase(Record, frozen=True, kw_only=True):
 
     by: tuple[Evidence, ...] = ()
     undone: tuple[Evidence, ...] = ()
-    """Kinds of steps after which the phase must be shown again, because they may change what it has shown."""
+    """Kinds of steps after which the phase must be shown again, because they may change what it has shown. They do so
+    even if they raise an error.
+    """
 
 
 class Claim(Record, frozen=True, kw_only=True):

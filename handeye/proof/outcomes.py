@@ -9,12 +9,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple
 
+from handeye.core import errors
 from handeye.program.flow_operations import Assign, Countdown, Test, Undo
 from handeye.program.operation import Operation
 from handeye.program.program import Step
 
 END: Final = -1  # the node behind the last step
 SUCCESS: Final = 0  # the outcome of an action that raises no error
+ALWAYS: Final = frozenset({errors.WATCHDOG, errors.GAP_WRONG})
+"""Errors that any action may raise, because the servo or the hand raises them meanwhile."""
 
 
 class Edge(NamedTuple):
@@ -118,7 +121,7 @@ def _onward(steps: Sequence[Step], number: int, error: int) -> list[Onward]:
         return [(step.next, SUCCESS, None, False), *((entry, SUCCESS, None, True) for entry in begun)]
     if not operation.raising:
         return [(step.next, SUCCESS, None, False)]
-    raised = sorted(each for each in operation.raises if _goes_on(steps, step.next, each))
+    raised = sorted(each for each in operation.raises | ALWAYS if _goes_on(steps, step.next, each))
     return [(step.next, each, each, False) for each in (SUCCESS, *raised)]
 
 

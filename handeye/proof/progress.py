@@ -64,7 +64,7 @@ class Effects:
         by = [self._any(passed, phase.by) for phase in phases]
         lost = [
             any(self._undoes(each.shown(passed)) for each in phase.undone)
-            or any(self._undoes(each.failed(passed)) for each in phase.by)
+            or any(self._undoes(each.failed(passed)) for each in (*phase.undone, *phase.by))
             for phase in phases
         ]
         if not any(by) and not any(lost):

@@ -1,9 +1,11 @@
-"""Searches for a way to the end that does not show a claim. Counters are followed exactly."""
+"""Searches for a way to the end that does not show a claim. Counters are followed exactly, unless the program has an
+UNDO, whose reversals restore counters.
+"""
 
 from collections import deque
 from typing import Final, NamedTuple
 
-from handeye.program.flow_operations import Assign, Countdown
+from handeye.program.flow_operations import Assign, Countdown, Undo
 from handeye.proof.outcomes import END, Edge, OutcomeGraph
 from handeye.proof.progress import Effects
 
@@ -67,7 +69,7 @@ def _counted(graph: OutcomeGraph, state: _State, edge: Edge) -> Counters | None:
     operation = graph.step(state.node).operation
     if isinstance(operation, Assign):
         return tuple(sorted({**dict(state.counters), operation.counter: operation.value}.items()))
-    if not isinstance(operation, Countdown):
+    if not isinstance(operation, Countdown) or Undo in graph.kinds:  # a reversal may restore a counter
         return state.counters
     left = dict(state.counters).get(operation.counter, 0) - 1
     if (left > 0) != edge.taken:

@@ -69,10 +69,11 @@ def test_a_touch_that_every_way_makes_is_shown(text: str) -> None:
         FEEL.replace("-40", "-400"),
         FEEL.replace("MOVE T", "MOVE P"),
         FEEL.replace("[0 0 -1]", "[0 0 1]").replace("-40", "40"),
+        FEEL.replace("CHANGE [0 0 -1]", "CHANGE [1 0 0]"),
     ],
     ids=[
         "none", "no guard", "error ignored", "retries that end", "no round", "counted out", "error that skips it",
-        "undone", "guard too strong", "elsewhere", "upwards",
+        "undone", "guard too strong", "elsewhere", "upwards", "sideways",
     ],
 )  # fmt: skip
 def test_a_touch_that_a_way_avoids_is_refused_with_the_way(text: str) -> None:
@@ -117,9 +118,28 @@ def test_a_check_that_has_failed_must_be_made_again() -> None:
     assert proof_of(FEEL + FEEL + checked + "E: PARK").verdict == "avoided"
 
 
+def test_a_step_undoes_a_touch_even_if_it_raises_an_error() -> None:
+    assert proof_of(FEEL + "OPEN 1\nSKIPN 51\nJUMP E\n" + FEEL + "E: PARK").verdict == "avoided"
+
+
+def test_any_action_may_raise_the_error_of_the_gap() -> None:
+    assert proof_of("PARK\nSKIPE 51\nJUMP F\nJUMP E\nF: " + FEEL + "E: PARK").verdict == "avoided"
+
+
 def test_an_undone_stage_is_taken_to_show_nothing() -> None:
     text = 'STAGE "A"\nPARK\nSTAGE "B"\n' + FEEL + "SKIPN 23\nUNDO STAGE\nPARK"
     assert proof_of(text).verdict == "avoided"  # after the last reversal, the program goes on
+
+
+def test_a_stage_that_is_repeated_after_an_undo_begins_with_nothing_shown() -> None:
+    undone = "PARK\nSKIPE 4\nJUMP E\nMOVE T\nOPEN 1\nUNDO STAGE\n" + FEEL + "E: WHERE"
+    assert proof_of(f'STAGE "A"\n{FEEL}STAGE "B"\n{undone}').verdict == "avoided"
+
+
+def test_counters_are_not_followed_through_a_reversal() -> None:
+    counted_in = "ASSIGN N 1\nSOJG N E\n" + FEEL + "E: PARK"
+    assert proof_of(counted_in).verdict == "shown"
+    assert proof_of(counted_in + "\nSKIPN 4\nUNDO STAGE\nPARK").verdict == "avoided"
 
 
 def test_a_program_without_an_end_shows_nothing() -> None:

@@ -26,13 +26,14 @@ from handeye.trials.mutants.rules import Mutant
 from handeye.trials.sound_run import sound_run, with_faults
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
-Outcome = Literal["refused", "caught", "unnoticed", "silent"]
+Outcome = Literal["refused", "caught", "unnoticed", "silent", "not run"]
 """The outcome of a mutant.
 
 - refused: the proof names a finding that the mutant can leave unnoticed
-- caught: the mutant stopped in each run in which the work became wrong, and stopped in at least one run
-- unnoticed: no run differed from a right one, or no fault is known for which the check exists
+- caught: the mutant stopped in at least one run, and was silent in none
+- unnoticed: in all runs, the mutant went on to its end, and the work is right
 - silent: in a run, the work is wrong, but the mutant reported success
+- not run: the proof does not refuse the mutant, but no fault is known for which the check exists, or none was asked for
 """
 
 
@@ -124,6 +125,8 @@ class MutantWork:
 
 def _outcome(runs: Sequence[FaultRun]) -> Outcome:
     codes = {run.exit_code for run in runs}
+    if not codes:
+        return "not run"
     if 3 in codes:
         return "silent"
     return "caught" if codes - {0} else "unnoticed"
@@ -146,7 +149,7 @@ def _more(rows: Sequence[MutantRow]) -> dict[str, object]:
 MUTANTS: Final = Sweep(
     kind="mutants",
     row=MutantRow,
-    outcomes={"refused": "right", "caught": "right", "unnoticed": "wrong", "silent": "silent"},
+    outcomes={"refused": "right", "caught": "right", "unnoticed": "wrong", "silent": "silent", "not run": "uncounted"},
     success="refused by the proof, or caught in a run",
     noun="mutant",
     sentence=_sentence,
