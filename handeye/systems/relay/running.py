@@ -31,7 +31,7 @@ from handeye.runs.setup import Setup
 from handeye.runs.system import RunCallbacks, RunningSystem, Settable
 from handeye.runs.systems import system_named
 from handeye.systems.relay import ENTRY
-from handeye.systems.relay.happenings import LegStarted
+from handeye.systems.relay.happenings import LegStarted, of_leg
 from handeye.systems.relay.plan import Leg, RelayPlan, legs, listing
 from handeye.systems.relay.state import RelayCore
 from handeye.tasks import task
@@ -59,7 +59,9 @@ class RunningRelay(RunningSystem):
         self._cell = work.cell(setup.world, around.parts.camera or setup.camera)
         self._state = state
         mine = replace(around, emit=self._retell)
-        self._held: list[AnyEvent] | None = None  # events of a leg that is taking the arm over; None: emit at once
+        self._held: list[AnyEvent] | None = (
+            None  # events of a leg that is taking the arm over; None: emit at once
+        )
         self._programs: dict[str, RunningLeg] = {}
         for leg in self._legs:
             if leg.file not in self._programs:
@@ -346,6 +348,7 @@ class RunningRelay(RunningSystem):
             event = msgspec.structs.replace(event, step=leg.number(number))
         elif "stage" in event.__struct_fields__:
             event = msgspec.structs.replace(event, stage=self._stage(event.stage))  # type: ignore[union-attr]
+        event = of_leg(event)
         if self._held is None:
             self._around.emit(event)
         else:

@@ -77,7 +77,13 @@ class PlatterAxes(Axes):
         self._tool = tool
         self.told = np.array([*tool.goal, 0.0])  # last goal, as axes of the tool
         gap = tool.specs[-1]
-        self._specs = (*tuple(replace(spec, lower=lower, upper=upper) for spec, (lower, upper) in zip(tool.specs[:-1], _TRAVEL, strict=True)), gap)
+        self._specs = (
+            *tuple(
+                replace(spec, lower=lower, upper=upper)
+                for spec, (lower, upper) in zip(tool.specs[:-1], _TRAVEL, strict=True)
+            ),
+            gap,
+        )
 
     @property
     def specs(self) -> tuple[AxisSpec, ...]:
@@ -296,7 +302,7 @@ class TaughtLegs(LegSystem):
         if len(plan.script) > _LONGEST:
             raise BadFile(f"{name} is not valid: its script has more than {_LONGEST} characters")
         try:
-            listing(plan)  # type: ignore[arg-type]  # it has the fields of a taught plan
+            listing(plan)
         except InvalidInput as error:
             raise BadFile(str(error)) from None
 
