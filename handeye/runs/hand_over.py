@@ -76,6 +76,12 @@ class HandOver(Record, frozen=True, kw_only=True):
             raise Refused(f"the hand-over record has no {kind} {quoted(name)}")
         raise Refused(f"{quoted(name)} is a {other} in the hand-over record, but the leg needs a {kind}")
 
+    def height(self, name: str) -> float:
+        """Return a height (m), or the height of a place. Raises Refused as `value` does."""
+        if name in self.named.get("place", {}) and name not in self.named.get("height", {}):
+            return float(self.value(name, "place")[2])
+        return float(self.value(name, "height")[0])
+
     def check_hand(self, sensed: Sensed, arm: ArmModel) -> None:
         """Raise Refused unless hand and fingers are as the record says, according to the sensors."""
         self.check()

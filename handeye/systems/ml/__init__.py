@@ -9,7 +9,8 @@ ENTRY = Entry(
     title="ML",
     help="Run programs in ML (IBM, 1975), whose motions stop when a sensor, read every 10 ms, passes a limit.",
     system="handeye.systems.ml.run.system:ML",
-    can=("faults", "levels", "console", "video"),
+    can=("faults", "levels", "console", "video", "leg"),
+    leg="handeye.systems.ml.leg:LEGS",
     reasons={
         "plans": "`handeye ml run FILE.ml` runs its programs",
         "undo": "no record of its motions is kept; in the stepper, `back` returns the simulation to an earlier state",

@@ -65,7 +65,9 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
             yield found(
                 1, "the program takes pictures, but the camera is calibrated only if the first leg's does"
             )
-        known |= {(use.name, use.kind) for use in leg.system.writes(leg.plan, leg.stage)}
+        found_here = leg.system.writes(leg.plan, leg.stage)
+        known |= {(use.name, use.kind) for use in found_here}
+        known |= {(use.name, "height") for use in found_here if use.kind == "place"}
         earlier.setdefault(leg.file, []).append(leg.stage)
 
 

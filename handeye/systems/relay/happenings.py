@@ -1,11 +1,13 @@
 """Events of a relay: legs that take the arm over. The events of the legs themselves are those of their systems."""
 
-from itertools import chain
+from collections.abc import Mapping
 from typing import Any, Final
+
+import msgspec
 
 from handeye.core.entries import entries, entry_named, loaded
 from handeye.core.units import Measures
-from handeye.program.events import SystemEvent
+from handeye.program.events import AnyEvent, SystemEvent
 
 
 class LegStarted(SystemEvent, frozen=True, kw_only=True):
@@ -24,9 +26,27 @@ class LegStarted(SystemEvent, frozen=True, kw_only=True):
         return f"{entry_named(self.system).title} takes the arm over with {self.program}: {holds}{names}"
 
 
-EVENTS: Final[tuple[Any, ...]] = (
-    LegStarted,
-    *chain.from_iterable(
-        loaded(entry.events) for entry in entries().values() if "leg" in entry.can and entry.events
-    ),
-)
+def _kind(system: str, kind: type[SystemEvent]) -> type[SystemEvent]:
+    """Return a kind of events of a system, under a name that no other system has."""
+    name = f"{system.capitalize()}{kind.__name__}"
+    made: Any = msgspec.defstruct(
+        name, [], bases=(kind,), frozen=True, kw_only=True, tag_field="event", tag=name, module=__name__
+    )
+    own: type[SystemEvent] = made
+    return own
+
+
+OF_LEGS: Final[Mapping[type, type[SystemEvent]]] = {
+    kind: _kind(entry.name, kind)
+    for entry in entries().values()
+    if "leg" in entry.can and entry.events
+    for kind in loaded(entry.events)
+}
+"""The kinds of events of the systems of legs, and the kinds that stand for them in a relay."""
+EVENTS: Final[tuple[Any, ...]] = (LegStarted, *OF_LEGS.values())
+
+
+def of_leg(event: AnyEvent) -> AnyEvent:
+    """Return an event of a leg as an event of the relay."""
+    kind: Any = OF_LEGS.get(type(event))
+    return event if kind is None else kind(**{name: getattr(event, name) for name in event.__struct_fields__})

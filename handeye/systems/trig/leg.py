@@ -302,7 +302,7 @@ class TaughtLegs(LegSystem):
         if len(plan.script) > _LONGEST:
             raise BadFile(f"{name} is not valid: its script has more than {_LONGEST} characters")
         try:
-            listing(plan)  # type: ignore[arg-type]  # it has the fields of a taught plan
+            listing(plan)
         except InvalidInput as error:
             raise BadFile(str(error)) from None
 

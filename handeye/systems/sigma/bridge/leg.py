@@ -1,8 +1,8 @@
 """Lets SUPERSIGMA do legs of a relay: a MAL program moves the tool of the Stanford arm as arm 1. There is no bus.
 
 The corner X1 = 0, Y1 = 0 of the board is at x = 350 and y = 800 mm on the table, and Z1 = 0 is 240 mm above it. The
-hand points straight down, with its fingers along Y. When a leg begins, the hand is brought straight to the nearest place
-of the board, and the axes count from their origins. A place in the record with the name NAME is in the variables
+hand points straight down, with its fingers along Y. When a leg begins, the hand is brought straight to the nearest
+place of the board, and the axes count from their origins. A place in the record with the name NAME is in the variables
 NAMEX, NAMEY and NAMEZ (mm), if the program uses them, and a height is in NAMEH, as a place of Z1. A leg hands over the
 variables NAMEX, NAMEY and NAMEZ that it sets.
 """
@@ -166,17 +166,14 @@ class MalLeg(RunningMal, RunningLeg):
         """The whole program is one leg, which begins when it takes the arm over."""
 
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
-        found = {
-            name + axis: value
-            for name, numbers in record.named.get("place", {}).items()
-            for axis, value in zip("XYZ", _on_board(numbers), strict=True)
-        }
-        heights = record.named.get("height", {}).items()
-        found |= {f"{name}H": CORNER[2] - numbers[0] / _MM for name, numbers in heights}
+        found = {}
         for use in LEGS.reads(self._plan, stage):
-            record.value(use.name, use.kind)
-        known = _variables(self._plan, "PUSHV")
-        self.vm.memory.variables |= {name: value for name, value in found.items() if name in known}
+            if use.kind == "height":
+                found[f"{use.name}H"] = CORNER[2] - record.height(use.name) / _MM
+            else:
+                place = _on_board(record.value(use.name, "place").tolist())
+                found |= {use.name + axis: value for axis, value in zip("XYZ", place, strict=True)}
+        self.vm.memory.variables |= found
         self.tool.take_over(record, station)
         if record.held:
             self._machine.hold()
@@ -247,7 +244,7 @@ def _on_board(numbers: Sequence[float]) -> tuple[float, ...]:
     return x - CORNER[0], y - CORNER[1], CORNER[2] - z
 
 
-def _on_table(x: float, y: float, z: float) -> tuple[float, ...]:
+def _on_table(x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return x, y, z (m, W) of a place on the board."""
     return (CORNER[0] + x) * _MM, (CORNER[1] + y) * _MM, (CORNER[2] - z) * _MM
 
