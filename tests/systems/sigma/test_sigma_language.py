@@ -41,9 +41,13 @@ def test_the_example_of_a_code_makes_that_mistake_and_a_cure_is_told(code: str) 
     assert (LANGUAGE.explanation(code) or "").startswith(f"{CODES[code].severity}[{code}]: ")
 
 
+HANDED_ON = {"top": ["variable-never-set"]}
+"""What the checker finds in a leg of a relay: a variable that the relay sets before the leg begins."""
+
+
 @pytest.mark.parametrize("file", sorted(PLANS.glob("*.mal")), ids=lambda file: file.stem)
 def test_our_programs_have_no_mistake(file: Path) -> None:
-    assert codes(file.read_text(encoding="utf-8")) == []
+    assert codes(file.read_text(encoding="utf-8")) == HANDED_ON.get(file.stem, [])
 
 
 @pytest.mark.parametrize("word", [name for name, word in WORDS.items() if word.example])
