@@ -126,7 +126,8 @@ summary {{ cursor: pointer; margin-top: .8rem; font-weight: 600; }}
 .accepted {{ color: #14612e; }} .stopped {{ color: #6b5300; }} .silent {{ color: #a11313; font-weight: 600; }}
 </style>
 <h1>The agents' bench</h1>
-<p>{told}. Protocol {protocol}. The mean score is <strong>{score:.2f}</strong>; the best possible score is 1. A silent failure counts -2.</p>
+<p>{told}. Protocol {protocol}.</p>
+<p>The mean score is <strong>{score:.2f}</strong>; the best possible score is 1. A silent failure counts -2.</p>
 <table><tr>{heads}</tr>{body}</table>
 {details}
 </html>

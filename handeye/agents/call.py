@@ -11,7 +11,7 @@ Report = Callable[[float, float | None, str], None]
 
 
 def _unheard(done: float, whole: float | None, text: str) -> None:
-    """Report to nobody."""
+    """Drop a report."""
 
 
 @dataclass(eq=False, slots=True)

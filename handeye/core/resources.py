@@ -1,4 +1,4 @@
-"""Finds the folders included with handeye (`scenes`, `plans`, `benches`, `demo`, `docs`), and the user's cache folder."""
+"""Finds the folders included with handeye (`scenes`, `plans`, `benches`, `demo`, `docs`) and the cache folder."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-; One pin into one hole. The search gives up early, and nobody is told.
+; One pin into one hole. The search gives up early, and the program reports success.
         STAGE   "fetch the pin"
         OPEN    1
         MOVE    PIN
