@@ -87,6 +87,7 @@ def test_the_seventh_screw_is_driven_but_its_head_is_not_felt() -> None:
         "screws",
         "screws_depth",
         "screws_lean",
+        "screws_clamp",
     }
     assert all("(hole 7)" in each.message for each in unproved(proof, found))
 
