@@ -18,8 +18,9 @@ from handeye.runs.setup import Setup
 from handeye.runs.system import ExecutedStep, Listing, RunCallbacks, StepperWords, System
 from handeye.systems.relay import ENTRY
 from handeye.systems.relay.check import check_plan
+from handeye.systems.relay.executed import executed
 from handeye.systems.relay.plan import RelayPlan, decode, decoded, listing
-from handeye.systems.relay.running import RunningRelay, executed
+from handeye.systems.relay.running import RunningRelay
 from handeye.systems.relay.state import RelayCore, state_type
 from handeye.tasks import task
 from handeye.vision.calibration import Calibration

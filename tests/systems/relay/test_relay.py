@@ -8,13 +8,15 @@ from msgspec.structs import replace
 from relay_bench import CARRY, RELAY, call, on_disk, pin_relay, runner_of, to_end
 
 from handeye.core.errors import BadFile, InvalidInput
-from handeye.core.source import Source
+from handeye.core.resources import plans
+from handeye.core.source import Source, read_source
 from handeye.program.events import StageStarted
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.hand_over import HandOver
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.relay.check import check_plan, misfits
+from handeye.systems.relay.plan import made
 from handeye.systems.relay.reading import parsed
 from handeye.systems.relay.state import RelayCore
 
@@ -172,3 +174,10 @@ def test_undoing_goes_back_through_the_legs_of_one_program_and_stops_at_another(
     runner = Runner(on_disk(run[2][8]))
     with pytest.raises(InvalidInput, match=r"only the steps of carry\.al can be undone"):
         runner.order_reversal(0)
+
+
+@pytest.mark.slow
+def test_the_legs_of_the_relay_of_four_languages_fit_together() -> None:
+    plan = made(read_source(plans() / "four_languages.relay"), plans())
+    assert [*misfits(plan)] == []
+    assert {program.system for program in plan.programs} == {"program", "trig", "ml", "sigma"}
