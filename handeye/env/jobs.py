@@ -32,6 +32,7 @@ class Job(Record, frozen=True, kw_only=True):
     task: str
     stages: tuple[int, ...] = (0,)
     """Stages of the program, from 0, before which an episode may start. If there are several, the seed chooses."""
+    until: int | None = None  # stage of the program, from 0, before which the job ends; None: its end
     limit_s: float  # time limit of an episode, s on the cell's clock
     goal: tuple[str, ...] = ()
     """Beginnings of the names of the referee's findings that must hold. Empty: all findings must hold."""
@@ -78,6 +79,7 @@ JOBS: Final = (
         "back.",
         task="water_pump",
         stages=(7,),
+        until=8,
         limit_s=240.0,
         goal=(*_PART, "screws"),
         limits={"screws": 2.0},
@@ -88,6 +90,7 @@ JOBS: Final = (
         meaning="The base stands at its blocks, with two aligning pins. Lay the gasket and the top on it.",
         task="water_pump",
         stages=(4,),
+        until=7,
         limit_s=240.0,
         goal=_PART,
         steps=_LAYERS,

@@ -2,6 +2,7 @@
 
 from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.mutable_records import copied
+from handeye.env.jobs import job_named
 from handeye.env.policies import Episode, Facts, Policy
 from handeye.env.seen_cell import seen_cell
 from handeye.env.spaces import ActionKind
@@ -23,8 +24,8 @@ def _camera(facts: Facts) -> CameraModel | None:
 class ProgramPolicy(Policy):
     """Continues the program from the state in which the episode starts, with what the program remembers there.
 
-    It says done when the program has ended. When the program calls the operator, the policy sets the brakes
-    and waits for the time limit.
+    It says done when the program has ended the stages of the job. When the program calls the operator, the policy
+    sets the brakes and waits for the time limit.
     """
 
     actions: tuple[ActionKind, ...] = ("torques",)
@@ -43,7 +44,10 @@ class ProgramPolicy(Policy):
         )
         context.restore(copied(self.facts.memory))
         executor = Executor(run=context)
+        until = job_named(self.facts.environment).until
         while context.state.at is not None:
+            if context.state.stage is None and plan.program.steps[context.state.at].stage == until:
+                clock.done()
             executor.step()
         if executor.finish():
             clock.done()

@@ -59,6 +59,8 @@ def test_a_pump_that_was_never_begun_is_a_false_done(begun: Runner) -> None:
 
 @pytest.mark.slow
 def test_a_planted_fault_changes_nothing_before_its_stage(begun: Runner) -> None:
+    begun = Runner(begun.checkpoint(begun.history[0]))
+    begun.step()
     start = begun.checkpoint()
     fault = Fault(name="screw.4.loose", value=1.0, stage=1)
     runner = Runner(planted(start, fault))
