@@ -308,7 +308,8 @@ def test_a_fault_sets_in_with_a_stage_by_a_piece_of_its_name_or_not_at_all(comma
     code, _, err = command("do", "PARK", "--fault", "lamp.dead@2")
     assert (code, err) == (
         2,
-        "handeye: this command has no stages, so a fault is present from the start; leave out `@2`\n",
+        "handeye: this command has no stages; leave out `@2`, or write a time such as `@30s` if the fault can begin "
+        "after a time\n",
     )
 
 

@@ -27,6 +27,7 @@ Faults = Annotated[
         group=WORLD,
         consume_multiple=False,
         help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. "
+        "A fault of the arm in a job of ML begins after a time, such as @30s. "
         "`handeye faults --list` lists the faults of the pump; with `--task NAME`, it lists those of another task. "
         "May be repeated.",
     ),

@@ -17,15 +17,16 @@ from handeye.core.units import UNITS, Unit
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """One injected fault of a run. `stage` is the number of the stage at which the fault begins; None if it is
-    present from the start.
-    """
+    """One injected fault of a run. It is present from the start, unless `stage` or `after` says when it begins."""
 
     name: str
     value: float | None = None  # size, in SI units; None if the kind has none
-    stage: Annotated[int, msgspec.Meta(ge=1)] | None = None  # counted from 1
+    stage: Annotated[int, msgspec.Meta(ge=1)] | None = None  # number of the stage at which it begins, from 1
+    after: Annotated[float, msgspec.Meta(gt=0)] | None = None  # s of simulated time after which it begins
 
     def __str__(self) -> str:
+        if self.after is not None:
+            return f"{self.name} from {self.after:g} s on"
         return self.name if self.stage is None else f"{self.name} from stage {self.stage} on"
 
 
@@ -75,9 +76,9 @@ class FaultKind:
     name: str
     meaning: str  # a sentence: what is broken, and what the program gets instead
     size: Size | None = None  # None if the fault has no size
-    when: Literal["before", "during"] = "during"
+    when: Literal["before", "during", "later"] = "during"
     """`before` if the fault can only be present in the world from the start; `during` if it can also begin at a
-    stage.
+    stage; `later` if it can also begin after a time.
     """
     usual_stage: int | None = None  # stage at which the fault begins by default, from 1; None for the start
     expected: ExpectedDetection = UNKNOWN
@@ -109,10 +110,24 @@ class FaultKind:
         return fault
 
     def check(self, fault: Fault) -> None:
-        """Raise BadArgument unless the size and the stage of a fault are possible."""
-        if fault.stage is not None and self.from_start:
+        """Raise BadArgument unless the size of a fault and its beginning are possible."""
+        if (fault.stage is not None or fault.after is not None) and self.from_start:
             raise BadArgument(
-                f"the fault {quoted(self.name)} cannot begin during a run, only before it; leave out `@{fault.stage}`"
+                f"the fault {quoted(self.name)} cannot begin during a run, only before it; leave out `{_begun(fault)}`"
+            )
+        if fault.stage is not None and self.when != "during":
+            raise BadArgument(
+                f"the fault {quoted(self.name)} begins after a time, not at a stage; write for example `@30s`, not "
+                f"`{_begun(fault)}`"
+            )
+        if fault.after is not None and self.when != "later":
+            raise BadArgument(
+                f"the fault {quoted(self.name)} begins at a stage, not after a time; write for example `@2`, not "
+                f"`{_begun(fault)}`"
+            )
+        if fault.after is not None and not 0 < fault.after < float("inf"):
+            raise BadArgument(
+                f"the fault {quoted(self.name)} begins after a time of more than 0 s, not {fault.after:g} s"
             )
         if self.size is None and fault.value is not None:
             raise BadArgument(f"the fault {quoted(self.name)} takes no value")
@@ -167,7 +182,14 @@ class Catalogue:
         value = (
             "" if fault.value is None else f"={fault.value / kind.measure.size:g}{kind.unit.replace(' ', '')}"
         )
-        return f"{fault.name}{value}" + ("" if fault.stage is None else f"@{fault.stage}")
+        return f"{fault.name}{value}{_begun(fault)}"
+
+
+def _begun(fault: Fault) -> str:
+    """Write when a fault begins, as it is typed; empty if it is present from the start."""
+    if fault.after is not None:
+        return f"@{fault.after:g}s"
+    return "" if fault.stage is None else f"@{fault.stage}"
 
 
 def once(names: Iterable[str]) -> None:

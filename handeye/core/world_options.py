@@ -1,7 +1,8 @@
 """Parses the options that change a world: `--without`, `--set`, `--scale`, `--fault`."""
 
+import re
 from collections.abc import Callable, Iterable
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 
@@ -113,6 +114,7 @@ def _limits(quantity: WritableQuantity) -> str:
     return f"; it must be between {low:g} and {high:g}{unit}"
 
 
+_SECONDS: Final = re.compile(r"(\d{1,6}(?:\.\d{1,3})?|\.\d{1,3}) ?s")  # when a fault begins, such as `30s`
 StageNumber = Callable[[str], int]  # returns the number, from 1, of a stage as written; raises NoSuchName
 
 
@@ -130,8 +132,10 @@ def _fault(catalogue: Catalogue, text: str, stage: StageNumber) -> Fault:
     name, equals, value = (part.strip() for part in what.partition("="))
     where = where.strip().strip('"').strip()
     if not name or (at and not where) or (equals and not value):
-        raise BadArgument(f"{quoted(text)} is not a fault; write NAME, NAME=VALUE or NAME@STAGE")
+        raise BadArgument(f"{quoted(text)} is not a fault; write NAME, NAME=VALUE, NAME@STAGE or NAME@30s")
     kind = catalogue.kind(name)
+    if time := _SECONDS.fullmatch(where):
+        return Fault(name=name, value=_value(kind, value), after=float(time[1]))
     return Fault(name=name, value=_value(kind, value), stage=stage(where) if at else kind.usual_stage)
 
 
@@ -151,9 +155,8 @@ def by_number(text: str) -> int:
 
 
 def from_start_only(text: str) -> int:
-    """Refuse a stage given with a fault (the part after `@`): the command has no stages, so faults are present
-    from the start.
-    """
+    """Refuse a stage given with a fault (the part after `@`), because the command has no stages."""
     raise BadArgument(
-        f"this command has no stages, so a fault is present from the start; leave out {quoted(f'@{text}')}"
+        f"this command has no stages; leave out {quoted(f'@{text}')}, or write a time such as `@30s` if the fault can "
+        "begin after a time"
     )

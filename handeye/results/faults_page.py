@@ -24,6 +24,7 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     meaning: str
     size: Size | None  # None: the fault has no size
     from_start: bool  # True if the fault can only be present from the start
+    later: bool  # True if the fault can also begin after a time
     usual_stage: int | None
     """Number of the stage at which the fault begins by default; None: it is present from the start."""
     expected: ExpectedDetection
@@ -72,6 +73,7 @@ def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
         meaning=kind.meaning,
         size=kind.size,
         from_start=kind.from_start,
+        later=kind.when == "later",
         usual_stage=kind.usual_stage,
         expected=kind.expected,
         must=_must(kind.expected),
@@ -107,4 +109,6 @@ def _head(fault: FaultReport) -> Text:
         row.append("  in the standard set", "green")
     if fault.usual_stage is not None:
         row.append(f"  @{fault.usual_stage} by default", "dim")
+    if fault.later:
+        row.append("  or later, as with @30s", "dim")
     return row.append("  from the start only", "dim") if fault.from_start else row

@@ -12,6 +12,7 @@ CATALOGUE = Catalogue(
     FaultKind(name="gap.off", meaning="It reads more.", size=Size(unit="in", usual=0.5, limits=(-4.0, 4.0))),
     FaultKind(name="gasket.missing", meaning="There is none.", when="before"),
     FaultKind(name="base.removed", meaning="Somebody takes it away.", usual_stage=4),
+    FaultKind(name="wand.open", meaning="It signals nothing.", when="later"),
 )
 
 
@@ -26,6 +27,9 @@ CATALOGUE = Catalogue(
         ("gasket.missing", Fault(name="gasket.missing")),
         ("base.removed", Fault(name="base.removed", stage=4)),
         ("base.removed@2", Fault(name="base.removed", stage=2)),
+        ("wand.open", Fault(name="wand.open")),
+        ("wand.open@30s", Fault(name="wand.open", after=30.0)),
+        ("wand.open @ .5 s", Fault(name="wand.open", after=0.5)),
     ],
 )
 def test_a_fault_is_named_with_its_size_and_its_stage(text: str, fault: Fault) -> None:
@@ -43,7 +47,7 @@ def test_a_stage_may_have_any_name() -> None:
         (["lamp.daed"], "there is no fault `lamp.daed`; did you mean `lamp.dead`?"),
         (
             ["bell"],
-            "there is no fault `bell`; known: `base.removed`, `gap.off`, `gasket.missing`, `lamp.dead`",
+            "there is no fault `bell`; known: `base.removed`, `gap.off`, `gasket.missing`, `lamp.dead`, `wand.open`",
         ),
         (["lamp"], "`lamp` is a group of faults: `lamp.dead`"),
         (["lamp.dead=3"], "the fault `lamp.dead` takes no value; leave out `=3`"),
@@ -51,13 +55,26 @@ def test_a_stage_may_have_any_name() -> None:
         (["gap.off=5in"], "gap.off cannot be `5in`; it must be between -4 and 4 in"),
         (["gap.off=5N"], "gap.off is not measured in `N`; known: `in`, `m`, `mm`"),
         (["lamp.dead@0"], "`0` is not the number of a stage; stages are numbered from 1"),
-        (["lamp.dead@"], "`lamp.dead@` is not a fault; write NAME, NAME=VALUE or NAME@STAGE"),
-        (["gap.off="], "`gap.off=` is not a fault; write NAME, NAME=VALUE or NAME@STAGE"),
+        (["lamp.dead@"], "`lamp.dead@` is not a fault; write NAME, NAME=VALUE, NAME@STAGE or NAME@30s"),
+        (["gap.off="], "`gap.off=` is not a fault; write NAME, NAME=VALUE, NAME@STAGE or NAME@30s"),
         (["lamp.dead", "lamp.dead@2"], "the fault `lamp.dead` is given twice"),
         (
             ["gasket.missing@2"],
             "the fault `gasket.missing` cannot begin during a run, only before it; leave out `@2`",
         ),
+        (
+            ["gasket.missing@2s"],
+            "the fault `gasket.missing` cannot begin during a run, only before it; leave out `@2s`",
+        ),
+        (
+            ["lamp.dead@2s"],
+            "the fault `lamp.dead` begins at a stage, not after a time; write for example `@2`, not `@2s`",
+        ),
+        (
+            ["wand.open@2"],
+            "the fault `wand.open` begins after a time, not at a stage; write for example `@30s`, not `@2`",
+        ),
+        (["wand.open@0s"], "the fault `wand.open` begins after a time of more than 0 s, not 0 s"),
     ],
 )
 def test_what_names_no_fault_is_refused(texts: list[str], sentence: str) -> None:
@@ -69,14 +86,14 @@ def test_what_names_no_fault_is_refused(texts: list[str], sentence: str) -> None
 def test_where_nothing_has_stages_a_fault_is_there_from_the_beginning() -> None:
     with pytest.raises(
         InvalidInput,
-        match=r"^this command has no stages, so a fault is present from the start; "
-        "leave out `@2`$",
+        match=r"^this command has no stages; leave out `@2`, or write a time such as `@30s` if the fault can begin "
+        "after a time$",
     ):
         faults(CATALOGUE, ["lamp.dead@2"], from_start_only)
 
 
 def test_a_fault_is_told_as_it_would_be_typed() -> None:
-    typed = ["gap.off=-0.25in@2", "lamp.dead"]
+    typed = ["gap.off=-0.25in@2", "lamp.dead", "wand.open@30s"]
     assert [CATALOGUE.written(fault) for fault in faults(CATALOGUE, typed, by_number)] == typed
 
 

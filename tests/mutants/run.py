@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Puts faults into a copy of the code, one at a time, and says which test catches each.
 
-The faults are in mutants.toml. With NAMEs, those whose name contains one of them are tried.
+The faults are in mutants.toml. With NAMEs, those whose name contains one of them are tried,
+and all of an area that is one of them.
 Exit code: 0 if all is as the table says, 1 if not, 2 if it could not be tried, 130 after Ctrl-C.
 """
 
@@ -49,7 +50,7 @@ def main(words: Sequence[str] | None = None) -> int:
 def _options(words: Sequence[str] | None) -> argparse.Namespace:
     first, _, rest = (__doc__ or "").partition("\n\n")
     parser = argparse.ArgumentParser(description=first, epilog=rest)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="a part of the name of a fault")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="a part of the name of a fault, or an area")
     parser.add_argument("--list", action="store_true", help="list the faults and try none")
     parser.add_argument("--workers", type=_count, default=1, metavar="N", help="faults tried at a time (1)")
     return parser.parse_args(words)
@@ -62,11 +63,16 @@ def _count(text: str) -> int:
 
 
 def _chosen(mutants: Sequence[Mutant], names: Sequence[str]) -> list[Mutant]:
-    """The faults of these names; all without any."""
+    """The faults of these names and areas; all without any."""
+    areas = {mutant.area for mutant in mutants}
+
+    def called(mutant: Mutant, name: str) -> bool:
+        return mutant.area == name if name in areas else name in mutant.name
+
     for name in names:
-        if not any(name in mutant.name for mutant in mutants):
+        if not any(called(mutant, name) for mutant in mutants):
             raise TableError(f"no fault is called `{name}`; --list shows them all")
-    return [mutant for mutant in mutants if not names or any(name in mutant.name for name in names)]
+    return [mutant for mutant in mutants if not names or any(called(mutant, name) for name in names)]
 
 
 def _carried_out(mutants: Sequence[Mutant], workers: int) -> list[Outcome]:

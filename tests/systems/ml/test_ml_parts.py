@@ -1,6 +1,7 @@
 """The jobs that orient a bar and take parts out of a bin: their programs and referees."""
 
 import json
+import re
 from collections.abc import Callable
 from math import radians
 
@@ -10,19 +11,22 @@ import pytest
 from msgspec.structs import replace
 
 from handeye.core.pose import rotation_x
+from handeye.core.resources import plans
 from handeye.core.variation import WorldSpec
+from handeye.program.numbered import encode
 from handeye.results.finishing import finished
 from handeye.results.result import Result
 from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.systems.ml.bench.bars import after, off_attitude, turned
-from handeye.systems.ml.bin.hopper import BOXES
-from handeye.systems.ml.bin.task import BIN, Poured
+from handeye.systems.ml.bench.bars import DENSITY, LONG, WIDE, after, off_attitude, turned
+from handeye.systems.ml.bin.hopper import BOXES, DEEP, HIGH
+from handeye.systems.ml.bin.task import BIN, LIGHT, NARROW, Bin, Poured
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.systems.ml.orient.task import ASKED, ORIENT
 from handeye.systems.ml.run.jobs import job_plan, job_setup
+from handeye.systems.ml.typewriter.task import TYPEWRITER, Typewriter
 
 Command = Callable[..., tuple[int, str, str]]
 Y, Z = np.eye(3)[1:]
@@ -105,9 +109,79 @@ def test_three_parts_of_a_bin_are_taken_one_at_a_time_and_judged() -> None:
     }
 
 
-def test_the_pile_is_solved_with_dense_matrices() -> None:
+@pytest.mark.parametrize("task", [BIN, TYPEWRITER])
+def test_a_pile_is_solved_with_dense_matrices(task: Bin | Typewriter) -> None:
     """MuJoCo 4.0.0 solves some piles wrongly with sparse ones, and throws a part out at 1000 rad/s."""
-    assert not mujoco.mj_isSparse(BIN.scene(WorldSpec(seed=7)))
+    assert not mujoco.mj_isSparse(task.recorded_scene(WorldSpec(seed=7), encode(job_plan(task.name))))
+
+
+def numbers_of(text: str, *statements: str) -> list[int]:
+    """The last number of each statement."""
+    lines = dict(line.split(" ", 1) for line in text.splitlines() if line[:1].isdigit())
+    return [int(lines[number].split()[-1]) for number in statements]
+
+
+def felt(text: str, part: int, along: float) -> float:
+    """Width (ML units) that the subroutine of `bin` feels when it closes the fingers on a part, and once more at 600 g;
+    `along` is the place of the fingers on the bar (m from its middle).
+    """
+    first = (
+        "10 PUT MT 11 9 4000",
+        "20 MOVE 0 0 0 0 0 0 0 0 0 0 2756",
+        "30 DELAY 90",
+        "40 CALIB",
+        "50 MOTOR 2 9684",
+    )
+    last = "60 BAL 8 730", "70 LOAD 32 600", "80 BAL 8 739", "90 PRINT 0 &1 0", "100 STOP"
+    grip = [line for line in text.splitlines() if line[:1].isdigit() and 730 <= int(line.split()[0]) < 760]
+    runner = begun("bin", 2, "\n".join((*first, *last, *grip)), variant="3")
+    data = runner.cell.truth.data
+    for number in (1, 2, 3):
+        away = (0.25, 0.05 * number, 0.007)
+        data.joint(f"part_{number}").qpos[:] = (*(away if number != part else (0, along, 0.009)), 1, 0, 0, 0)
+    runner.cell.restore(runner.cell.capture())
+    return (done(runner).figures or {})["told_good"]
+
+
+def test_the_limits_of_width_and_weight_follow_from_the_errors_of_part_potentiometer_and_gauges() -> None:
+    """The derivation that the program states, with the numbers of the worlds (mm, mm and rad)."""
+    unit, arm = 25.4e-6, BIN.variation().quantities
+    sigma = {name: arm[name].distribution.spread for name in ("parts.size", "slides.bend", "turns.bend")}
+    bent = 8  # ML units, by 600 g
+    off = 2 * (sigma["parts.size"] + sigma["slides.bend"] + 73 * sigma["turns.bend"]) * 1e-3 / unit + 2
+    good, narrow = WIDE / unit - bent, (WIDE - NARROW) / unit - bent
+    text = job_plan("bin").text
+    most, least, lowest, highest = numbers_of(text, "435", "441", "437", "439")
+    assert (most, least) == (pytest.approx(good + off, abs=1), pytest.approx(good - off, abs=1))
+    assert (highest - 1, lowest) == (pytest.approx(narrow + off, abs=1), pytest.approx(narrow - off, abs=1))
+    assert highest < least
+    grams = DENSITY * WIDE**2 * LONG * 1000
+    light, doubtful = numbers_of(text, "443", "445")
+    assert (light + doubtful) / 2 == pytest.approx(grams * (1 + LIGHT) / 2, abs=0.5)
+    for kind in (most, least, lowest, highest, light, doubtful):  # the typewriter has the same limits
+        assert f" {kind}\n" in job_plan("typewriter").text
+
+
+@pytest.mark.slow
+def test_a_part_seems_as_wide_near_its_end_as_in_its_middle() -> None:
+    text = job_plan("bin").text
+    assert 532 <= felt(text, 1, along=0.023) <= 554  # 2 mm from the end of a good part
+    assert 493 <= felt(text, 3, along=0.0) <= 515  # the middle of a narrow one
+
+
+def test_no_part_that_slips_out_of_the_fingers_flies_over_the_wall() -> None:
+    """The energy of the bent fingers lifts a light part less than the wall is high."""
+    typewriter = (plans() / "typewriter.sym").read_text(encoding="utf-8")
+    close = re.search(r"CLOSE: +LOAD LIMIT (\d+)\n.*\n +PUT MT 11 8 (\d+)\n", typewriter)
+    assert close is not None
+    closings = (numbers_of(job_plan("bin").text, "730", "732"), DEEP), ([*map(int, close.groups())], HIGH)
+    for (grams, units), wall in closings:
+        stiffness = 1 / (
+            1 / 50_000 + 1 / 100_000
+        )  # N/m: two gauges and the drive, scenes/rectilinear_arm/README.md
+        force = grams * 9.81e-3 + units * 25.4e-6 * stiffness
+        light = DENSITY * WIDE**2 * LONG * LIGHT
+        assert force**2 / (2 * stiffness) / (light * 9.81) < wall - WIDE / 2
 
 
 @pytest.mark.slow

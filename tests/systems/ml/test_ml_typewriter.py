@@ -16,7 +16,7 @@ from handeye.systems.ml.bench.bars import turned
 from handeye.systems.ml.language.assembler import assembled
 from handeye.systems.ml.run.jobs import job_plan, job_setup
 from handeye.systems.ml.support.drawing import FRAME, mm
-from handeye.systems.ml.typewriter.task import BAD, BAR, TYPEWRITER
+from handeye.systems.ml.typewriter.task import BAD, BAR, HOPPER, TYPEWRITER
 
 MM = 0.001
 PLANS = plans()
@@ -84,7 +84,7 @@ def test_the_referee_sees_a_bar_that_is_bad_missing_lost_or_wrongly_rejected() -
 
     def wrong(**places: tuple[float, float, float]) -> list[str]:
         for number in range(1, BARS + 1):
-            hidden = (mm(2500, -8300).x * MM, mm(2500, -8300).y * MM, 0.1 + number * 0.05)
+            hidden = (mm(*HOPPER).x * MM, mm(*HOPPER).y * MM, 0.1 + number * 0.05)
             data.joint(f"part_{number}").qpos[:] = (*places.get(f"bar_{number}", hidden), *along)
         cell.restore(cell.capture())
         found = TYPEWRITER.judge(cell.truth)

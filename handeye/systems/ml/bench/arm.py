@@ -52,6 +52,14 @@ _NOISES: Final = 4093  # cycles after which the noise repeats
 _STRAIN_PARTS: Final = tuple(part for channel in STRAINS for part in channel.parts)
 
 
+class Onset(Record, frozen=True, kw_only=True):
+    """What the arm read at the moment when a fault began."""
+
+    fault: str
+    q: tuple[float, ...]  # positions of the axes, SI units
+    ranged: float  # m
+
+
 class ArmState(Record, frozen=True, kw_only=True):
     """The state of the arm, without the state of its servos."""
 
@@ -61,6 +69,7 @@ class ArmState(Record, frozen=True, kw_only=True):
     offsets: tuple[float, ...]  # m: errors of the slides in their present motions
     ranged: float = 0.0  # m: the last measured range
     signalled: tuple[str, ...] = ()  # interlocks that are on
+    onsets: tuple[Onset, ...] = ()  # the faults that have begun
 
 
 class RectilinearArm(Axes, Mechanism[ArmState]):

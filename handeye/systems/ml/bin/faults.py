@@ -14,8 +14,9 @@ TROUBLES: Final = {
     "5": "the fingers do not open",
     "6": "a part stays in the open hand",
     "7": "the hand cannot go down into a box",
+    "8": "the bin is empty, but the boxes hold fewer parts than were poured in",
 }  # sentences by the numbers that the program prints
-_LEFT, _LOST, _RANGE, _GAUGE, _SHUT, *_ = calls_of(TROUBLES)
+_LEFT, _LOST, _RANGE, _GAUGE, _SHUT, *_, _MISSING = calls_of(TROUBLES)
 EMPTY, WIDE, HEAVY = "bin.empty", "part_1.wide", "part_1.heavy"
 FAULTS: Final = Catalogue(
     arm_fault("range.frozen", _RANGE),
@@ -26,9 +27,11 @@ FAULTS: Final = Catalogue(
     arm_fault("motor.x.dead"),
     arm_fault("motor.roll.dead"),
     arm_fault("motor.separation.dead", _SHUT),
-    arm_fault("motor.separation.weak", _LEFT, _LOST),
+    arm_fault(
+        "motor.separation.weak", _LEFT, _LOST, harmless="The fingers close with less force than a weak motor has.",
+    ),
     arm_fault("potentiometer.x.stuck"),
-    planted(EMPTY, "No parts were poured into the bin.", harmless="An empty bin is reported as empty."),
+    planted(EMPTY, "No parts were poured into the bin.", _MISSING),
     planted(WIDE, "The first part is 3 mm too wide, as if it were a part of another kind.", _LEFT),
     planted(HEAVY, "The first part is made of steel, as if it were a part of another kind.", _LEFT),
 )  # fmt: skip

@@ -17,36 +17,24 @@ RIM: Final = 0.090  # m from the middle of the hopper to its rim
 BOXES: Final = {"good": -6500, "bad": 6500}  # x of the slides
 BOX: Final = 0.050  # m: half the inner side of a box
 TRAY: Final = (0.060, 0.090)  # m: half the inner sides of a large box, along x and y
-HIGH: Final = 0.030  # m: height of the walls of a box, and of the rim of the hopper, over the table
+HIGH: Final = 0.030  # m: height of low walls over the table, those of a small box or hopper
 DEEP: Final = 0.080  # m: height of walls that a part which is let go between them cannot leave
-THIN: Final = 0.002  # m: half the thickness of walls
-THICK: Final = 0.005
-"""Half the thickness (m) of walls into which the hand may press a part with its full force."""
+THIN: Final = 0.002  # m: half the thickness of the walls of a box
+THICK: Final = (
+    0.005  # m: half the thickness of the hopper's walls and slopes, between which the fingers close
+)
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
-def solve_densely(spec: mujoco.MjSpec) -> None:
-    """Let MuJoCo solve for the contact forces with dense matrices. By default it takes sparse ones from 60 degrees of
-    freedom on.
-
-    MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, such as fingers that touch parts
-    of a pile which touch each other. Newton's method then ends after 100 iterations without a solution, and a part
-    leaves the pile at 1000 rad/s.
-    """
-    spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-
-
-def add_hopper(
-    spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, high: float = HIGH, thick: float = THIN
-) -> None:
+def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, rim: float = DEEP) -> None:
     """Add the hopper at a place of the scene (m), by default under the hand when the x and y slides are at 0. A part
-    that slides in the hopper has the friction of the hopper, not its own.
+    that slides in the hopper has the friction of the hopper, not its own. The pile in it is solved with dense matrices.
 
     Args:
-        high: height of its walls over the table, m.
-        thick: half the thickness of its walls and slopes, m.
+        rim: height of its walls over the table, m.
     """
+    _solve_densely(spec)
     hopper = spec.worldbody.add_body(name="hopper", pos=[*place, 0])
 
     def plate(size: list[float], pos: list[float], quat: list[float]) -> None:
@@ -58,18 +46,29 @@ def add_hopper(
     plate([HALF, HALF, FLOOR / 2], [0, 0, FLOOR / 2], [1, 0, 0, 0])
     run = RIM - HALF
     middle, high = HALF + run / 2, FLOOR + run / 2 * tan(SLOPE)
-    sunk = middle + thick * sin(SLOPE), high - thick * cos(SLOPE)  # so that the upper side lies in the slope
+    sunk = middle + THICK * sin(SLOPE), high - THICK * cos(SLOPE)  # so that the upper side lies in the slope
     for way in (-1, 1):
         plate(
-            [run / 2 / cos(SLOPE), RIM, thick],
+            [run / 2 / cos(SLOPE), RIM, THICK],
             [way * sunk[0], 0, sunk[1]],
             turned("y", -way * SLOPE).tolist(),
         )
         plate(
-            [RIM, run / 2 / cos(SLOPE), thick], [0, way * sunk[0], sunk[1]], turned("x", way * SLOPE).tolist()
+            [RIM, run / 2 / cos(SLOPE), THICK], [0, way * sunk[0], sunk[1]], turned("x", way * SLOPE).tolist()
         )
-        plate([thick, RIM, high / 2], [way * (RIM + thick), 0, high / 2], [1, 0, 0, 0])
-        plate([RIM, thick, high / 2], [0, way * (RIM + thick), high / 2], [1, 0, 0, 0])
+        plate([THICK, RIM, rim / 2], [way * (RIM + THICK), 0, rim / 2], [1, 0, 0, 0])
+        plate([RIM, THICK, rim / 2], [0, way * (RIM + THICK), rim / 2], [1, 0, 0, 0])
+
+
+def _solve_densely(spec: mujoco.MjSpec) -> None:
+    """Let MuJoCo solve for the contact forces with dense matrices. By default it takes sparse ones from 60 degrees of
+    freedom on.
+
+    MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, such as fingers that touch parts
+    of a pile which touch each other. Newton's method then ends after 100 iterations without a solution, and a part
+    leaves the pile at 1000 rad/s.
+    """
+    spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
 
 
 def add_boxes(spec: mujoco.MjSpec) -> None:

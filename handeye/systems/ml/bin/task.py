@@ -23,17 +23,7 @@ from handeye.systems.ml.bench.reporting import Printed, ReportingHardware
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.bin.faults import EMPTY, FAULTS, TROUBLES
-from handeye.systems.ml.bin.hopper import (
-    BOXES,
-    DEEP,
-    ORIGIN,
-    RIM,
-    THICK,
-    TRAY,
-    add_boxes,
-    add_hopper,
-    solve_densely,
-)
+from handeye.systems.ml.bin.hopper import BOXES, ORIGIN, RIM, TRAY, add_boxes, add_hopper
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.tasks.interface import Words
@@ -137,8 +127,7 @@ class Bin(ArmTask):
     def station(self, parts: int, world: ArmWorld) -> Station:
         """Return the station with two boxes and a hopper, into which the parts fall when the simulation begins."""
         spec = scene(world, wand=False)
-        solve_densely(spec)
-        add_hopper(spec, world.value(SMOOTH), high=DEEP, thick=THICK)
+        add_hopper(spec, world.value(SMOOTH))
         add_boxes(spec)
         if world.fault(EMPTY) is not None:
             parts = 0

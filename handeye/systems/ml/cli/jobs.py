@@ -25,6 +25,15 @@ NumberOfWorlds = Annotated[
 ]
 
 
+def plan_with_parts(job: str, parts: int) -> "MlPlan":
+    """Return the plan of a job with so many parts in its bin. Raises NoSuchName if the bin does not take so many."""
+    from handeye.systems.ml.bin.task import parts_of
+    from handeye.systems.ml.run.jobs import job_plan
+
+    parts_of(plan := job_plan(job, str(parts)))
+    return plan
+
+
 def carry_out(plan: "MlPlan", seed: int, errors: OwnErrorOptions, options: FaultyJobOptions) -> int:
     """Run the plan of a job, let its referee judge the result, and make the video. Returns the exit code."""
     from handeye.systems.ml.run.jobs import job_setup

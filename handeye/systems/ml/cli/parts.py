@@ -14,6 +14,7 @@ from handeye.systems.ml.cli.jobs import (
     NumberOfWorlds,
     carry_out,
     carry_out_trials,
+    plan_with_parts,
 )
 
 Parts = Annotated[WholeNumber, Parameter(help="Number of parts in the bin, from 1 to 12.")]
@@ -78,11 +79,7 @@ def take_from_bin(
     Exit code 0: right; 1: the program has stopped because it could not get a part, or has lost one; 3: it has ended,
     but the referee disagrees; 2: bad input; 130: interrupted.
     """
-    from handeye.systems.ml.bin.task import parts_of
-    from handeye.systems.ml.run.jobs import job_plan
-
-    parts_of(plan := job_plan("bin", str(parts)))
-    return carry_out(plan, seed, errors, options)
+    return carry_out(plan_with_parts("bin", parts), seed, errors, options)
 
 
 def bin_trials(
@@ -101,12 +98,9 @@ def bin_trials(
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.
     """
-    from handeye.systems.ml.bin.task import parts_of
     from handeye.systems.ml.run.job_trials import BIN_TRIALS
-    from handeye.systems.ml.run.jobs import job_plan
 
-    parts_of(plan := job_plan("bin", str(parts)))
     return carry_out_trials(
-        BIN_TRIALS, plan, n, seed, errors, options, title=f"a bin of {counted(parts, 'part')}",
-        again=f"--parts {parts}",
+        BIN_TRIALS, plan_with_parts("bin", parts), n, seed, errors, options,
+        title=f"a bin of {counted(parts, 'part')}", again=f"--parts {parts}",
     )  # fmt: skip

@@ -8,7 +8,7 @@ from handeye.cli.common import WholeNumber
 from handeye.cli.judged_jobs import ANY_FAULTY_RUN, FaultyJobOptions
 from handeye.cli.sweeps import ANY, FirstSeed, SweepOptions
 from handeye.cli.world_options import ANY_OWN_ERRORS, OwnErrorOptions
-from handeye.systems.ml.cli.jobs import JobSeed, NumberOfWorlds, carry_out, carry_out_trials
+from handeye.systems.ml.cli.jobs import JobSeed, NumberOfWorlds, carry_out, carry_out_trials, plan_with_parts
 
 
 def support(
@@ -71,11 +71,7 @@ def typewriter(
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
     """
-    from handeye.systems.ml.bin.task import parts_of
-    from handeye.systems.ml.run.jobs import job_plan
-
-    parts_of(plan := job_plan("typewriter", str(bars)))
-    return carry_out(plan, seed, errors, options)
+    return carry_out(plan_with_parts("typewriter", bars), seed, errors, options)
 
 
 def typewriter_trials(
@@ -94,12 +90,9 @@ def typewriter_trials(
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.
     """
-    from handeye.systems.ml.bin.task import parts_of
     from handeye.systems.ml.run.job_trials import TYPEWRITER_TRIALS
-    from handeye.systems.ml.run.jobs import job_plan
 
-    parts_of(plan := job_plan("typewriter", str(bars)))
     return carry_out_trials(
-        TYPEWRITER_TRIALS, plan, n, seed, errors, options, title="the rail support with its bar",
-        again=f"--bars {bars}",
+        TYPEWRITER_TRIALS, plan_with_parts("typewriter", bars), n, seed, errors, options,
+        title="the rail support with its bar", again=f"--bars {bars}",
     )  # fmt: skip

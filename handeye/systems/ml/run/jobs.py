@@ -22,13 +22,20 @@ SYMBOLIC: Final = ".sym"  # file extension of symbolic programs, which are assem
 FEW: Final = {"bin": "3"}  # variants of jobs that have little work, for trials of faults
 USUAL: Final = {"follow": "square", "bin": "8", "typewriter": "4"}  # variants of jobs if none is named
 
+COUNTED: Final = {"bin": "5 LOAD 33 {}\n"}
+"""The statement that the operator of a job stores before the program runs, because only the operator has counted the
+parts. `{}` is the variant of the job.
+"""
+
 
 def job_plan(job: str, variant: str = "") -> MlPlan:
     """Return the plan of a job's own program."""
     name, *others = PROGRAMS[job].split()
     source = decks([plans() / each for each in (name, *others)])
     text = assembled(source)[0] if name.endswith(SYMBOLIC) else source.text
-    return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant or USUAL.get(job, ""))
+    variant = variant or USUAL.get(job, "")
+    text += COUNTED.get(job, "").format(variant)
+    return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant)
 
 
 def program_plan(task: str, name: str, text: str) -> MlPlan:

@@ -18,7 +18,7 @@ from handeye.systems.ml.bench.reporting import Listener, calls_of, counted
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld
 from handeye.systems.ml.bin.faults import EMPTY
-from handeye.systems.ml.bin.hopper import BOX, RIM, add_bin_box, add_hopper
+from handeye.systems.ml.bin.hopper import BOX, HIGH, RIM, add_bin_box, add_hopper
 from handeye.systems.ml.bin.task import PARTS, POURED, SMOOTH, Poured, parts_of, poured, settled
 from handeye.systems.ml.orient.task import ATTITUDE, STOP_PLACE, add_stop
 from handeye.systems.ml.run.hardware import Hardware, Tell
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from handeye.systems.ml.run.plan import MlPlan
     from handeye.systems.ml.support.equipment import ForceGauge
 
-HOPPER: Final = (2500, -8300)  # x and y of the slides
+HOPPER: Final = (2500, -8540)  # x and y of the slides
 BAD: Final = (-9500, -8500)
 STOP: Final = (-8700, 600)
 BAR: Final = (0, -3350)  # the middle of the bar in the frame; it lies along x
@@ -97,7 +97,7 @@ class Typewriter(ArmTask):
         hopper = _metres(HOPPER)
         if world.fault(EMPTY) is not None:
             bars = 0
-        add_hopper(spec, world.value(SMOOTH), hopper)
+        add_hopper(spec, world.value(SMOOTH), hopper, HIGH)
         add_bin_box(spec, "bad", _metres(BAD))
         add_stop(spec, world, STOP)
         return screwing(spec, world, others=(poured(spec, world, bars, hopper),))
