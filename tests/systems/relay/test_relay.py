@@ -52,7 +52,7 @@ def test_a_leg_must_not_need_what_no_earlier_leg_finds(tmp_path: Path) -> None:
     assert [found.told for found in misfits(late)] == [
         "carry it on: carry.al, line 3: no earlier leg finds the difference C1"
     ]
-    with pytest.raises(BadFile, match="found by no earlier leg"):
+    with pytest.raises(BadFile, match="no earlier leg finds"):
         runner_of(late)
 
 
