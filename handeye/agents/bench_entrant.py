@@ -40,9 +40,9 @@ class Effort:
 def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effort:
     """Let an entrant solve a task in a new folder, where it leaves its solution.
 
-    After each round but the last, the solution is judged in the public worlds of the task; the entrant finds the
-    feedback in FEEDBACK. It stops early if all public worlds are accepted. Raises InvalidInput if the folder cannot
-    be written, or if the command cannot be started.
+    After each round except the last, the solution is judged in the public worlds of the task; the entrant finds the
+    feedback in FEEDBACK. If the solution is accepted in all public worlds, the rounds end early. Raises InvalidInput
+    if the folder cannot be written, or if the command cannot be started.
     """
     _laid_out(task, folder)
     if entrant.command in BUILT_IN:
@@ -107,7 +107,7 @@ def _laid_out(task: BenchTask, folder: Path) -> None:
 
 
 def _run(entrant: Entrant, folder: Path) -> None:
-    """Run the command of an entrant once, in its folder. A command that fails leaves what it has left."""
+    """Run the command of an entrant once, in its folder. If the command fails, the files that it has written remain."""
     try:
         words = shlex.split(entrant.command)
         subprocess.run(  # noqa: S603 - the command that the user gave

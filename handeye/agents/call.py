@@ -7,11 +7,11 @@ from typing import Final
 
 EVERY: Final = 60  # polls between two reports; a servo period polls once, and there are 60 in a second
 Report = Callable[[float, float | None, str], None]
-"""Takes how far a call is, the whole if it is known, and a text."""
+"""Takes the progress of a call, the total if it is known, and a text."""
 
 
 def _unheard(done: float, whole: float | None, text: str) -> None:
-    """Drop a report."""
+    """Discard a report."""
 
 
 @dataclass(eq=False, slots=True)

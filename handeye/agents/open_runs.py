@@ -26,7 +26,7 @@ class OpenRuns:
     """The runs in the folder of an agent. Those in use are open: their cells are in memory."""
 
     folder: AgentFolder
-    _open: dict[str, Run] = field(default_factory=dict)  # the run that was used last comes last
+    _open: dict[str, Run] = field(default_factory=dict)  # in the order of their last use
     _last: str | None = None
     _call: Call = field(default_factory=Call)
 

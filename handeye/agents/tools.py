@@ -1,4 +1,4 @@
-"""The table of the tools: what each is called, says of itself, takes and changes."""
+"""The table of the tools: the name, description, arguments and effects of each."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class Tool:
     takes: type[Request]
     act: Callable[[Toolbox, Any, Call], Reply]
     changes: bool = False  # begins, advances or changes a run
-    drops: bool = False  # a part of a run is lost
+    drops: bool = False  # loses a part of a run
     queues: bool = False  # uses a cell, so that one such call is executed at a time
 
 
@@ -52,8 +52,8 @@ TOOLS: Final = (
     Tool(
         name="run", takes=requests.Advance, act=Toolbox.run, changes=True, queues=True,
         about="Begin a run of a script in a simulated world, or continue a run: to a place, for some steps, or to the "
-        "end. Returns what each step did, and where the run pauses. Minutes for a whole pump; can be cancelled, and "
-        "then pauses.",
+        "end. Returns what each step did, and where the run pauses. A whole pump takes minutes. If the call is "
+        "cancelled, the run pauses.",
     ),
     Tool(
         name="state", takes=requests.StateOf, act=Toolbox.state, queues=True,

@@ -33,8 +33,8 @@ def mcp(
 ) -> int:
     """Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
 
-    Needs the extra `mcp`. The command ends when the agent closes its end; `handeye resume` resumes a run that was in
-    progress.
+    Needs the extra `mcp`. The command ends when the agent closes the connection; `handeye resume` resumes a run that
+    was in progress.
     """
     try:
         from handeye.agents.server import serve
@@ -75,17 +75,20 @@ def bench_agents(
     feedback: Annotated[
         Literal["verdict", "errors", "trace"],
         Parameter(
-            help="What the entrant learns between two rounds about its program in the public worlds: the verdict; also "
-            "the errors; or also what each step did."
+            help="What the entrant learns between two rounds about its program in the public worlds. verdict: the "
+            "verdict in each world; errors: also the errors; trace: also what each step did."
         ),
     ] = "verdict",
     rounds: Annotated[
-        WholeNumber, Parameter(help="How often the command may be run for a task, each time with feedback.")
+        WholeNumber,
+        Parameter(
+            help="How often the command may be run for a task. It gets feedback before each run except the first."
+        ),
     ] = 1,
     hidden: Annotated[
         Path | None,
         Parameter(
-            help="File of hidden seeds. It must fit the SHA-256 in the task. Default: the public worlds."
+            help="File of hidden seeds. It must match the SHA-256 in the task. Default: the public worlds."
         ),
     ] = None,
     out: Annotated[
@@ -99,7 +102,7 @@ def bench_agents(
     json: Json = False,
     overwrite: Overwrite = False,
 ) -> int:
-    """Score programs that agents write: in worlds that they have not seen, by the referee; silent failures count twice.
+    """Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
 
     The score of a task is (accepted - 2 silent) / worlds. Exit code 0: no silent failure; 3: a silent failure; 2: bad
     input; 130: interrupted.

@@ -60,13 +60,13 @@ trials compare = batches:compare_trials: Compare batches of trials with a first 
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
-trials mutants = mutants:mutant_trials: Take away or weaken each check of the program in turn: does the proof refuse the mutant, or does another check catch what the missing one was for?
+trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch what the missing one was for?
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
 env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, steps of the work reached, peak force and time.
 bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
-bench agents = agents:bench_agents: Score programs that agents write: in worlds that they have not seen, by the referee; silent failures count twice.
+bench agents = agents:bench_agents: Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
 bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
 """  # noqa: E501 - a command a line
 """Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first

@@ -31,7 +31,7 @@ def mutant_trials(
     most: Annotated[
         WholeNumber,
         Parameter(
-            help="Number of faults, at most, with which a mutant is run; 0: prove only, and run nothing."
+            help="Greatest number of faults with which a mutant is run; 0: prove only, and run nothing."
         ),
     ] = 5,
     checkpoints: Annotated[
@@ -45,8 +45,8 @@ def mutant_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Take away or weaken each check of the program in turn: does the proof refuse the mutant, or does another check
-    catch what the missing one was for?
+    """Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does
+    another check catch what the missing one was for?
 
     A mutant that `handeye check --prove` does not refuse runs from the beginning of its stage, once with each fault for
     which the missing check exists. It is `caught` if it stops, `silent` if it reports success with wrong work, and

@@ -60,7 +60,7 @@ def check(
         bool,
         Parameter(
             group=PROOF,
-            help="Also prove for each finding of the task's referee that every way to the end of the program would "
+            help="Also prove for each finding of the task's referee that every path to the end of the program would "
             "notice if the finding did not hold. FILE may also be a plan.",
         ),
     ] = False,

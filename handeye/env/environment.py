@@ -1,4 +1,4 @@
-"""The environment: one job in many worlds, one servo period a step."""
+"""The environment: one job in many worlds; each step is one servo period."""
 
 from collections.abc import Mapping
 from typing import Any, Final, cast
@@ -253,7 +253,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         values = np.asarray(action, dtype=float)
         if values.shape != (size,) or not np.isfinite(values).all():
             raise BadArgument(
-                f"an action of {self.job.id} has {counted(size, 'finite number')}, not {action!r}"
+                f"an action of {self.job.id} must have {counted(size, 'finite number')}, not {action!r}"
             )
         return values
 

@@ -1,4 +1,4 @@
-"""Policies: what they know, how an episode asks them, and those that are included."""
+"""Policies: what they know, how an episode calls them, and those that are included."""
 
 import os
 import sys
@@ -133,7 +133,7 @@ def policy_maker(name: str) -> PolicyMaker:
 
 
 def usual_action(maker: PolicyMaker) -> ActionKind:
-    """Return the kind of action that a policy uses unless another is asked for."""
+    """Return the kind of action that a policy uses by default."""
     first: ActionKind = getattr(maker, "actions", ("hand",))[0]
     return first
 

@@ -10,8 +10,8 @@ from handeye.core.source import Source, Span, line_name
 from handeye.program.program import Program, Step
 from handeye.proof.proof import ClaimProof, FindingProof, Proof, WayStep
 
-MOST_RUNS: Final = 10  # runs of lines of a way that a message shows
-GAP: Final = 4  # lines: a run goes on over comments and modifiers
+MOST_RUNS: Final = 10  # runs of lines of a path that a message shows
+GAP: Final = 4  # lines: a run of lines may contain comments and modifiers
 
 
 def argument(proof: Proof, program: Program) -> Iterator[str]:
@@ -33,22 +33,22 @@ def argument(proof: Proof, program: Program) -> Iterator[str]:
 
 
 _RESTS: Final = (
-    "The argument assumes that the senses work and that the limits are right. A call to the operator counts as a stop, "
-    "and so does an error that no step tests; what the operator answers is not followed. A shift by RESTORE or by a "
-    "search is taken to lead to the place that it corrects."
+    "The argument assumes that the senses work, that the limits are right, and that a shift by RESTORE or by a search "
+    "leads where it should. A call to the operator counts as a stop, and so does an error that no step tests. The "
+    "proof does not follow the answers of the operator."
 )
 
 
 def _summary(proof: Proof) -> str:
     verdicts = [proof.verdict(finding) for finding in proof.findings]
     if not proof.ends:
-        return f"{proof.program}: no way leads to the end of the program"
-    parts = [f"every way to the end shows {counted(verdicts.count('shown'), 'finding')} of the referee"]
+        return f"{proof.program}: no path leads to the end of the program"
+    parts = [f"every path to the end shows {counted(verdicts.count('shown'), 'finding')} of the referee"]
     if count := verdicts.count("avoided"):
-        parts.append(f"a way avoids {counted(count, 'finding')}")
+        parts.append(f"{counted(count, 'finding')} can remain unnoticed")
     if count := verdicts.count("undecided"):
         parts.append(f"{counted(count, 'finding')} cannot be decided")
-    parts.append(f"{counted(verdicts.count(None), 'finding')} no program is asked to show")
+    parts.append(f"no program is asked to show {counted(verdicts.count(None), 'finding')}")
     return f"{proof.program}: {'; '.join(parts)}"
 
 
@@ -58,13 +58,13 @@ def _paragraph(proof: Proof, finding: FindingProof, program: Program) -> str:
     for says, some in groupby(claims, key=lambda claim: claim.says):
         group = list(some)
         lines = list(dict.fromkeys(_passed(claim, program) for claim in group))
-        passed = f"Every way passes {_listed(lines)}." if any(lines) else "No step undoes this."
+        passed = f"Every path passes {_listed(lines)}." if any(lines) else "No step undoes this."
         said.append(f"{said_of(says, group)}. {passed}")
     return f"{finding.finding}: {' '.join([said[0], *map(_capital, said[1:])])} {finding.rests}"
 
 
 def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
-    """Write what some claims say that differ only in their places."""
+    """Write some claims that differ only in their places as one clause."""
     places = [claim.where for claim in claims if claim.where]
     first = {place.split(" ")[0] for place in places}
     if len(places) > 1 and len(first) == 1 and all(place.count(" ") == 1 for place in places):
@@ -73,7 +73,7 @@ def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
 
 
 def _passed(claim: ClaimProof, program: Program) -> str:
-    """Write which lines every way passes, phase by phase."""
+    """Write which lines every path passes, phase by phase."""
     said = []
     for step, steps in zip(claim.passed, claim.phases, strict=True):
         lines = list(dict.fromkeys(_line(program, number) for number in (steps if step is None else [step])))
@@ -101,11 +101,11 @@ def _capital(text: str) -> str:
 
 
 def unproved(proof: Proof, program: Program) -> list[Diagnostic]:
-    """Return a diagnostic for each finding that is not shown on every way to the end."""
+    """Return a diagnostic for each finding that is not shown on every path to the end."""
     source = program.whole
     if not proof.ends:
         span = _span(source, program.steps[-1]) if program.steps else Span(start=0, end=0)
-        return [problem("finding-undecided", "no way leads to the end of the program", span)]
+        return [problem("finding-undecided", "no path leads to the end of the program", span)]
     found = []
     for finding in proof.findings:
         verdict = proof.verdict(finding)
@@ -125,7 +125,7 @@ def _avoided(
     text = (
         "the program can end here"
         if first.leaves is None
-        else "behind this line, the way below shows it no more"
+        else "after this line, the path below no longer shows it"
     )
     since = max((index for index in (first.leaves, first.undone) if index is not None), default=0)
     marks = []
@@ -134,14 +134,19 @@ def _avoided(
             Label(span=_span(source, steps[first.undone]), text="after this, it must be shown again")
         )
     nowhere = not all(first.phases)
-    says = "no step of the program shows" if nowhere else "a way to the end does not show"
+    says = "no step of the program shows" if nowhere else "a path to the end does not show"
     message = (
         f"the program can end without noticing that `{finding.finding}` does not hold: {says} that "
         f"{said_of(first.says, [claim for claim in claims if claim.says == first.says])}"
     )
     way = "the whole program" if nowhere else _way_text(first.way[since:], program)
     return problem(
-        "finding-unnoticed", message, _span(source, steps[at]), *marks, text=text, notes=(f"the way: {way}",)
+        "finding-unnoticed",
+        message,
+        _span(source, steps[at]),
+        *marks,
+        text=text,
+        notes=(f"the path: {way}",),
     )
 
 
@@ -158,7 +163,7 @@ def _undecided(
         return problem("finding-undecided", message, span, notes=(f"not decided: {says}",))
     unknown = [program.steps[number] for number in first.unknown]
     message = (
-        f"whether every way shows `{finding.finding}` cannot be decided: the program does not fix a place"
+        f"it cannot be decided whether every path shows `{finding.finding}`: the program does not fix a place"
     )
     return problem(
         "finding-undecided", message, _span(source, unknown[0]), text="where is the hand here?",

@@ -1,4 +1,4 @@
-"""Draws a proof as a flow: the steps that show something, and the ways between them."""
+"""Draws a proof as a flow: the steps that show something, and the paths between them."""
 
 from collections.abc import Container
 from dataclasses import replace
@@ -14,8 +14,9 @@ WIDTH: Final = 43  # characters of a note
 
 
 def proof_flow(proof: Proof, plan: Plan) -> Flow:
-    """Return the flow between the steps on which a proof rests. Its edges stand for all ways from one of these steps to
-    the next. The notes of a step name the findings that rest on it. A step where a way leaves a claim is drawn, too.
+    """Return the flow between the steps on which a proof rests. Its edges stand for all paths from one of these steps
+    to the next. The notes of a step name the findings that rest on it. A step at which a path begins to avoid a claim
+    is drawn, too.
     """
     notes, graph = _notes(proof), Graph(plan.program.steps)
     whole = flow(plan)
@@ -25,7 +26,7 @@ def proof_flow(proof: Proof, plan: Plan) -> Flow:
 
 
 def _notes(proof: Proof) -> dict[int, list[str]]:
-    """Return, for each step to draw, the findings that rest on it, or that a way leaves there."""
+    """Return, for each step to draw, the findings that rest on it, or that a path avoids from there on."""
     found: dict[int, dict[str, None]] = {}
     for finding in proof.findings:
         for number in finding.claims:

@@ -1,7 +1,7 @@
 """Kinds of steps that would notice a wrong state of the work, by what they sense: the place, the sense and the limits.
 
-A kind of evidence describes a step, and never names it. So it holds for every program of a task, whatever its labels
-and macros are called.
+A kind of evidence describes a step, and never names it. So it applies to every program of a task, whatever the names
+of labels and macros.
 """
 
 import math
@@ -91,7 +91,7 @@ def every(answers: list[Answer]) -> Answer:
 
 
 def among(answers: list[Answer]) -> Answer:
-    """Combine the answers for situations of which one, but not known which, is the true one."""
+    """Combine the answers for several possible situations, of which one is the true one."""
     if answers and all(answer == "yes" for answer in answers):
         return "yes"
     return "no" if all(answer == "no" for answer in answers) else "maybe"

@@ -1,7 +1,7 @@
-"""The ways through a program, as a graph in which every action has one edge for each outcome.
+"""The paths through a program, as a graph in which every action has one edge for each outcome.
 
 An action either succeeds or raises one of its errors. A raised error leads to the tests behind the action, as the
-executor leads it there: if one of them tests for this error, the way continues at that test's target. Otherwise, the
+executor leads it there: if one of them tests for this error, the path continues at that test's target. Otherwise, the
 arm stops. A call to the operator is a stop, too.
 """
 
@@ -17,7 +17,7 @@ from handeye.program.program import Step
 END: Final = -1  # the node behind the last step
 SUCCESS: Final = 0  # the outcome of an action that raises no error
 ALWAYS: Final = frozenset({errors.WATCHDOG, errors.GAP_WRONG})
-"""Errors that any action may raise, because the servo or the hand raises them meanwhile."""
+"""Errors that any action may raise, because the servo or the hand can raise them during the action."""
 
 
 class Edge(NamedTuple):
@@ -85,7 +85,7 @@ class OutcomeGraph:
         return self.steps[self.nodes[node][0]]
 
     def live_counters(self) -> list[frozenset[str]]:
-        """Return, for each node, the counters whose values may still decide where the way leads."""
+        """Return, for each node, the counters whose values may still decide where the path leads."""
         live: list[frozenset[str]] = [frozenset()] * len(self.nodes)
         waiting = list(range(len(self.nodes)))
         while waiting:

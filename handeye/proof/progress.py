@@ -1,4 +1,4 @@
-"""How far a claim is shown at each node: the number of its phases that every way there has shown."""
+"""How far a claim is shown at each node: the number of its phases that every path there has shown."""
 
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
@@ -84,8 +84,8 @@ class Effects:
 
 
 def least_shown(graph: OutcomeGraph, effects: list[Effects]) -> list[int]:
-    """Return, for each claim, the least number of phases that a way to the end has shown. Every branch is taken to be
-    free: counters are not followed. UNREACHED stands for a program that no way leads through.
+    """Return, for each claim, the least number of phases that a path to the end has shown. Every branch is taken to be
+    possible: counters are not followed. UNREACHED stands for a program that no path leads through.
     """
     by_edge: dict[EdgeKey, list[tuple[int, Table]]] = {}
     for number, one in enumerate(effects):

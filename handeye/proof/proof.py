@@ -1,4 +1,4 @@
-"""Proves the obligations of a task for a program, or finds for each the way that avoids it."""
+"""Proves the obligations of a task for a program, or finds for each the path that avoids it."""
 
 from collections.abc import Iterable, Sequence
 from typing import Literal
@@ -16,7 +16,7 @@ Verdict = Literal["shown", "avoided", "undecided"]
 
 
 class WayStep(Record, frozen=True, kw_only=True):
-    """A step on a way: its number, and the outcome of its action or test."""
+    """A step on a path: its number, and the outcome of its action or test."""
 
     step: int
     raised: int | None = None  # the error that its action raised
@@ -31,18 +31,18 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     verdict: Verdict
     phases: tuple[tuple[int, ...], ...] = ()  # for each phase, the steps that show it
     passed: tuple[int | None, ...] = ()
-    """For each phase, the last step that shows it and that every way to the end passes, before the steps of the later
-    phases. It is None if different ways show the phase at different steps. Empty unless the claim is shown.
+    """For each phase, the last step that shows it and that every path to the end passes, before the steps of the later
+    phases. It is None if different paths show the phase at different steps. Empty unless the claim is shown.
     """
-    way: tuple[WayStep, ...] = ()  # a shortest way to the end that avoids the claim
+    way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None
-    """Index, in the way, of the last step from which some other way leads to a step that shows the claim. It is None
-    if the way passes no such step.
+    """Index, in the path, of the last step from which some other path leads to a step that shows the claim. It is None
+    if the path passes no such step.
     """
     undone: int | None = None
-    """Index, in the way, of the last step after which the claim must be shown again; None if there is none."""
+    """Index, in the path, of the last step after which the claim must be shown again; None if there is none."""
     unknown: tuple[int, ...] = ()  # steps whose place the program does not fix
-    too_many: bool = False  # True if the search for a way was given up
+    too_many: bool = False  # True if the search for a path was given up because it became too large
 
 
 class FindingProof(Record, frozen=True, kw_only=True):
@@ -54,12 +54,12 @@ class FindingProof(Record, frozen=True, kw_only=True):
 
 
 class Proof(Record, frozen=True, kw_only=True):
-    """What a program's way to its end rests on."""
+    """The checks on which the end of a program rests."""
 
     program: str
     task: str
     steps: int
-    ends: bool  # False if no way leads to the end
+    ends: bool  # False if no path leads to the end
     claims: tuple[ClaimProof, ...]
     findings: tuple[FindingProof, ...]
 
@@ -71,7 +71,7 @@ class Proof(Record, frozen=True, kw_only=True):
 
     @property
     def holds(self) -> bool:
-        """True if every claim is shown on every way to the end."""
+        """True if every claim is shown on every path to the end."""
         return self.ends and all(claim.verdict == "shown" for claim in self.claims)
 
 
@@ -177,7 +177,7 @@ class _Prover:
         )
 
     def _avoidable(self, step: int) -> bool:
-        """Return True if some way to the end does not pass a step."""
+        """Return True if some path to the end does not pass a step."""
         if step not in self.avoidable:
             self.avoidable[step] = self._passed_by(step)
         return self.avoidable[step]
@@ -205,8 +205,8 @@ class _Prover:
         return WayStep(step=number, raised=edge.outcome or None, taken=edge.taken if branches else None)
 
     def _leaves(self, form: Effects, way: list[Leg]) -> int | None:
-        """Return the number of the last leg behind whose node another way shows the last phase of the claim, although
-        this way no longer can.
+        """Return the number of the last leg from whose node another path can still show the last phase of the claim,
+        although this path does not.
         """
         last = {key for key, phase in form.showing.items() if phase == form.whole - 1}
         able = {node for node, _ in last}
@@ -220,7 +220,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Return the index of the last leg of a way that takes back what was shown of a claim."""
+    """Return the index of the last leg of a path that takes back what was shown of a claim."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

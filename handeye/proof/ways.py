@@ -1,4 +1,4 @@
-"""Searches for a way to the end that does not show a claim. Counters are followed exactly, unless the program has an
+"""Searches for a path to the end that does not show a claim. Counters are followed exactly, unless the program has an
 UNDO, whose reversals restore counters.
 """
 
@@ -21,7 +21,7 @@ class _State(NamedTuple):
 
 
 class Leg(NamedTuple):
-    """One node of a way, and the number of the edge by which the way leaves it."""
+    """One node of a path, and the number of the edge by which the path leaves it."""
 
     node: int
     edge: int
@@ -32,7 +32,7 @@ class TooMany(Exception):
 
 
 def way_without(graph: OutcomeGraph, effects: Effects, live: list[frozenset[str]]) -> list[Leg] | None:
-    """Return a shortest way to the end that does not show all phases of a claim; None if there is none.
+    """Return a shortest path to the end that does not show all phases of a claim; None if there is none.
 
     Raises:
         TooMany: the search has become too large.

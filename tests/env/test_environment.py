@@ -252,7 +252,7 @@ def test_wrong_arguments_are_refused_in_a_sentence(wrong: dict[str, object], tol
 @pytest.mark.parametrize("action", [np.zeros(3), np.full(13, np.nan)])
 def test_actions_that_are_none_are_refused(pin: AssemblyEnv, action: Array) -> None:
     pin.reset(seed=0)
-    with pytest.raises(InvalidInput, match="an action of handeye/Pin-v0 has 13 finite numbers"):
+    with pytest.raises(InvalidInput, match="an action of handeye/Pin-v0 must have 13 finite numbers"):
         pin.step(action)
 
 

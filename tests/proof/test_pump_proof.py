@@ -55,7 +55,7 @@ def test_the_pumps_program_shows_every_finding_that_is_asked_of_it(careful: tupl
     assert unproved(proof, found) == []
     text = "\n".join(argument(proof, found))
     assert "\nrotor_place: the fingers feel the end of the crank pin, 2.86 in over the face" in text
-    assert "Every way passes line" in text
+    assert "Every path passes line" in text
 
 
 def test_the_program_of_1973_lacks_what_it_never_checks() -> None:
@@ -104,13 +104,13 @@ def test_a_sound_variant_is_accepted(variant: Planted) -> None:
     assert verdict(variant, SIX).holds
 
 
-def test_check_prove_refuses_a_program_with_the_way_and_exit_code_2(command: Command) -> None:
+def test_check_prove_refuses_a_program_with_the_path_and_exit_code_2(command: Command) -> None:
     code, out, err = command("check", "--prove", "water_pump_1973")
     assert code == 2
     assert "error[finding-unnoticed]: the program can end without noticing that `pins`" in err
-    assert "the way: lines" in err
+    assert "the path: lines" in err
     assert out.startswith(
-        "water_pump_1973: every way to the end shows 11 findings of the referee; a way avoids 19"
+        "water_pump_1973: every path to the end shows 11 findings of the referee; 19 findings can remain unnoticed"
     )
 
 

@@ -1,4 +1,4 @@
-"""Which ways lead to the end of a program, and which of them show a claim."""
+"""Which paths lead to the end of a program, and which of them show a claim."""
 
 import pytest
 

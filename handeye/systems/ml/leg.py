@@ -6,9 +6,9 @@ where the tool is at x = 20, y = 42 and z = 5 in; at roll 0, the finger line is 
 on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 the switches of the fingers. A cycle takes a servo
 period of the arm, 1/60 s, instead of 10 ms.
 
-A height of the record with the name NAME is in the variable that the program assigns with a remark `* NAME IS &n`, as a
-place of motor 2; a leg hands over the variables that it assigns with `* &n IS NAME`. A program has ended well only if
-it printed 0 last, because ML has no word for an end that has failed.
+A remark `* NAME IS &n` puts the height NAME of the record into the variable n, as a place of motor 2. A remark
+`* &n IS NAME` hands the variable n over as the height NAME. A program has ended well only if
+it printed 0 last, because ML has no word with which a program can report a failure.
 """
 
 import re
@@ -369,7 +369,7 @@ class MlLegs(LegSystem):
 
     def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
         motors = {motor.number for motor in SPEC.motors}
-        found = [Lack(1, "a program of ML does one leg only")] if earlier else []
+        found = [Lack(1, "a program in ML can do only one leg")] if earlier else []
         for number, line in plan.lines.items():
             statement = line.statement
             if statement.code in ("MOTOR", "DMOTOR") and str(statement).split()[1].isdigit():

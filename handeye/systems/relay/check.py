@@ -58,12 +58,14 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
 
         for use in leg.system.reads(leg.plan, leg.stage):
             if (use.name, use.kind) not in known:
-                yield found(use.line, f"the {use.kind} {use.name} is found by no earlier leg")
+                yield found(use.line, f"no earlier leg finds the {use.kind} {use.name}")
         for lack in leg.system.lacks(leg.plan, leg.stage, earlier.get(leg.file, [])):
             yield found(lack.line, lack.sentence)
         if leg.system.takes_pictures(leg.plan) and not eye:
             yield found(
-                1, "the program takes pictures, but the camera is calibrated only if the first leg's does"
+                1,
+                "the program takes pictures, but the camera is calibrated only if the program of the first leg takes "
+                "pictures, too",
             )
         found_here = leg.system.writes(leg.plan, leg.stage)
         known |= {(use.name, use.kind) for use in found_here}

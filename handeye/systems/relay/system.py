@@ -8,6 +8,7 @@ import msgspec
 
 from handeye.arm.model import digest as arm_digest
 from handeye.core.errors import BadArgument
+from handeye.core.plain_text import counted
 from handeye.execution.state import ReversalOrder
 from handeye.planfile.store import written_digest
 from handeye.program.events import Choice
@@ -80,7 +81,9 @@ class RelaySystem(System):
         work.faults(world).check(world.faults)
         stages = len(setup.plan.legs)
         if any((fault.stage or 0) > stages for fault in world.faults):
-            raise BadArgument(f"a fault begins at a later stage than the relay has legs ({stages})")
+            raise BadArgument(
+                f"a fault begins after the last stage of the relay, which has {counted(stages, 'stage')}"
+            )
 
     def executed(self, plan: RelayPlan, state: RelayCore) -> Sequence[ExecutedStep]:
         return executed(plan, state)

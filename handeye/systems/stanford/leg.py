@@ -184,7 +184,7 @@ class PlanLegs(LegSystem):
             use.name for step in (*before, *steps) for use in step.operation.writes if use.kind == "picture"
         }
         found = [
-            Lack(step.line, f"the picture {use.name} is taken by no earlier leg of this program")
+            Lack(step.line, f"no earlier leg of this program takes the picture {use.name}")
             for step in steps
             for use in step.operation.reads
             if use.kind == "picture" and use.name not in taken

@@ -1,9 +1,8 @@
 """Lets TRIG do legs of a relay. Its program moves the tool of the Stanford arm in place of the Purbrick arm.
 
 TRIG's platter is a part of the table: its centre is at 20 and 36.5 in. X, Y and Z are parallel to the axes of the
-table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its finger line along Y. The program is taught
-with the script of the leg at an imaginary arm, as the taught file of a script of the arm language is written from the
-drawing.
+table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its finger line along Y. The script of the leg
+teaches the program at an ideal arm, just as the taught file of the arm language is written from the drawing.
 
 TRIG has no words for the end of a program that has failed. A leg therefore ends well only at the step FINISH.
 """
@@ -102,8 +101,8 @@ class PlatterAxes(Axes):
         self._tool.put(self.told)
 
     def read(self) -> AxesReading:
-        """Return the sensed axes. The angles are those of the goal, turned as the hand is turned against it: near
-        straight down, the angles of the hand itself say nothing.
+        """Return the sensed axes. The angles are those of the goal, corrected by the rotation from the goal to the
+        hand. Near straight down, the angles of the hand itself are ambiguous.
         """
         read = self._tool.read()
         R = hand(*read.q[:6])[:3, :3] @ hand(*self.told[:6])[:3, :3].T  # close to the identity
@@ -322,7 +321,7 @@ class TaughtLegs(LegSystem):
         return range(len(listing(plan).steps))
 
     def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        found = [Lack(1, "a program of TRIG does one leg only")] if earlier else []
+        found = [Lack(1, "a program in TRIG can do only one leg")] if earlier else []
         if FINISH not in {step.label for step in listing(plan).steps}:
             found.append(Lack(1, f"no step is called {FINISH}, so the leg could never end well"))
         return found

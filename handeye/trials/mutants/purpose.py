@@ -11,7 +11,7 @@ from handeye.program.program import Program
 from handeye.proof.outcomes import END, SUCCESS, OutcomeGraph
 from handeye.trials.mutants.rules import Mutant
 
-NEAR: Final = 40  # nodes behind a failed check among which its call is searched
+NEAR: Final = 40  # nodes behind a failed check in which its call is sought
 CALLS: Final = 3  # calls, at most
 
 
@@ -19,8 +19,8 @@ def faults_for(
     mutant: Mutant, program: Program, graph: OutcomeGraph, catalogue: Catalogue, most: int
 ) -> list[Fault]:
     """Return at most `most` faults for which the check that a mutant lacks exists in the program. Faults that can begin
-    at the mutant's stage come first, because their runs are short; among them, those with the fewest right names. Of
-    faults that differ only in a number, the first stands for all.
+    at the mutant's stage come first, because their runs are short; among them, those with the fewest names that count
+    as right. Of faults that differ only in a number, only the first is returned.
     """
     calls, stops = calls_of(mutant.steps, program, graph)
     kinds = [

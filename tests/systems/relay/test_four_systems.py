@@ -101,12 +101,12 @@ def test_what_a_leg_cannot_do_is_found_before_the_run(tmp_path: Path) -> None:
         "no step is called FINISH, so the leg could never end well"
     ]
     assert found(mal=TEXTS["carry.mal"].replace("STANDS", "STOOD")) == [
-        "the place STOOD is found by no earlier leg", "the place STOOD is found by no earlier leg",
+        "no earlier leg finds the place STOOD", "no earlier leg finds the place STOOD",
     ]  # fmt: skip
     assert found(ml=TEXTS["lift.ml"].replace("DMOTOR 2", "DMOTOR 1")) == [
         "DMOTOR 1 -400 needs a motor that this arm does not have"
     ]
-    with pytest.raises(BadFile, match="STOOD is found by no earlier leg"):
+    with pytest.raises(BadFile, match="no earlier leg finds the place STOOD"):
         check_plan(mixed_relay(tmp_path, mal=TEXTS["carry.mal"].replace("STANDS", "STOOD")))
 
 

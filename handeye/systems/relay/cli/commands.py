@@ -30,7 +30,8 @@ def run(
     """Run the legs of a relay. `handeye relay FILE` does the same.
 
     Between two legs, the brakes are set, and a small record is handed over: where the hand is, what it holds, and the
-    places that the programs have found. A leg that does not find hand and part as the record says refuses to begin.
+    places that the programs have found. If the hand or the part is not as the record says, the next leg refuses to
+    begin.
 
     Exit code 0: right; 1: a program stopped before its end, or a leg refused to begin; 3: all programs ended, but the
     referee disagrees; 2: bad input; 130: interrupted.

@@ -289,7 +289,7 @@ class MalLegs(LegSystem):
             check_program(checked(Source(name=plan.name, text=plan.text))[0])
         except BadFile as error:
             return [Lack(1, str(error))]
-        return [Lack(1, "a program of MAL does one leg only")] if earlier else []
+        return [Lack(1, "a program in MAL can do only one leg")] if earlier else []
 
     def reads(self, plan: Any, stage: str) -> Sequence[Use]:
         """Return the values in variables that the program never sets."""

@@ -122,7 +122,7 @@ class PumpClaims:
         here = Contact(where=places.socket(hole), force=force)
         others = [places.socket(other) for other in range(places.screws) if other != hole]
         return Claim(
-            says="before the screw is driven, its head stands over the thread as high as it should to within .12 in, "
+            says="before the screw is driven, its head stands at the right height over the thread to within .12 in, "
             "compared with its place in the dispenser or with another screw",
             where=f"hole {hole + 1}",
             phases=(

@@ -50,7 +50,9 @@ def _sensed(screws: int) -> Iterator[Obligation]:
             rests="A screw reaches its thread only through its hole in the top.",
         ),
         Obligation(
-            finding="screws", claims=(*driven, *heads), rests="Only a screw resists the driver and stands so high."
+            finding="screws",
+            claims=(*driven, *heads),
+            rests="Only a screw resists the driver and has its head at this height.",
         ),
         Obligation(
             finding="screws_depth", claims=heads,
@@ -67,7 +69,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
             finding="screws_size", claims=sizes,
             rests="Only the length of a screw is felt, to .12 in; the referee allows .014 in.",
         ),
-        Obligation(finding="screws_lean", claims=heads, rests="A screw that leans stands on one side of its head."),
+        Obligation(finding="screws_lean", claims=heads, rests="A leaning screw rests on one side of its head."),
         Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops .17 in high or more."),
         Obligation(
             finding="screws_clamp", claims=tight,
@@ -85,7 +87,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         ),
         Obligation(
             finding="rotor", claims=free,
-            rests="A rotor that needs less than .125 N m may remain unnoticed; the referee allows .1 N m.",
+            rests="A rotor that resists with less than .125 N m may remain unnoticed; the referee allows .1 N m.",
         ),
         Obligation(finding="rotor_place", claims=bearing, rests=_BEARING),
         Obligation(finding="rotor_lean", claims=bearing, rests=_BEARING),
@@ -93,14 +95,14 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="A part that hangs elsewhere than in the hand is felt only where another finding asks for a touch.",
+            rests="A part that hangs outside the hand is felt only where another finding asks for a touch.",
         ),
     )  # fmt: skip
 
 
 _SLIDES: Final = "A push with more than 40 oz slides the pump on the table."
 _LAYERS: Final = (
-    "What lies under a head raises it; less than .02 in may remain unnoticed, and the referee allows .012 in."
+    "An object under a head raises it. Less than .02 in may remain unnoticed; the referee allows .012 in."
 )
 _CLUTCH: Final = "The clamping force to which a torque leads depends on the friction of thread and head."
 _HOLDER: Final = "A pin that leans or stands beside its hole ends lower or higher than one that stands in it."
@@ -111,7 +113,7 @@ _BEARING: Final = (
 )
 _SERVO: Final = "Arm and hand have no command left, because each step waits for the end of its motion."
 _UNSENSED: Final = {
-    "screws_hold": "To try whether a screw holds would be to loosen it.",
+    "screws_hold": "A test of whether a screw holds would loosen the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
     "tray": "It is a property of the simulation: a screw in its thread exists once.",
