@@ -28,6 +28,7 @@ LAYERS: list[set[str]] = [
     {"api"},
     {"trials"},
     {"agents"},
+    {"exercises"},
     {"env"},
     {"cli"},
     {"systems"},

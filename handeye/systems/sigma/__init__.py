@@ -41,5 +41,6 @@ trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line i
         "line": "handeye.systems.sigma.run.job_trials:LINE_TRIALS",
     },
     faults="handeye.systems.sigma.run.fault_trials:fault_trials",
+    exercises=("handeye.systems.sigma.order_exercise:SHARE",),
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )
