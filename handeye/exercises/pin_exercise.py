@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -12,14 +11,12 @@ from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
 from handeye.exercises.exercise import Exercise, Submission, Verdict
 from handeye.exercises.pin_trial import PIN_SWEEP, PinTrial, PinWorlds
-from handeye.judge.finding import Findings
 from handeye.program.taught import read_taught
 from handeye.runs.scripts import planned
-from handeye.tasks.insertion.task import INSERTION
+from handeye.trials.insertion import bench
 from handeye.trials.sweep import Case, carry_out, processes
 
 if TYPE_CHECKING:
-    from handeye.cell.truth import Truth
     from handeye.core.diagnostics import Diagnostic
     from handeye.planning.planner import PlannedScript
 
@@ -32,7 +29,7 @@ class PinExercise(Exercise):
 
     worlds: tuple[PinWorlds, ...]
     most_force: float | None = None  # limit of the force between pin and plate in any physics step, N
-    referee: Callable[[Truth], Findings] | None = None  # None: the referee of the bench
+    on_face: bool = False  # the pin must stand on the face of the plate, and not in the hole
 
     @property
     def positions(self) -> Source:
@@ -81,7 +78,7 @@ class PinExercise(Exercise):
             file=given.source.name,
             worlds=self.worlds,
             most_force=self.most_force,
-            referee=self.referee,
+            on_face=self.on_face,
         )
         cases = [Case(trials=(number,), seed=seed) for number, seed in enumerate(given.seeds or self.seeds)]
         rows = carry_out(
@@ -97,4 +94,4 @@ class PinExercise(Exercise):
         return AL.read(file)
 
     def _planned(self, source: Source) -> PlannedScript:
-        return planned(source, read_taught(self.positions), INSERTION, AL)
+        return planned(source, read_taught(self.positions), bench(), AL)

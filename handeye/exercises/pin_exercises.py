@@ -5,7 +5,6 @@ from typing import Final
 from handeye.core.units import MILLIMETRE
 from handeye.exercises.pin_exercise import PinExercise
 from handeye.exercises.pin_trial import PinWorlds
-from handeye.tasks.insertion.task import on_face
 
 MOST_FORCE: Final = 30.0
 """N. The bench's own search has reached 20 N in 2000 trials, and the search of 1973 about 100 N
@@ -25,7 +24,7 @@ TOUCH: Final = PinExercise(
     start="touch.al",
     worlds=(PinWorlds(seeds=range(20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}),),
     most_force=MOST_FORCE,
-    referee=on_face,
+    on_face=True,
     hints=(
         (
             "reported success",

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.exercises.exercise import Standing, Verdict
-from handeye.judge.finding import Findings, at_most
+from handeye.judge.finding import at_most
 from handeye.report.facts.again import world_words
 from handeye.results.result import Check
-from handeye.tasks.insertion.task import INSERTION
 from handeye.trials.assembly import FinishedRun, run_plan
+from handeye.trials.insertion import TASK, bench
 from handeye.trials.plans.trial import Watch
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 if TYPE_CHECKING:
-    from handeye.cell.truth import Truth
     from handeye.planfile.plan import Plan
 
 SIMULATED_LIMIT_S: Final = 600.0  # the longest search of the bench takes 90 s
@@ -62,7 +61,7 @@ class PinTrial:
     file: str  # of the program
     worlds: tuple[PinWorlds, ...]
     most_force: float | None  # limit of the force between pin and plate in any physics step, N
-    referee: Callable[[Truth], Findings] | None  # None: the referee of the bench
+    on_face: bool  # the pin must stand on the face of the plate, and not in the hole
 
     def __call__(self, case: Case) -> list[PinRow]:
         """Run and judge the plan in the world of a case."""
@@ -73,7 +72,7 @@ class PinTrial:
             camera="ray",
             observers=watch.looking_on,
             halt=watch.over,
-            own_referee=self.referee,
+            own_referee=bench().judge_on_face if self.on_face else None,
         )
         (number,) = case.trials
         if watch.ended != "ended":
@@ -100,7 +99,7 @@ class PinTrial:
     def _force(self, done: FinishedRun) -> Check | None:
         if self.most_force is None:
             return None
-        peak = INSERTION.witnessed(done.runner.arm_cell).peak
+        peak = bench().witnessed(done.runner.arm_cell).peak
         return Check.of(at_most(peak, self.most_force, "N", "greatest force between pin and plate"))
 
     def _told(
@@ -117,7 +116,7 @@ class PinTrial:
 
     def _again(self, seed: int) -> str:
         """Return the command that runs the program in this world, and saves the run for the report."""
-        words = ["run", self.file, "--task", INSERTION.name, *world_words(self._world(seed), INSERTION.name)]
+        words = ["run", self.file, "--task", TASK, *world_words(self._world(seed), TASK)]
         return shlex.join(["handeye", *words, "--out", f"seed{seed}"])
 
     def _world(self, seed: int) -> WorldSpec:

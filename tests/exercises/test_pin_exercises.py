@@ -42,7 +42,9 @@ def test_success_reported_where_no_hole_is_in_reach_is_silent_and_a_call_of_the_
     quick = Source(name="honest.al", text=exercises()["honest"].program.text.replace("TRIES 24", "TRIES 1"))
     found = graded("honest", quick, 10)
     assert found.exit_code == 3
-    assert found.failures[0].again.startswith("handeye run honest.al --task insertion --seed 10 --set plate.x=20mm")
+    assert found.failures[0].again.startswith(
+        "handeye run honest.al --task insertion --seed 10 --set plate.x=20mm"
+    )
     assert graded("honest", solution("honest_gives_up_at_once"), 10).exit_code == 0
 
 
@@ -51,9 +53,13 @@ def test_a_program_may_use_only_the_positions_of_the_exercise() -> None:
     assert touch.positions is not None
     moved = Source(name="mine.toml", text=touch.positions.text.replace("38.0", "38.1"))
     found = graded("touch", touch.program, 0, taught=moved)
-    assert [each.reason for each in found.failures] == ["mine.toml does not have the taught positions of the exercise"]
+    assert [each.reason for each in found.failures] == [
+        "mine.toml does not have the taught positions of the exercise"
+    ]
     own = Source(name="mine.al", text="        TRANS   NEAR [25 38 3.7 -90 90 0]\n" + touch.program.text)
-    assert [each.reason for each in graded("touch", own, 0).failures] == ["the program defines the position NEAR"]
+    assert [each.reason for each in graded("touch", own, 0).failures] == [
+        "the program defines the position NEAR"
+    ]
 
 
 def test_every_exercise_starts_from_a_program_without_errors() -> None:
