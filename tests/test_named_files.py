@@ -20,6 +20,8 @@ NAMED = re.compile(
 EXAMPLES = {"gasket.al", "pins.al", "hole.al", "lib/hole.al", "first.al", "first.toml", "job.al", "job.toml"}
 EXAMPLES |= {
     "seven.al",
+    "touch.al",
+    "touch.toml",
     "seven.toml",
     "pin.al",
     "pin.toml",

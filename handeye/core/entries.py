@@ -84,6 +84,7 @@ class Entry(Record, frozen=True, kw_only=True):
     leg: str = (
         ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can do a leg of a relay
     )
+    exercises: tuple[str, ...] = ()  # `module:NAME` of each `Exercise` for students
     files: tuple[str, ...] = ()  # files that its finished runs add to their folders
 
 

@@ -14,6 +14,7 @@ from handeye.tasks.interface import Task
 if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
+    from handeye.judge.finding import Findings
 
 CLEARANCE: Final = 0.114
 """Difference between the diameters of hole and pin (mm): the value of the peg in the Factory benchmark
@@ -37,6 +38,12 @@ class InsertionTask(Task):
     """A task with one hole. The first stage of each of its programs fetches the pin."""
 
     programs: Mapping[str, str]  # script files among the plans, by the name of their search
+
+    @abstractmethod
+    def judge_on_face(self, truth: Truth) -> Findings:
+        """Judge whether the end of the pin stands on the face of the plate. This is the referee of an exercise
+        (docs/course.md).
+        """
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:

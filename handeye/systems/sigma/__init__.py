@@ -42,5 +42,6 @@ trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line i
     },
     programs="handeye.systems.sigma.run.jobs:program_plan",
     faults="handeye.systems.sigma.run.fault_trials:fault_trials",
+    exercises=("handeye.systems.sigma.order_exercise:SHARE",),
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

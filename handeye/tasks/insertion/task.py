@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import degrees
+import math
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.judge.finding import Findings, all_right, at_most
+from handeye.judge.finding import Findings, all_right, at_least, at_most
 from handeye.tasks.inserting import InsertionTask, InsertionTruth
 from handeye.tasks.interface import Words
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions
@@ -29,6 +29,11 @@ HOLE_PLACE: Final = 2.5
 """Greatest distance (mm) of an inserted pin from the axis of its hole: the radius of its nose. A pin that lies on the
 table beside the plate is lower than a seated one, but not in the hole.
 """
+ON_FACE: Final = 0.1
+"""Greatest distance (mm) of the end of a pin that stands on the face from the face. A pin that stands there
+presses itself .01 to .06 mm into the contact.
+"""
+STANDING: Final = 1.0  # N; a pin that presses less on the plate may only hover close to it. Our choice
 HOLDER_LEAN: Final = 10.0  # deg; a pin tilted by more leans out of the holder
 
 
@@ -71,7 +76,17 @@ class Insertion(InsertionTask):
             "pin_place": at_most(
                 away * 1e3, HOLDER_PLACE, "mm", "distance of the pin from its place in the holder"
             ),
-            "pin_lean": at_most(degrees(leans), HOLDER_LEAN, "deg", "tilt of the pin"),
+            "pin_lean": at_most(math.degrees(leans), HOLDER_LEAN, "deg", "tilt of the pin"),
+        }
+
+    def judge_on_face(self, truth: Truth) -> Findings:
+        from handeye.tasks.insertion.cell import FACE, PUSH, tip
+
+        off = abs(float(tip(truth.data)[2]) - FACE) * 1e3
+        force = math.hypot(*truth.data.sensor(PUSH).data)
+        return {
+            "on_face": at_most(off, ON_FACE, "mm", "distance of the pin's end from the face of the plate"),
+            "standing": at_least(force, STANDING, "N", "force between pin and plate at the end"),
         }
 
     def caught(self, clearance: float, chamfer: float) -> float:

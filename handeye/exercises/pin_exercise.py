@@ -1,0 +1,97 @@
+"""Defines exercises on the insertion bench: a program handles one pin and one plate in worlds with fixed seeds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from handeye.al import AL
+from handeye.core.resources import plans
+from handeye.core.source import Source, read_source
+from handeye.exercises.exercise import Exercise, Submission, Verdict
+from handeye.exercises.pin_trial import PIN_SWEEP, PinTrial, PinWorlds
+from handeye.program.taught import read_taught
+from handeye.runs.scripts import planned
+from handeye.trials.insertion import bench
+from handeye.trials.sweep import Case, carry_out, processes
+
+if TYPE_CHECKING:
+    from handeye.core.diagnostics import Diagnostic
+    from handeye.planning.planner import PlannedScript
+
+_TAUGHT: Final = "insertion.toml"  # the positions of all these exercises
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PinExercise(Exercise):
+    """An exercise on the insertion bench."""
+
+    worlds: tuple[PinWorlds, ...]
+    most_force: float | None = None  # limit of the force between pin and plate in any physics step, N
+    on_face: bool = False  # the pin must stand on the face of the plate, and not in the hole
+
+    @property
+    def positions(self) -> Source:
+        return read_source(plans() / _TAUGHT)
+
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        return tuple(seed for each in self.worlds for seed in each.seeds)
+
+    @property
+    def cases(self) -> str:
+        parts = [
+            f"{len(each.seeds)} {each.told} (seeds {each.seeds[0]} to {each.seeds[-1]})"
+            for each in self.worlds
+        ]
+        return " and ".join(parts)
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        names = ", ".join(read_taught(self.positions).positions)
+        found = [f"The program uses only the taught positions {names}, and does not change them."]
+        if self.most_force is not None:
+            found.append(
+                f"The force between pin and plate is at most {self.most_force:g} N in each physics step."
+            )
+        return tuple(found)
+
+    def diagnostics(self, given: Submission) -> list[Diagnostic]:
+        return self._planned(given.source).diagnostics
+
+    def broken_rules(self, given: Submission) -> list[str]:
+        known = read_taught(self.positions).positions
+        plan = self._planned(given.source).plan
+        assert plan is not None, "the program was checked before"
+        own = [name for name in plan.program.positions if name not in known]
+        found = [f"the program defines the position {name}" for name in own]
+        if given.taught is not None and read_taught(given.taught).positions != known:
+            found.append(f"{given.taught.name} does not have the taught positions of the exercise")
+        return found
+
+    def verdicts(self, given: Submission) -> list[Verdict]:
+        plan = self._planned(given.source).plan
+        assert plan is not None, "the program was checked before"
+        trial = PinTrial(
+            plan=plan,
+            file=given.source.name,
+            worlds=self.worlds,
+            most_force=self.most_force,
+            on_face=self.on_face,
+        )
+        cases = [Case(trials=(number,), seed=seed) for number, seed in enumerate(given.seeds or self.seeds)]
+        rows = carry_out(
+            PIN_SWEEP,
+            trial,
+            cases,
+            processes(given.jobs),
+            told=lambda row: given.told(trial.verdict(row)),
+        )
+        return [trial.verdict(row) for row in rows]
+
+    def _read(self, file: Path) -> Source:
+        return AL.read(file)
+
+    def _planned(self, source: Source) -> PlannedScript:
+        return planned(source, read_taught(self.positions), bench(), AL)

@@ -1,0 +1,96 @@
+"""The exercises on the insertion bench."""
+
+from typing import Final
+
+from handeye.core.units import MILLIMETRE
+from handeye.exercises.pin_exercise import PinExercise
+from handeye.exercises.pin_trial import PinWorlds
+
+MOST_FORCE: Final = 30.0
+"""N. The bench's own search has reached 20 N in 2000 trials, and the search of 1973 about 100 N
+(docs/insertion.md).
+"""
+BESIDE: Final = 20 * MILLIMETRE  # so far beside its taught place, the hole is out of reach of any search here
+_USUAL: Final = "worlds in which the hole is off its taught place by about 1 mm along each axis"
+_BESIDE: Final = "worlds in which the hole is 20 mm off its taught place"
+
+TOUCH: Final = PinExercise(
+    name="touch",
+    session=1,
+    title="stand the pin on the plate, gently",
+    brief="The hand holds the pin about .13 in over the face of the plate; how far exactly, differs from world to "
+    "world. Move the pin down until it stands on the face, and stop there. A motion by a fixed distance stops above "
+    "the face in some worlds and presses in others.",
+    start="touch.al",
+    worlds=(PinWorlds(seeds=range(20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}),),
+    most_force=MOST_FORCE,
+    on_face=True,
+    hints=(
+        (
+            "reported success",
+            "Move farther than planned, and let STOP end the motion where the pin meets the plate.",
+        ),
+        (
+            "pressed too hard",
+            "Let STOP end the motion, and move more slowly: the force of a blow grows with speed.",
+        ),
+        ("called the operator", "A motion with a STOP must be long enough to meet the plate in every world."),
+    ),
+)
+FIND: Final = PinExercise(
+    name="find",
+    session=2,
+    title="find the hole by force",
+    brief="The hole is not exactly where it was taught. Search for it: lift the pin, move it to the next place, and "
+    "try again, until the pin goes in.",
+    start="find.al",
+    worlds=(PinWorlds(seeds=range(20), told=_USUAL, set={}),),
+    hints=(
+        (
+            "called the operator",
+            "Where the pin stands on the face, error 23 does not occur. Begin a SEARCH there.",
+        ),
+        (
+            "reported success",
+            "Compare the height of the hand with the height at which the motion began: HEIGHT.",
+        ),
+    ),
+)
+GENTLY: Final = PinExercise(
+    name="gently",
+    session=2,
+    title="find the hole without a blow",
+    brief="The program of 1973 strikes the plate at 1 in/s. The force of a blow grows with the speed. Change the "
+    "program so that the pin still finds its hole, and the force between pin and plate stays small.",
+    start="gently.al",
+    worlds=(PinWorlds(seeds=range(20), told=_USUAL, set={}),),
+    most_force=MOST_FORCE,
+    hints=(
+        ("pressed too hard", "Give each CHANGE that may meet metal a speed, and stop at a smaller force."),
+        ("reported success", "The pin stands on something other than its shoulder: check with HEIGHT."),
+        (
+            "called the operator",
+            "FREE lets the chamfer guide the pin; without it, a slow pin may stay on the chamfer.",
+        ),
+    ),
+)
+HONEST: Final = PinExercise(
+    name="honest",
+    session=4,
+    title="report success only if the pin is in",
+    brief="In half of the worlds, the hole is too far away to be found. There the program must call the operator: a "
+    "program that ends as if all were well is worse than one that stops. In the other worlds, the pin must go in.",
+    start="honest.al",
+    worlds=(
+        PinWorlds(seeds=range(10), told=_USUAL, set={}),
+        PinWorlds(seeds=range(10, 20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}, calls=True),
+    ),
+    hints=(
+        (
+            "reported success",
+            "Follow each way to the end of the program. Which one does not measure that the pin is in?",
+        ),
+        ("called the operator", "The hole was within reach here. Search more places before you give up."),
+    ),
+)
+EXERCISES: Final = (TOUCH, FIND, GENTLY, HONEST)

@@ -1,0 +1,121 @@
+"""An exercise on concurrent tasks, judged in every order in which the tasks may run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from handeye.exercises.exercise import Exercise, Submission, Verdict
+from handeye.systems.sigma.mal.check import checked
+from handeye.systems.sigma.mal.compiler import program_of
+from handeye.systems.sigma.mal.interleavings import (
+    KINDS,
+    FindingKind,
+    Interleavings,
+    interleavings,
+    schedule_lines,
+    unreached_lines,
+)
+
+if TYPE_CHECKING:
+    from handeye.core.diagnostics import Diagnostic
+    from handeye.core.source import Source
+    from handeye.systems.sigma.mal.compiler import MalProgram
+
+_WORK: Final = ("MOVE", "ACTUATE", "FOR", "NEXT")  # statements that a student must keep
+_STOPPING: Final[tuple[FindingKind, ...]] = ("deadlock", "stops")
+"""Findings that stop the program. The program notices none of the others."""
+_CASE: Final = "every order"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OrderExercise(Exercise):
+    """An exercise in MAL: make a program right in every order of its tasks."""
+
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        return ()
+
+    @property
+    def cases(self) -> str:
+        return "every order in which the tasks may run; motions may take any time"
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        return (
+            f"The program keeps every {', '.join(_WORK[:-1])} and {_WORK[-1]} of each task, in their order.",
+            "Some order executes each line, and the program ends.",
+        )
+
+    def diagnostics(self, given: Submission) -> list[Diagnostic]:
+        return checked(given.source)[1]
+
+    def broken_rules(self, given: Submission) -> list[str]:
+        before, now = _work(self.program), _work(given.source)
+        return [
+            f"the task {task} does not have the same {', '.join(_WORK[:-1])} and {_WORK[-1]} as at the start"
+            for task, statements in before.items()
+            if now.get(task) != statements
+        ] + [f"the task {task} is new, and moves the arms" for task in now if task not in before]
+
+    def verdicts(self, given: Submission) -> list[Verdict]:
+        program = program_of(given.source.name, given.source.text)
+        found = interleavings(program)
+        problem = next(_problems(program, found), None)
+        if problem is None:
+            return [Verdict(case=_CASE, standing="right", outcome="accepted")]
+        again = f"handeye sigma check {given.source.name} --interleavings"
+        silent, outcome, reason = problem
+        return [
+            Verdict(
+                case=_CASE,
+                standing="silent" if silent else "wrong",
+                outcome=outcome,
+                reason=reason,
+                again=again,
+            )
+        ]
+
+
+def _work(source: Source) -> dict[str, list[str]]:
+    """Return the statements of each task that do the work."""
+    found: dict[str, list[str]] = {}
+    for line in checked(source)[0]:
+        if line.statement.word in _WORK:
+            found.setdefault(line.task, []).append(" ".join(line.text.upper().split()))
+    return found
+
+
+def _problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, str, str]]:
+    """Yield what is wrong with a program, the worst first: whether the program itself does not notice it, what
+    happens, and an example.
+    """
+    for each in sorted(found.findings, key=lambda finding: finding.kind in _STOPPING):
+        order = "; ".join(" ".join(line.split()) for line in schedule_lines(each.schedule))
+        yield each.kind not in _STOPPING, KINDS[each.kind], f"{each.told}. Order of the tasks: {order}"
+    if not found.complete:
+        yield False, "too many orders", f"the program has more than {found.states} states; make it simpler"
+    if not found.ends:
+        yield False, "the program never ends", "no order of the tasks leads to the end"
+    if lines := unreached_lines(program, found):
+        yield True, "lines are never executed", f"no order reaches {lines}"
+
+
+SHARE: Final = OrderExercise(
+    name="share",
+    session=5,
+    title="keep two hands apart in every order",
+    brief="Two arms bring pieces to one place and take them away. As a rule they do not meet, because the second arm "
+    "is fast enough; but a motor may be slow. Add flags so that, in whatever order the tasks run, the hands cannot "
+    "meet, no signal is lost, and no task waits for ever.",
+    start="share.mal",
+    hints=(
+        (KINDS["hands"], "Use a flag that means `the place is free`: TAKE it before the hand goes there."),
+        (KINDS["flag"], "Let the feeder wait until its last signal has been taken."),
+        (
+            KINDS["deadlock"],
+            "Which task sets the flag that this task waits for, and who sets it the first time?",
+        ),
+    ),
+)

@@ -1,0 +1,25 @@
+; Exercise `find`: put the pin into a hole that is not where it was taught. `handeye exercise find` explains it.
+;
+; This program tries one place only. Where the pin stands on the face, it calls the operator.
+; Inches, ounces, degrees. The positions are taught, in the file next to this one.
+
+        STAGE   "fetch the pin"
+        OPEN    1
+        MOVE    PIN
+        CENTER  .1
+        CLOSE   .1
+        CHANGE  [0 0 1] 1.5     ;draw it out of its holder
+        MOVE    HOLE
+
+        STAGE   "insert it"
+        SAVE    ABOVE           ;how high it begins
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the chamfer guide it
+        CHANGE  [0 0 -1] .25 .11 ;slowly: the face is .13 below
+        SKIPN   23
+        JUMP    IN              ;no resistance: it is in the hole
+        WAIT    "the pin stands on the face"
+IN:     CHANGE  [0 0 -1] .56 2  ;most of the way, and fast
+        STOP    [0 0 -25]
+        CHANGE  [0 0 -1] .35 .3
+        HEIGHT  ABOVE -.98 -.78 ;the shoulder stands on the face, .88 below
