@@ -110,12 +110,14 @@ def _run(entrant: Entrant, folder: Path) -> None:
     """Run the command of an entrant once, in its folder. If the command fails, the files that it has written remain."""
     try:
         words = shlex.split(entrant.command)
+        if not words:
+            raise BadArgument("--command is empty")
         subprocess.run(  # noqa: S603 - the command that the user gave
             words, cwd=folder, stdin=subprocess.DEVNULL, stdout=2, check=False, timeout=entrant.most_s
         )
     except subprocess.TimeoutExpired:
         pass
-    except (ValueError, IndexError) as error:
+    except ValueError as error:
         raise BadArgument(f"--command cannot be used: {error}") from None
     except OSError as error:
         raise BadArgument(f"--command cannot be started: {error.strerror}: {entrant.command}") from None

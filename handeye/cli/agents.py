@@ -122,6 +122,8 @@ def bench_agents(
             "give either --command or --solutions; `handeye bench agents --list` lists the tasks"
         )
     positive(rounds, "round")
+    if solutions is not None and not solutions.is_dir():
+        raise BadArgument(f"{solutions}: there is no such folder")
     if page is not None:
         check_place(page, _PAGE, overwrite=overwrite)
     entrant = None if command is None else Entrant(command=command, rounds=rounds, feedback=feedback)

@@ -14,7 +14,7 @@ from handeye.core.faults import Fault
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.core.pose import Array
-from handeye.core.variation import Level, WorldSpec
+from handeye.core.variation import Level, WorldSpec, checked_seed
 from handeye.env.controls import Controls
 from handeye.env.jobs import job_named
 from handeye.env.policies import Facts
@@ -90,7 +90,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         if shaped and potential(self.job) is None:
             raise Refused(f"{self.job.id} has no shaped reward; handeye/Pin-v0 has one")
         self.render_mode, self.shaped = render_mode, shaped
-        self._settings = {"level": level, **(world or {})}
+        self._settings = {"level": level, **_settings("world", world)}
         self._spec(0, self._settings)  # refuses wrong names now
         self._work = tasks.task(self.job.task)
         if pictures and self._work.eye is None:
@@ -124,9 +124,10 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         Raises:
             InvalidInput: the seed or an option cannot be used.
         """
-        super().reset(seed=seed)
-        settings = self._settings | (options or {})
-        drawn, passed_over = self._drawn() if seed is None else seed, []
+        chosen = None if seed is None else checked_seed(seed)
+        super().reset(seed=chosen)
+        settings = self._settings | _settings("options", options)
+        drawn, passed_over = self._drawn() if chosen is None else chosen, []
         start = self._start(self._spec(drawn, settings))
         while start is None:
             passed_over.append(drawn)
@@ -293,3 +294,10 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             return 0.0
         before, self._height = self._height, self._potential()
         return self._height - before
+
+
+def _settings(name: str, given: object) -> dict[str, Any]:
+    """Return the settings of a world as a dictionary. Raises BadArgument if they are anything else."""
+    if not isinstance(given, Mapping | None):
+        raise BadArgument(f"`{name}` must be a dictionary of settings of a world, not {given!r}")
+    return dict(given or {})

@@ -152,8 +152,8 @@ def played(policy: Any, episode: Episode) -> None:
     try:
         if hasattr(policy, "play"):
             policy.play(episode)
-        else:  # a plain function from observations to actions
-            _Function(episode.facts, policy).play(episode)
+        else:  # an object with `act`, or a plain function from observations to actions
+            _Function(episode.facts, getattr(policy, "act", policy)).play(episode)
         while True:
             episode.step(_still(episode))
     except EpisodeOver:

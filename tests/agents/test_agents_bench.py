@@ -185,6 +185,8 @@ def test_a_commitment_depends_on_salt_task_and_order() -> None:
         (("nix",), "the bench has no task `nix`"),
         (("pin",), "give either --command or --solutions"),
         (("pin", "--command", "no-such-program"), "--command cannot be started: No such file or directory"),
+        (("pin", "--command", ""), "--command is empty"),
+        (("pin", "--solutions", "nowhere"), "nowhere: there is no such folder"),
         (("pin", "--command", "'"), "--command cannot be used: No closing quotation"),
         (("pin", "--command", "trivial", "--rounds", "0"), "the number of rounds must be at least 1"),
         (("pin", "--command", "trivial", "--hidden", "nix.json"), "nix.json: there is no such file"),

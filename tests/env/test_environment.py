@@ -237,6 +237,7 @@ def test_a_shaped_reward_is_privileged_and_sums_to_the_way_that_the_pin_has_come
         ({"level": "huge"}, "there is no level 'huge'"),
         ({"world": {"colour": 1}}, "there is no setting 'colour' of a world"),
         ({"world": {"set": {"arm.fricton": 0}}}, "did you mean `arm.friction`"),
+        ({"world": "high"}, "`world` must be a dictionary of settings of a world, not 'high'"),
         ({"pictures": True}, "handeye/Pin-v0 has no television camera"),
         ({"job": "handeye/Pump-v0", "shaped": True}, "handeye/Pump-v0 has no shaped reward"),
         ({"render_mode": "human"}, "there is no render mode 'human'"),
@@ -262,3 +263,16 @@ def test_without_gymnasium_a_sentence_names_the_extra(monkeypatch: pytest.Monkey
     with pytest.raises(MissingExtra, match=r"`handeye.env` needs gymnasium.*the extra `env` of handeye"):
         importlib.import_module("handeye.env")
     assert handeye.env is not None
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({"seed": -1}, "a seed must be a whole number"),
+        ({"seed": 1.5}, "a seed must be a whole number"),
+        ({"options": 3}, "`options` must be a dictionary"),
+    ],
+)
+def test_a_reset_with_a_wrong_argument_is_refused_in_a_sentence(wrong: dict[str, object], told: str) -> None:
+    with pytest.raises(InvalidInput, match=told):
+        AssemblyEnv().reset(**wrong)  # type: ignore[arg-type]

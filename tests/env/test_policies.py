@@ -2,11 +2,13 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from conftest import Command
 
 from handeye.env.evaluation import EPISODES, EpisodeRow, Evaluation
+from handeye.env.policies import Episode, played
 from handeye.trials.figures import figures
 from handeye.trials.sweep import Case
 
@@ -110,3 +112,19 @@ def test_the_list_names_every_environment(command: Command) -> None:
     code, out, _ = command("env", "list", "--json")
     assert code == 0
     assert [each["id"] for each in json.loads(out)][:2] == [PIN, "handeye/Screw-v0"]
+
+
+def test_an_object_with_act_is_a_policy_without_a_base_class() -> None:
+    class Actor:
+        def act(self, observation: object) -> str:
+            return f"answers {observation}"
+
+    asked: list[object] = []
+
+    def advance(action: object) -> tuple[str, bool]:
+        asked.append(action)
+        return "second", True
+
+    facts: Any = None
+    played(Actor(), Episode(facts=facts, observation="first", advance=advance))  # type: ignore[arg-type]
+    assert asked == ["answers first"]
