@@ -85,6 +85,7 @@ CHEAP = {
     "trials bin": "trials bin --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials mutants": "trials mutants --most ✓",
+    "exercise": "exercise ✓",
     "bench agents": "bench agents ✓ --command true",
     "env list": "env list",
     "env evaluate": "env evaluate ✓",

@@ -18,7 +18,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 
-MOST_SECONDS: Final = 1800.0  # simulated; a program that runs longer is stopped. The pump of 1973 took 332 s (docs/1973.md)
+MOST_SECONDS: Final = 1800.0  # simulated; a program that runs longer is stopped. The pump of 1973 took 332 s
 MOST_STEPS: Final = 20_000  # executed; for a program that loops without moving
 AT_ONCE: Final = 200  # steps between two looks at the limits
 TRACED: Final = 60  # last steps that a verdict lists

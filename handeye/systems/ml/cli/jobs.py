@@ -26,7 +26,11 @@ NumberOfWorlds = Annotated[
 
 
 def plan_with_parts(job: str, parts: int) -> "MlPlan":
-    """Return the plan of a job with so many parts in its bin. Raises NoSuchName if the bin does not take so many."""
+    """Return the plan of a job with this number of parts in its bin.
+
+    Raises:
+        NoSuchName: the bin does not take this number of parts.
+    """
     from handeye.systems.ml.bin.task import parts_of
     from handeye.systems.ml.run.jobs import job_plan
 

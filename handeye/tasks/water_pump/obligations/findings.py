@@ -105,7 +105,7 @@ _LAYERS: Final = (
     "An object under a head raises it. Less than .02 in may remain unnoticed; the referee allows .012 in."
 )
 _CLUTCH: Final = "The clamping force to which a torque leads depends on the friction of thread and head."
-_HOLDER: Final = "A pin that leans or stands beside its hole ends lower or higher than one that stands in it."
+_HOLDER: Final = "A pin that leans, or is not in its hole, ends lower or higher than one that stands in it."
 _RACK: Final = "A screwdriver that leans or hangs on its guides ends lower or higher than one that stands."
 _BEARING: Final = (
     "Only the height of the crank pin's end is felt. A bent crank may remain unnoticed, and so may a rotor that is "
