@@ -16,7 +16,6 @@ from handeye.arm.dynamics import GRAVITY
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
-from handeye.cell.compiled_arm import CompiledArm
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
 from handeye.core.pose import Array, Pose, hand
@@ -104,7 +103,7 @@ def pressing(world: PumpWorld, X_WT: Pose, gap: float, added: Callable[[mujoco.M
     tick(cell.devices, Drive(gap=gap, grip=80.0), 12)
     state, seen = DriveState.holding(cell.devices.sense(), STANFORD), []
     state.gap, state.friction = gap, world.arm_build.friction
-    drive = ArmDrive(cell=cell.devices, arm=STANFORD, state=state, watch=seen.append, arithmetic=CompiledArm)
+    drive = ArmDrive(cell=cell.devices, arm=STANFORD, state=state, watch=seen.append)
     drive.hold(30)
     return Pressing(cell=cell, drive=drive, seen=seen)
 
