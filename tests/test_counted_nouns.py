@@ -22,6 +22,8 @@ PLURAL = re.compile(rf"^ (?:(?:{ADJECTIVES}) )?(?:(?:{NOUNS})e?s|entries|tries|a
 NEVER_ONE = {
     ("handeye/al/macros.py", "len(line.text)"),  # beyond a limit, as the next
     ("handeye/al/parser.py", "line.end - line.start"),
+    ("handeye/agents/bench_result.py", "result.seeds"),  # a word, as the next
+    ("handeye/cli/agents.py", "result.seeds"),
     ("handeye/cell/exposures.py", "self.exposures"),
     ("handeye/systems/ml/cli/commands.py", "each.category"),  # a name
     ("handeye/systems/trig/language/place.py", "len(word)"),

@@ -6,6 +6,7 @@ from typing import Final, Literal
 from handeye.agents.call import Call
 from handeye.api.plans import Plan
 from handeye.core.errors import HandeyeError, Refused
+from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.variation import Seed, WorldSpec
 from handeye.debugger.reply import step_summaries
@@ -81,7 +82,7 @@ def _judged(runner: Runner, call: Call) -> Verdict:
         if not isinstance(pause.met, AfterSteps):
             break
         if runner.time > MOST_SECONDS or runner.position > MOST_STEPS:
-            late = f"the program was still running after {runner.position} steps and {runner.time:.0f} s"
+            late = f"the program was still running after {counted(runner.position, 'step')} and {runner.time:.0f} s"
             break
     result = result_of(runner, pause, Meter(), judged=True)
     shown = step_summaries(runner.events, runner.listing, runner.task.measures)[-TRACED:]

@@ -156,7 +156,10 @@ class Toolbox:
             world = World(seed, level=asked.level, task=plan.record.task)
             found.append(judged(setup_of(plan, world.spec), call))
         tally = {word: sum(each.outcome == word for each in found) for word in replies.OUTCOMES}
-        lines = [", ".join(f"{number} {word}" for word, number in tally.items()) + f" of {len(found)} worlds"]
+        lines = [
+            ", ".join(f"{number} {word}" for word, number in tally.items())
+            + f" of {counted(len(found), 'world')}"
+        ]
         lines += [f"seed {each.seed}: {each.told}" for each in found]
         rows = [msgspec.to_builtins(each) for each in found]
         for row in rows:

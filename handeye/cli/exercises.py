@@ -11,6 +11,7 @@ from handeye.cli.tally import Tally
 from handeye.core.diagnostics import as_json, has_errors, quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName, Taken
 from handeye.core.files import beside, is_there, write_whole
+from handeye.core.plain_text import counted
 from handeye.core.source import read_source
 
 if TYPE_CHECKING:
@@ -174,7 +175,7 @@ def _as_json(found: "Grade", code: int, diagnostics: list[dict[str, object]]) ->
 def _tell(found: "Grade") -> None:
     """Print the grade, silent failures first."""
     if len(found.verdicts) > 1:
-        say(f"{found.exercise}: right in {found.right} of {len(found.verdicts)} cases")
+        say(f"{found.exercise}: right in {found.right} of {counted(len(found.verdicts), 'case')}")
     elif found.right:
         say(f"{found.exercise}: right in {found.verdicts[0].case}")
     else:

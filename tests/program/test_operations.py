@@ -71,6 +71,14 @@ def test_an_operation_is_asked_for_its_class_only_where_its_meaning_is_given() -
     found = {str(path.relative_to(package)) for path in package.rglob("*.py") if asked_for(path.read_text())}
     assert found == {
         "al/lower.py",  # where a RESTORE finds its MOVE, and a search its own
+        "proof/evidence.py",  # what a step shows, as the next
+        "proof/hand_places.py",
+        "proof/outcomes.py",  # how a step can end, as the next
+        "proof/ways.py",
+        "systems/stanford/leg.py",  # what a leg of this language finds and holds
+        "systems/relay/check.py",  # what a leg needs from the legs before it
+        "trials/mutants/purpose.py",  # what a check is for
+        "trials/mutants/rules.py",  # what a mutant lacks
         "planning/grasp_state.py",  # where the planner opens and closes the hand
         "planning/motion_checks.py",  # where it puts a load into it
         "trials/plans/row.py",  # where trials count the operations in which parts touch
