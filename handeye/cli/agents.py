@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Parameter
 
 from handeye.cli.common import Json, Overwrite, WholeNumber, note, positive, put, say, screen
-from handeye.core.errors import BadArgument, MissingExtra
+from handeye.core.errors import BadArgument, BadFile, MissingExtra
 from handeye.core.files import Kind, check_place, write_over
 
 if TYPE_CHECKING:
@@ -145,13 +145,17 @@ def bench_agents(
 def _scores(
     tasks: "list[BenchTask]", entrant: "Entrant | None", folder: Path, hidden: Path | None
 ) -> "list[TaskScore]":
-    """Let the entrant solve each task, then judge all solutions. The hidden seeds are read after that."""
+    """Let the entrant solve each task, then judge all solutions. The hidden seeds are read after that.
+    Raises BadFile at once if their file does not exist.
+    """
     from handeye.agents.bench_entrant import Effort, solved, verdicts
     from handeye.agents.bench_result import scored
     from handeye.agents.bench_task import read_hidden
     from handeye.agents.call import Call
 
     efforts = {}
+    if hidden is not None and not hidden.is_file():
+        raise BadFile(f"{hidden}: there is no such file")
     for task in tasks:
         note(f"{task.name}: {task.file.title}")
         place = folder / task.name

@@ -72,7 +72,7 @@ def evaluate(
     """
     from handeye.env.environment import AssemblyEnv
     from handeye.env.evaluation import EPISODES, Evaluation
-    from handeye.env.policies import check_action, policy_maker, usual_action
+    from handeye.env.policies import check_policy, policy_maker, usual_action
     from handeye.trials.folder import head_of
     from handeye.trials.sweep import cases
 
@@ -80,7 +80,7 @@ def evaluate(
     options.check()
     maker = policy_maker(policy)
     chosen = action or usual_action(maker)
-    check_action(policy, maker, chosen)
+    check_policy(policy, maker, env, chosen)
     settings = {"level": level, "limit_s": limit}
     AssemblyEnv(env, action=chosen, **settings)  # type: ignore[arg-type]  # refuses bad settings before the first episode
     head = {"policy": policy, "environment": env, "action": chosen} | {

@@ -84,8 +84,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             raise NoSuchName(f"there is no action {action!r}; the actions are hand and torques")
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise NoSuchName(f"there is no render mode {render_mode!r}; the only one is rgb_array")
-        self.limit_s = self.job.limit_s if limit_s is None else float(limit_s)
-        if not 0 < self.limit_s < float("inf"):
+        self.limit_s = self.job.limit_s if limit_s is None else limit_s
+        if not isinstance(self.limit_s, int | float) or not 0 < self.limit_s < float("inf"):
             raise BadArgument(f"limit_s must be more than 0 s, not {limit_s!r}")
         if shaped and potential(self.job) is None:
             raise Refused(f"{self.job.id} has no shaped reward; handeye/Pin-v0 has one")
@@ -251,7 +251,10 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
 
     def _checked(self, action: Array) -> Array:
         size = len(self.components)
-        values = np.asarray(action, dtype=float)
+        try:
+            values = np.asarray(action, dtype=float)
+        except (TypeError, ValueError):
+            values = np.empty(0)
         if values.shape != (size,) or not np.isfinite(values).all():
             raise BadArgument(
                 f"an action of {self.job.id} must have {counted(size, 'finite number')}, not {action!r}"

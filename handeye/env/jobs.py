@@ -127,7 +127,8 @@ JOBS: Final = (
 def job_named(name: str) -> Job:
     """Return the job of an environment. Raises NoSuchName if there is none."""
     found = {job.id: job for job in JOBS}
-    if name not in found:
+    if not isinstance(name, str) or name not in found:
+        name = str(name)
         near = suggestion(name, found) or f"the environments are {', '.join(map(quoted, found))}"
         raise NoSuchName(f"there is no environment {quoted(name)}; {near}")
     return found[name]

@@ -72,6 +72,7 @@ class Policy:
         "torques",
     )  # kinds of action that it can use; the first is the usual one
 
+    environments: tuple[str, ...] = ()  # ids of the environments for which it is made; empty: any
     pictures = False  # True if it uses the television camera, where there is one
 
     def __init__(self, facts: Facts) -> None:
@@ -134,15 +135,22 @@ def policy_maker(name: str) -> PolicyMaker:
 
 def usual_action(maker: PolicyMaker) -> ActionKind:
     """Return the kind of action that a policy uses by default."""
-    first: ActionKind = getattr(maker, "actions", ("hand",))[0]
-    return first
+    able: tuple[ActionKind, ...] = getattr(maker, "actions", ("hand",))
+    return able[0] if able else "hand"
 
 
-def check_action(name: str, maker: PolicyMaker, action: ActionKind) -> None:
-    """Raise BadArgument if a policy cannot use a kind of action."""
+def check_policy(name: str, maker: PolicyMaker, environment: str, action: ActionKind) -> None:
+    """Raise BadArgument if a policy cannot use a kind of action, or is made for other environments."""
     able = getattr(maker, "actions", (action,))
     if action not in able:
-        raise BadArgument(f"the policy {quoted(name)} uses the action {' or '.join(able)}, not {action}")
+        raise BadArgument(
+            f"the policy {quoted(name)} uses the action {' or '.join(able) or 'none'}, not {action}"
+        )
+    known = getattr(maker, "environments", ())
+    if known and environment not in known:
+        raise BadArgument(
+            f"the policy {quoted(name)} is made for {' and '.join(known)}, not for {environment}"
+        )
 
 
 def played(policy: Any, episode: Episode) -> None:

@@ -41,6 +41,7 @@ class ScriptedPin(Policy):
     """Searches for the hole on a square spiral by touch, and inserts the pin."""
 
     actions: tuple[ActionKind, ...] = ("torques",)
+    environments = ("handeye/Pin-v0",)
 
     def play(self, episode: Episode) -> None:
         cell, clock = seen_cell(episode)

@@ -183,6 +183,7 @@ def test_a_commitment_depends_on_salt_task_and_order() -> None:
     ("words", "said"),
     [
         (("nix",), "the bench has no task `nix`"),
+        (("pin", "--command", "false", "--hidden", "none.json"), "none.json: there is no such file"),
         (("pin",), "give either --command or --solutions"),
         (("pin", "--command", "no-such-program"), "--command cannot be started: No such file or directory"),
         (("pin", "--command", ""), "--command is empty"),

@@ -233,7 +233,10 @@ def test_a_shaped_reward_is_privileged_and_sums_to_the_way_that_the_pin_has_come
             "there is no environment `handeye/Pni-v0`; did you mean `handeye/Pin-v0`?",
         ),
         ({"action": "joints"}, "there is no action 'joints'; the actions are hand and torques"),
+        ({"job": 3}, "there is no environment `3`"),
         ({"limit_s": 0}, "limit_s must be more than 0 s, not 0"),
+        ({"limit_s": "x"}, "limit_s must be more than 0 s, not 'x'"),
+        ({"limit_s": [1]}, "limit_s must be more than 0 s, not [1]"),
         ({"level": "huge"}, "there is no level 'huge'"),
         ({"world": {"colour": 1}}, "there is no setting 'colour' of a world"),
         ({"world": {"set": {"arm.fricton": 0}}}, "did you mean `arm.friction`"),
@@ -250,7 +253,7 @@ def test_wrong_arguments_are_refused_in_a_sentence(wrong: dict[str, object], tol
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("action", [np.zeros(3), np.full(13, np.nan)])
+@pytest.mark.parametrize("action", [np.zeros(3), np.full(13, np.nan), "still", ["a"] * 13, {"done": 1}])
 def test_actions_that_are_none_are_refused(pin: AssemblyEnv, action: Array) -> None:
     pin.reset(seed=0)
     with pytest.raises(InvalidInput, match="an action of handeye/Pin-v0 must have 13 finite numbers"):

@@ -95,6 +95,10 @@ def test_rates_count_every_episode_but_those_that_the_computer_lost() -> None:
         (("math:pi",), "`math:pi` is not a policy"),
         (("a-b:c",), "name a policy as MODULE:NAME"),
         (("scripted", "--action", "hand"), "the policy `scripted` uses the action torques, not hand"),
+        (
+            ("scripted", "--env", "handeye/Pump-v0"),
+            "the policy `scripted` is made for handeye/Pin-v0, not for handeye/Pump-v0",
+        ),
         (("random", "--env", "handeye/Pin"), "there is no environment `handeye/Pin`"),
         (("random", "--limit", "0"), "limit_s must be more than 0 s"),
         (("random", "--n", "0"), "0"),
