@@ -4,6 +4,7 @@ import gc
 import io
 import os
 import sys
+import time
 from collections.abc import Callable, Generator
 from functools import partial
 from pathlib import Path
@@ -14,6 +15,7 @@ from hypothesis import settings
 
 from benchmarks import __main__ as benchmarks
 from handeye import cli
+from handeye.core import host_time
 from handeye.tasks.water_pump.task import WaterPump
 
 # No claim here is about a clock, and what has passed once passes again.
@@ -61,6 +63,9 @@ def command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
     app = cli.app
 
     def run(*words: str, typed: str = "") -> tuple[int, str, str]:
+        monkeypatch.setattr(
+            host_time, "_LOADED", (time.monotonic(), time.process_time())
+        )  # as in a new process
         monkeypatch.setattr(cli, "app", partial(app, words))
         monkeypatch.setattr("sys.stdin", io.StringIO(typed))
         with pytest.raises(SystemExit) as end:
