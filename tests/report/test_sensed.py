@@ -21,6 +21,21 @@ from handeye.runs.snapshot import Checkpoint
 pytestmark = pytest.mark.slow
 
 
+SEARCH = """
+TRANS   ABOVE [25 38 .5 90 90 0]
+        STAGE   "search"
+        SEARCH  .3 STEPS 1
+AGAIN:  SKIPN   6
+        JUMP    NONE
+        MOVE    ABOVE
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] 1 .5
+        SKIPE   23
+        AOJ     AGAIN
+NONE:   OPEN    1
+"""
+
+
 def recorded(script: str, folder: pytest.TempPathFactory) -> RecordedRun:
     start = Checkpoint(setup=Setup(plan=plan_of(script), world=WorldSpec(seed=0), camera="ray"))
     return RecordedRun(trace=traced(start, folder.mktemp("sensed") / "run"))
@@ -59,11 +74,18 @@ def test_the_pin_is_held_from_the_grasp_until_the_hand_opens(grasped: RecordedRu
     assert gaps == pytest.approx([0.0064, 0.0064], abs=0.002)  # a pin of 1/4 in
 
 
-def test_each_tried_place_has_its_moment(grasped: RecordedRun) -> None:
-    motions, found = guarded_motions(grasped), searches(grasped)
-    for places, search in zip(tried_places(found, motions), found, strict=True):
-        assert len(places.times) == len(search.places)
-        assert set(places.times) <= {float(motion.times[-1]) for motion in motions}
+@pytest.fixture(scope="module")
+def searched(tmp_path_factory: pytest.TempPathFactory) -> RecordedRun:
+    """A run that looks for a hole at nine places of the table, where there is none."""
+    return recorded(SEARCH, tmp_path_factory)
+
+
+def test_each_tried_place_has_its_moment(searched: RecordedRun) -> None:
+    motions, (search,) = guarded_motions(searched), searches(searched)
+    (places,) = tried_places([search], motions)
+    assert places.times == tuple(float(motion.times[-1]) for motion in motions)
+    assert len(places.times) == len(search.places) == 9
+    assert not places.found
 
 
 def test_a_search_that_tried_all_places_found_none(grasped: RecordedRun) -> None:
