@@ -9,7 +9,7 @@
 DEFINE FETCH S
         SEARCH  .05
 M:      SKIPN   6               ;all places tried
-        WAIT    "THE BIT FINDS NO SCREW AT {S}: IT IS LOST, OR A JOINT READS WRONG"
+        WAIT    "THE BIT FINDS NO SCREW AT {S}: IT IS LOST, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         MOVE    S
         RESTORE DRX
         RESTORE DRV
@@ -18,7 +18,7 @@ M:      SKIPN   6               ;all places tried
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT {S}"
+        WAIT    "NO SCREW AT {S}: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPE   8
         JUMP    OVER
@@ -46,7 +46,7 @@ R:      SKIPN   6               ;all places tried
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT {S}"
+        WAIT    "NO SCREW AT {S}: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         HEIGHT  RIM -.2 -.05    ;lower than it stood before?
         SKIPN   9
         AOJ     R
@@ -412,10 +412,12 @@ DEFINE LIFT
 ; Down to the flange of the top on its stand, a finger on each side of its hub.
 DEFINE BESTRIDE
         MOVE    TOPUP
+        SKIPN   4               ;the hand has met the top
+        WAIT    "THE TOP IS NOT WHERE IT SHOULD BE: IT OR ITS STAND HAS MOVED, OR A JOINT READS WRONG"
         STOP    [0 0 -25]
         CHANGE  [0 0 -1] .8 .5
         SKIPN   23
-        WAIT    "NO TOP IS ON ITS STAND"
+        WAIT    "NO TOP IS ON ITS STAND, OR THE STAND HAS MOVED"
         CHANGE  [0 0 1] .15
 
 ; The top that is held, onto the pins: likewise. CENTER knows where it is along y.
@@ -613,7 +615,7 @@ DEFINE SWEEP ANGLE
         STOP    15
         TURN    AXIS ANGLE
         SKIPE   23              ;it should meet no such resistance
-        WAIT    "THE ROTOR IS HARD TO TURN"
+        WAIT    "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"
         OPEN    .9
 
 ; So far to one side, and back, about the axis where the hand has it: on a circle beside it the crank would slide
@@ -993,7 +995,7 @@ RIGHT:  OPEN    3.4             ;for the top: .6 in beside its hub on each side
         BESTRIDE
         CLOSE   2               ;its hub into the line of the hand, and its narrow end: so the top is turned straight.
         SKIPN   2
-        WAIT    "NO TOP IS ON ITS STAND"
+        WAIT    "NO TOP IS ON ITS STAND, OR THE STAND HAS MOVED"
         OPEN    3.4             ;fingers that close on the hub alone wedge it as it lies
         MOVE    TOPEND
         STOP    [0 0 -25]
@@ -1003,15 +1005,15 @@ RIGHT:  OPEN    3.4             ;for the top: .6 in beside its hub on each side
         CHANGE  [0 0 1] .1
         CLOSE   1.5
         SKIPN   2
-        WAIT    "NO TOP UNDER THE FINGERS: IT LIES REVERSED, OR IS LOST"
+        WAIT    "NO TOP UNDER THE FINGERS: IT IS REVERSED OR LOST, OR ITS STAND HAS MOVED"
         OPEN    3.4
         BESTRIDE
         CENTER  2
         SKIPN   2
-        WAIT    "NO TOP IS ON ITS STAND"
+        WAIT    "NO TOP IS ON ITS STAND, OR THE STAND HAS MOVED"
         CLOSE   2 2.4
         SKIPN   2
-        WAIT    "NO TOP IS ON ITS STAND"
+        WAIT    "NO TOP IS ON ITS STAND, OR THE STAND HAS MOVED"
         LOAD    36
         CHANGE  [0 0 1] 1
         ASSIGN  TRIES 2
@@ -1028,7 +1030,7 @@ TOPPING: COVER
         SKIPN   52
         JUMP    ASKEW
         SKIPN   23
-        WAIT    "NO TOP UNDER THE FINGERS: IT LIES REVERSED, OR IS LOST"
+        WAIT    "NO TOP UNDER THE FINGERS: IT IS REVERSED OR LOST, OR ITS STAND HAS MOVED"
         HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
         SKIPE   9
         JUMP    COVERED

@@ -186,7 +186,7 @@ LT:     MOVE    TOPON
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
         SKIPN   23
-        WAIT    "NO TOP UNDER THE FINGERS: IT LIES REVERSED, OR IS LOST"
+        WAIT    "NO TOP UNDER THE FINGERS: IT IS REVERSED OR LOST, OR ITS STAND HAS MOVED"
         HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
         CHANGE  [0 0 1] 2       ;above the pins, before the hand opens
 
@@ -216,7 +216,7 @@ M1:     MOVE    S1
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT S1"
+        WAIT    "NO SCREW AT S1: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M1
@@ -261,7 +261,7 @@ M2:     MOVE    S2
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT S2"
+        WAIT    "NO SCREW AT S2: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M2
@@ -375,7 +375,7 @@ M3:     MOVE    S3
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT S3"
+        WAIT    "NO SCREW AT S3: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M3
@@ -424,7 +424,7 @@ M4:     MOVE    S4
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT S4"
+        WAIT    "NO SCREW AT S4: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M4
@@ -473,7 +473,7 @@ M5:     MOVE    S5
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT S5"
+        WAIT    "NO SCREW AT S5: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M5
@@ -522,7 +522,7 @@ M6:     MOVE    S6
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
         SKIPN   23
-        WAIT    "NO SCREW AT S6"
+        WAIT    "NO SCREW AT S6: IT IS MISSING, OR THE DISPENSER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M6
@@ -586,6 +586,6 @@ D2:     MOVE    DUP
         STOP    40
         TURN    ROTOR 60
         SKIPE   23              ;it should meet no such resistance
-        WAIT    "THE ROTOR IS HARD TO TURN"
+        WAIT    "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"
         OPEN    .9
         PARK

@@ -12,7 +12,8 @@ from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 from handeye.core.variation import WorldSpec
 from handeye.tasks.stanford_cell.dimensions import screw_holes
-from handeye.tasks.water_pump.faults.before import GONE, METAL, bad_threads, part_faults, slipping_screws
+from handeye.tasks.water_pump.faults.before import bad_threads, part_faults, slipping_screws
+from handeye.tasks.water_pump.faults.scene_changes import GONE, METAL
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 

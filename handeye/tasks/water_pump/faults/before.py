@@ -5,12 +5,9 @@ The scene contains the faulty part from the beginning. All devices work correctl
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, partial
 from typing import TYPE_CHECKING, Final, Literal
-
-import numpy as np
 
 from handeye.core.errors import (
     FEATURES_NOT_SEEN,
@@ -23,33 +20,20 @@ from handeye.core.errors import (
     WRONG_HEIGHT,
 )
 from handeye.core.faults import ExpectedDetection, Fault, Size
-from handeye.core.pose import rotation_z
-from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, web_centre
+from handeye.tasks.stanford_cell.dimensions import Point, dimensions, web_centre
+from handeye.tasks.water_pump.faults import scene_changes as scene
 from handeye.tasks.water_pump.faults import shared_expectations as detect
 from handeye.tasks.water_pump.faults.declaration import PumpFault, broken
+from handeye.tasks.water_pump.world.stations import Station
 
 if TYPE_CHECKING:
     import mujoco
 
-Change = Callable[["mujoco.MjSpec", float], None]  # changes a scene, given the value of the fault (SI)
-
-GONE: Final = {
-    "base": (-0.15, 0.15), "gasket": (-0.15, -0.15), "top": (0.15, -0.2), "driver": (0.2, 0.2), "pin0": (0.0, 0.1),
-    "pin1": (0.05, 0.1), **{f"screw{k}": (0.05 * k - 0.1, 0.05) for k in range(7)},
-}  # fmt: skip
-"""Positions (m) for missing parts, on the tray below the floor, where nothing can touch them."""
-OVER_TRAY_M: Final = 0.12  # more than any part reaches below its origin
-
 _SMOOTH: Final = "bit.smooth"
-_CARD_HALF_M: Final = 0.08
-_FOREMOST: Final = 3  # priority in a contact, higher than that of any shape in the scene
-METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
-"""Stiffness of the end of a blocked hole. We measured that a thread drives its screw straight through a joint
-limit with MuJoCo's default stiffness.
-"""
 _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
 
 
+Change = Callable[["mujoco.MjSpec", float], None]  # changes a scene, given the value of the fault (SI)
 PartFault = PumpFault[Change]
 
 
@@ -58,7 +42,8 @@ def part_faults(screws: int) -> tuple[PartFault, ...]:
     """Return all faults of the parts of a pump with this number of screws, in the order in which they are
     listed."""
     return (
-        *_base(), *_gasket(), *_top(), *_pins(), *_screws(screws), *_holes(screws), *_screwdriver_and_light()
+        *_base(), *_gasket(), *_top(), *_pins(), *_screws(screws), *_holes(screws), *_stations(screws),
+        *_screwdriver_and_light(),
     )  # fmt: skip
 
 
@@ -76,13 +61,13 @@ def _fault(
 
 def _base() -> Iterator[PartFault]:
     yield _fault(
-        "base.missing", "Nothing lies on the belt.", partial(_missing, "base"),
+        "base.missing", "Nothing lies on the belt.", partial(scene.missing, "base"),
         ExpectedDetection(errors=(PART_NOT_SEEN,), calls=(detect.UNSEEN,)),
     )  # fmt: skip
     yield _fault(
         "base.turned", "The base is turned: the line from its first to its second large hole points in "
         "this direction.",
-        lambda spec, yaw: _turn(spec, "base", _plate_centre(), yaw),
+        lambda spec, yaw: scene.turn(spec, "base", scene.plate_centre(), yaw),
         ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,),
             harmless="The job allows any direction of the base within the arm's reach.",
@@ -91,13 +76,13 @@ def _base() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault(
         "base.far", "The belt has carried the base too far by this distance: out of the arm's reach, or out of sight.",
-        partial(_shift, "base", (0.0, 1.0)),
+        partial(scene.shift, "base", (0.0, 1.0)),
         ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=(detect.UNSEEN,)),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
     yield _fault(
         "base.reversed", "The base lies the wrong way round, turned by 180 degrees.",
-        lambda spec, _: _reverse(spec, "base", _plate_centre()),
+        lambda spec, _: scene.reverse(spec, "base", scene.plate_centre()),
         ExpectedDetection(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,)),
     )  # fmt: skip
 
@@ -108,13 +93,15 @@ def _gasket() -> Iterator[PartFault]:
     high = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.TOO_HIGH,))
     wrong = ExpectedDetection(errors=(WRONG_HEIGHT,), calls=(detect.TOO_LOW, detect.TOO_HIGH))
     yield _fault(
-        "gasket.missing", "There is no gasket on the gasket stand.", partial(_missing, part),
+        "gasket.missing", "There is no gasket on the gasket stand.", partial(scene.missing, part),
         ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.GASKET_OFF,), stages=(detect.PUT_ON_GASKET,)),
     )  # fmt: skip
-    yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0), high)
+    yield _fault(
+        "gasket.doubled", "Two gaskets stick together.", lambda spec, _: scene.thicken(spec, 2.0), high
+    )
     yield _fault(
         "gasket.thick", "The gasket has this thickness instead of .06 in.",
-        lambda spec, thick: _thicken(spec, thick / thin), wrong,
+        lambda spec, thick: scene.thicken(spec, thick / thin), wrong,
         Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
     )  # fmt: skip
     yield from _moved(part, "the gasket", {
@@ -127,7 +114,7 @@ def _gasket() -> Iterator[PartFault]:
     })  # fmt: skip
     yield _fault(
         "gasket.turned", "The gasket is turned about the vertical on its stand.",
-        lambda spec, angle: _turn(spec, part, middle, _yaw(spec, part) + angle),
+        lambda spec, angle: scene.turn(spec, part, middle, scene.yaw_of(spec, part) + angle),
         ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,),
             # A gasket that goes down beside the pins does not cover the place where the hand measures its thickness.
@@ -138,11 +125,11 @@ def _gasket() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault(
         "gasket.reversed", "The gasket lies the wrong way round, turned by 180 degrees.",
-        lambda spec, _: _reverse(spec, part, middle),
+        lambda spec, _: scene.reverse(spec, part, middle),
         ExpectedDetection(calls=(detect.GASKET_LOST,)),
     )  # fmt: skip
     yield _fault(
-        "gasket.torn", "A square with this side is torn off the gasket around screw hole 6.", _tear,
+        "gasket.torn", "A square with this side is torn off the gasket around screw hole 6.", scene.tear,
         ExpectedDetection(errors=(GASKET_WRONG,), calls=(detect.NOT_ON,)),
         Size(unit="mm", usual=18.0, limits=(0.0, 30.0)),
     )  # fmt: skip
@@ -150,7 +137,7 @@ def _gasket() -> Iterator[PartFault]:
 
 def _top() -> Iterator[PartFault]:
     yield _fault(
-        "top.missing", "There is no top on the top stand.", partial(_missing, "top"),
+        "top.missing", "There is no top on the top stand.", partial(scene.missing, "top"),
         ExpectedDetection(calls=(detect.NO_TOP, detect.TOP_LOST), stages=(detect.PUT_ON_TOP,)),
     )  # fmt: skip
     off = ExpectedDetection(
@@ -160,7 +147,7 @@ def _top() -> Iterator[PartFault]:
     )
     yield from _moved("top", "the top", {"x": off, "y": off})
     yield _fault(
-        "top.tilted", "On the stand, a chip of this height lies under one end of the top.", _chip,
+        "top.tilted", "On the stand, a chip of this height lies under one end of the top.", scene.chip,
         ExpectedDetection(
             errors=(WRONG_HEIGHT, SEARCH_EXHAUSTED),
             calls=(detect.NOT_FLAT, "PIN {number} DOES NOT STAND: THE TOP HAS DRAWN IT OUT", detect.ON_PINS),
@@ -171,7 +158,7 @@ def _top() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault(
         "top.reversed", "The top lies the wrong way round, turned by 180 degrees.",
-        lambda spec, _: _reverse(spec, "top", (0.0, 0.0)),
+        lambda spec, _: scene.reverse(spec, "top", (0.0, 0.0)),
         ExpectedDetection(calls=(detect.TOP_LOST,)),
     )  # fmt: skip
 
@@ -179,17 +166,19 @@ def _top() -> Iterator[PartFault]:
 def _moved(part: str, article: str, expected: Mapping[str, ExpectedDetection]) -> Iterator[PartFault]:
     for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
         meaning = f"On its stand, {article} is displaced by this distance along table {axis}."
-        yield _fault(f"{part}.off.{axis}", meaning, partial(_shift, part, direction), expected[axis], _AWAY)
+        yield _fault(
+            f"{part}.off.{axis}", meaning, partial(scene.shift, part, direction), expected[axis], _AWAY
+        )
 
 
 def _pins() -> Iterator[PartFault]:
     for number in (1, 2):
         pin = f"pin{number - 1}"
         meaning = f"Aligning pin {number} is not in its holder."
-        yield _fault(f"pin.{number}.missing", meaning, partial(_missing, pin), detect.NO_PIN)
+        yield _fault(f"pin.{number}.missing", meaning, partial(scene.missing, pin), detect.NO_PIN)
         yield _fault(
             f"pin.{number}.thick", f"The radius of the nose of aligning pin {number} is larger by this amount.",
-            partial(_thick_nose, pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
+            partial(scene.thick_nose, pin), detect.NO_HOLE_FOR_PIN, Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
         )  # fmt: skip
 
 
@@ -201,20 +190,20 @@ def _screws(count: int) -> Iterator[PartFault]:
             return detect.if_used(number, ExpectedDetection(calls=texts))
 
         yield _fault(
-            f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", partial(_missing, screw),
-            calls(f"NO SCREW AT S{number}"),
+            f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", partial(scene.missing, screw),
+            calls(detect.NO_SCREW),
         )  # fmt: skip
         yield _fault(
             f"screw.{number}.burred",
             f"A burr increases the radius of the point of screw {number} by this amount; from .35 mm on, the "
             "screw enters no tapped hole.",
-            partial(_thick_point, screw), calls(detect.misfit_screw(number), loose),
+            partial(scene.thick_point, screw), calls(detect.misfit_screw(number), loose),
             Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
         yield _fault(
             f"screw.{number}.slotless",
             f"The head of screw {number} has no slot: the bit slips, and the screw enters no thread.",
-            partial(_slippery, f"screw_head{number - 1}"), calls(loose),
+            partial(scene.slippery, f"screw_head{number - 1}"), calls(loose),
         )  # fmt: skip
 
 
@@ -232,37 +221,60 @@ def _holes(count: int) -> Iterator[PartFault]:
             blocked = full = detect.NO_HOLE_FOR_PIN
         for name, meaning, breaks, expected, size in (
             (f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only to this depth below its mouth.",
-             partial(_block, hole, "plug"), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
+             partial(scene.block, hole, "plug"), blocked, Size(unit="mm", usual=2.0, limits=(0.0, 20.0))),
             (f"thread.{number}.scarred",
              f"An earlier screw was cross-threaded in tapped hole {number}, so that the next screw cross-threads "
-             "more easily.", _as_drawn,
+             "more easily.", scene.as_drawn,
              ExpectedDetection(
                  harmless="A screw that enters straight also seats in a scarred thread; the referee adds a caution."
              ), None),
             (f"thread.{number}.crosses",
-             f"Every screw in tapped hole {number} cross-threads, however straight it is.", _as_drawn,
+             f"Every screw in tapped hole {number} cross-threads, however straight it is.", scene.as_drawn,
              ExpectedDetection(calls=(high,)), None),
             (f"thread.{number}.stripped",
              f"The thread of tapped hole {number} is worn away: a screw slides in and clamps nothing.",
-             partial(_strip, hole), ExpectedDetection(calls=(loose, detect.driven_loose_screw(screw))), None),
+             partial(scene.strip, hole), ExpectedDetection(calls=(loose, detect.driven_loose_screw(screw))), None),
             (f"thread.{number}.full",
              f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
-             partial(_block, hole, "stub"), full, None),
+             partial(scene.block, hole, "stub"), full, None),
         ):  # fmt: skip
             yield _fault(name, meaning, breaks, detect.if_used(number, expected), size)
 
 
+def _stations(screws: int) -> Iterator[PartFault]:
+    """Yield faults of stations that have moved on the table, with the parts that wait in them."""
+    waiting, expected = [f"screw{k}" for k in range(screws)], detect.MOVED_DISPENSER
+    yield from _station(Station.DISPENSER, "dispenser with its screws", waiting, expected, usual=9.0)
+    yield from _station(
+        Station.TOP_STAND, "stand of the top, with the top,", ["top"], detect.MOVED_TOP_STAND, usual=20.0
+    )
+
+
+def _station(
+    station: Station, noun: str, waiting: Sequence[str], expected: ExpectedDetection, usual: float
+) -> Iterator[PartFault]:
+    def shift(direction: Point, spec: mujoco.MjSpec, away: float) -> None:
+        for body in (station, *waiting):
+            scene.shift(body, direction, spec, away)
+
+    for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
+        yield _fault(
+            f"{station}.moved.{axis}", f"The {noun} has moved by this distance along table {axis}.",
+            partial(shift, direction), expected, Size(unit="mm", usual=usual, limits=(-50.0, 50.0)),
+        )  # fmt: skip
+
+
 def _screwdriver_and_light() -> Iterator[PartFault]:
     yield _fault(
-        "screwdriver.missing", "The screwdriver is not in its rack.", partial(_missing, "driver"),
+        "screwdriver.missing", "The screwdriver is not in its rack.", partial(scene.missing, "driver"),
         ExpectedDetection(errors=(NOTHING_HELD,), calls=(detect.NO_DRIVER,), stages=(detect.DRIVE_FIRST,)),
     )  # fmt: skip
     yield _fault(
-        _SMOOTH, "The bit has no friction, so it cannot drive a screw into its thread.", partial(_slippery, "bit"),
+        _SMOOTH, "The bit has no friction, so it cannot drive a screw into its thread.", partial(scene.slippery, "bit"),
         ExpectedDetection(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
-        "light.shadow", "A card in the light casts the edge of its shadow across the base.", _shade,
+        "light.shadow", "A card in the light casts the edge of its shadow across the base.", scene.shade,
         detect.POOR_LIGHT,
     )  # fmt: skip
 
@@ -289,133 +301,3 @@ def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
     return frozenset(
         int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (thing, what)
     )
-
-
-# -- changes of the scene -----------------------------------------------------------------------------
-
-
-def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
-    """Change nothing: threads have no shapes in the scene; see `bad_threads`."""
-
-
-def _missing(part: str, spec: mujoco.MjSpec, _: float) -> None:
-    x, y = GONE[part]
-    spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + OVER_TRAY_M)
-
-
-def _shift(part: str, direction: Point, spec: mujoco.MjSpec, away: float) -> None:
-    spec.body(part).pos[:2] += np.multiply(direction, away)
-
-
-def _plate_centre() -> Point:
-    return dimensions()("base.plate.centre_x"), 0.0
-
-
-def _reverse(spec: mujoco.MjSpec, part: str, middle: Point) -> None:
-    _turn(spec, part, middle, _yaw(spec, part) + math.pi)
-
-
-def _turn(spec: mujoco.MjSpec, part: str, middle: Point, yaw: float) -> None:
-    """Turn a part about the vertical through one of its points (m) until its yaw is `yaw` (rad). The tilt of
-    the part does not change."""
-    body = spec.body(part)
-    angle = yaw - _yaw(spec, part)
-    w, *vector = body.quat
-    arm = np.array([*middle, 0.0])
-    away = arm + 2 * np.cross(vector, np.cross(vector, arm) + w * arm)  # from the origin to that point, in W
-    body.pos[:] += away - rotation_z(angle) @ away
-    c, s, (x, y, z) = math.cos(angle / 2), math.sin(angle / 2), vector
-    body.quat[:] = (c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w)
-
-
-def _yaw(spec: mujoco.MjSpec, part: str) -> float:
-    w, _, _, z = spec.body(part).quat
-    return 2 * math.atan2(z, w)
-
-
-def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
-    """Multiply the gasket's thickness by a factor."""
-    gasket = spec.body("gasket")
-    for mesh in {geom.meshname for geom in gasket.geoms if geom.meshname}:
-        spec.mesh(mesh).scale[2] *= factor
-    for geom in gasket.geoms:
-        geom.pos[2] *= factor
-        if not geom.meshname:
-            geom.size[2] *= factor
-    for ball in spec.body("gasket_lands").geoms:
-        ball.pos[2] *= factor
-        ball.size[0] *= factor
-    for hole in gasket.sites:
-        hole.pos[2] *= factor
-
-
-def _tear(spec: mujoco.MjSpec, side: float) -> None:
-    """Remove a square with the side `side` (m) from the gasket, with the screw hole in its middle and its land."""
-    from handeye.tasks.water_pump.scene.solids import TORN_HOLE, gasket  # slow to import, and rarely needed
-
-    vertices, triangles = gasket(sum(site.name.startswith("gasket_hole") for site in spec.sites), side)
-    sheet = spec.mesh("gasket")
-    sheet.uservert, sheet.userface = vertices.ravel().tolist(), triangles.ravel().tolist()
-    land = spec.body("gasket_lands").geoms[TORN_HOLE]
-    land.contype = land.conaffinity = 0
-
-
-def _slippery(shape: str, spec: mujoco.MjSpec, _: float) -> None:
-    """Remove the friction of a shape in all its contacts. By default, MuJoCo would use the greater friction of
-    the two shapes."""
-    geom = spec.geom(shape)
-    geom.friction[:], geom.priority = 0.0, _FOREMOST
-
-
-def _strip(hole: int, spec: mujoco.MjSpec, _: float) -> None:
-    """Strip the thread of a hole, so that a screw slides and turns freely in it."""
-    spec.equality(f"thread{hole}").active = False
-
-
-def _chip(spec: mujoco.MjSpec, high: float) -> None:
-    """Put a chip under the end of the top that is farther from its hub, and lift the top onto the chip."""
-    d = dimensions()
-    (x, y), stand = d.all("top_stand.grasp"), d("top_stand.height")
-    chip = spec.body("top_stand").add_geom(
-        spec.find_default("solid"), name="chip", type=spec.geom("hub").type, material="steel"
-    )
-    chip.pos[:], chip.size[:] = (x - 0.07, y, stand + high / 2), (0.008, 0.02, high / 2)
-    spec.body("top").pos[2] += high
-
-
-def _shade(spec: mujoco.MjSpec, _: float) -> None:
-    """Hang a card half way between the lamp and the base, so that its shadow covers the base up to the middle."""
-    light, base = next(each for each in spec.lights if each.name == "key").pos, spec.body("base").pos
-    card = spec.worldbody.add_geom(
-        name="card", type=spec.geom("hub").type, contype=0, conaffinity=0, group=2, rgba=[0.2, 0.2, 0.2, 1.0]
-    )
-    card.pos[:] = (light + base) / 2 + (_CARD_HALF_M, 0.0, 0.0)
-    card.size[:] = _CARD_HALF_M, _CARD_HALF_M, 0.0005
-
-
-def _thick_nose(pin: str, spec: mujoco.MjSpec, more: float) -> None:
-    wide = 1 + more / dimensions()("pin.nose_radius")
-    drawn = spec.mesh("pin_nose")  # which the other pin keeps
-    spec.add_mesh(name=f"{pin}_nose", uservert=list(drawn.uservert), scale=[wide, wide, 1.0])
-    for geom in spec.body(pin).geoms:
-        if geom.meshname == "pin_nose":
-            geom.meshname = f"{pin}_nose"
-
-
-def _thick_point(screw: str, spec: mujoco.MjSpec, more: float) -> None:
-    point = next(geom for geom in spec.body(screw).geoms if geom.fromto[2] == 0.0)
-    point.size[0] += more
-
-
-def _block(hole: int, plug_name: str, spec: mujoco.MjSpec, depth: float) -> None:
-    """Fill the bottom of a hole with metal up to a depth (m) below its mouth, so that no screw in its thread
-    can go deeper."""
-    x, y, mouth = spec.site(f"base_hole{hole}").pos
-    floor = base_top() - dimensions()("base.screw_holes.depth")
-    plug = spec.body("base").add_geom(
-        spec.find_default("face"), name=f"{plug_name}{hole}", type=spec.geom("bit").type
-    )
-    plug.fromto[:] = x, y, floor, x, y, mouth - depth
-    plug.size[0] = dimensions()("base.screw_holes.radius")
-    slide = spec.joint(f"thread_slide{hole}")
-    slide.range[0], slide.solref_limit[:], slide.solimp_limit[:] = -depth, *METAL

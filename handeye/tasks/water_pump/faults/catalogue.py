@@ -35,6 +35,8 @@ _TRIED: Final = {
     "gasket": ("missing", "doubled", "off.x", "turned", "dropped", "reversed", "torn", "removed"),
     "top": ("missing", "off.y", "tilted", "dropped", "reversed", "removed"),
     "screw": ("3.missing", "1.burred", "2.slotless", "2.loose", "4.loosened", "5.removed"),
+    "dispenser": ("moved.y",),
+    "top_stand": ("moved.y",),
     "rotor": ("jammed", "stops", "turned", "lifted"),
     "driver": ("fallen", "raised"),
     "arm": ("pushed.y",),

@@ -279,7 +279,7 @@ def _screwdriver() -> Iterator[DeviceFault]:
             calls=(
                 "SCREW {number} IS NOT ON THE BIT",
                 "SCREW {number} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE",
-                "NO SCREW AT S{number}",  # the screw is fetched once more, and may have moved by then
+                detect.NO_SCREW,  # the screw is fetched once more, and may have moved by then
             ),
             harmless="A screw weighs .06 N, a hundredth of the magnet's usual force: a magnet that carries a screw "
                 "also holds it straight.",

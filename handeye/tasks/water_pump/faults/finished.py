@@ -12,9 +12,9 @@ from handeye.cell.physics_stepper import wake
 from handeye.core.errors import FORCE_WRONG, GASKET_WRONG, NOTHING_HELD, SERVO_LAG, WRONG_HEIGHT
 from handeye.core.faults import ExpectedDetection, Size
 from handeye.tasks.water_pump.faults import shared_expectations as detect
-from handeye.tasks.water_pump.faults.before import METAL
 from handeye.tasks.water_pump.faults.declaration import declared
 from handeye.tasks.water_pump.faults.mishap import ON_BASE_M, Mishap, MishapFault, MishapState, Scene, always
+from handeye.tasks.water_pump.faults.scene_changes import METAL
 
 LAST_STAGE: Final = 12
 LATER_S: Final = 150.0

@@ -12,8 +12,8 @@ from handeye.cell.physics_stepper import wake
 from handeye.cell.threads import Threads
 from handeye.core.pose import Array
 from handeye.core.record import Record
-from handeye.tasks.water_pump.faults.before import GONE, OVER_TRAY_M
 from handeye.tasks.water_pump.faults.declaration import PumpFault
+from handeye.tasks.water_pump.faults.scene_changes import GONE, OVER_TRAY_M
 
 ON_BASE_M: Final = 0.15  # m, horizontally from the base's middle; a higher part within it stands on the base
 _STACK: Final = ("gasket", "top", "pin0", "pin1")
