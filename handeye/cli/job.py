@@ -13,8 +13,9 @@ from handeye.cli.common import CALLED, note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import PipedLines, typed_already, typed_lines
 from handeye.cli.reports import write_report
+from handeye.cli.saving import OptionalRecord, StageKeeper
 from handeye.core.entries import entry_named
-from handeye.core.errors import CannotWrite, InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import size
 from handeye.debugger.ask import Ask
@@ -23,9 +24,8 @@ from handeye.debugger.command_table import commands_of
 from handeye.debugger.formatting import MAX_STEPS_SHOWN
 from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
-from handeye.execution.servo import Halted, ServoPeriod
+from handeye.execution.servo import Halted
 from handeye.judge.finding import all_right
-from handeye.program.events import AnyEvent
 from handeye.results.cautions import cautions, losses
 from handeye.results.finishing import finished, keep_outcome
 from handeye.results.judging import findings
@@ -39,7 +39,6 @@ from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import attend, parse_policy
 from handeye.runs.runner import Runner
-from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
 from handeye.runs.unnamed_runs import UnnamedRun, bytes_of, held, runs_folder
@@ -81,45 +80,6 @@ class Job:
     then: Sequence[Then] = ()
     """What to do next each time the referee accepts the work, in order."""
     planning_cpu_s: float = 0.0
-
-
-class _StageKeeper(Observer):
-    """Keeps, in a folder, the states at the beginnings of stages."""
-
-    def __init__(self, folder: Path, setup: Setup) -> None:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise CannotWrite(f"the folder {folder} cannot be created: {error.strerror}") from None
-        self._kept = CheckpointStore(folder)
-        self._kept.claim(setup)
-
-    def checkpoint(self, checkpoint: Checkpoint) -> None:
-        if checkpoint.between_stages and not checkpoint.touched:
-            self._kept.save(checkpoint)
-
-
-class _Forgiving(Observer):
-    """Saves a run for which the user named no folder. If the disk is full, the run continues without being saved."""
-
-    def __init__(self, work: "_Work") -> None:
-        self._work = work
-
-    def event(self, event: AnyEvent) -> None:
-        with self._work.keeping() as folder:
-            folder.event(event)
-
-    def tick(self, period: ServoPeriod) -> None:
-        with self._work.keeping() as folder:
-            folder.tick(period)
-
-    def undone(self, events: int) -> None:
-        with self._work.keeping() as folder:
-            folder.undone(events)
-
-    def checkpoint(self, checkpoint: Checkpoint) -> None:
-        with self._work.keeping() as folder:
-            folder.checkpoint(checkpoint)
 
 
 class _Work:
@@ -242,9 +202,9 @@ class _Work:
             if isinstance(folder, RunFolder):
                 again = self.job.folder is not None
                 folder.watch(runner, self.job.start, again=again, meter=self.meter)
-                looking.append(folder if self.unnamed is None else _Forgiving(self))
+                looking.append(folder if self.unnamed is None else OptionalRecord(self.keeping))
         if self.job.checkpoints is not None:
-            looking.append(_StageKeeper(self.job.checkpoints, self.job.start.setup))
+            looking.append(StageKeeper(self.job.checkpoints, self.job.start.setup))
         if self.job.server is not None:
             from handeye.view.moment import Newest
 

@@ -19,15 +19,14 @@ from handeye.cli.common import (
     note,
 )
 from handeye.cli.programs import check_task, is_program, made_known, plan_at, plan_or_own
+from handeye.cli.run_limits import at_stage, check_ahead, check_order, checkpoint_folder, stops_of
 from handeye.cli.trace_files import RunOrCheckpoint, run_or_newest
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.core.errors import BadArgument, CannotWrite
+from handeye.core.errors import BadArgument
 from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
-    from handeye.runs.advance import AnyStop
-    from handeye.runs.snapshot import Checkpoint
-    from handeye.runs.system import Listing
+    pass
 
 Then = Literal["dismantle", "assemble"]
 To = Annotated[str | None, Parameter(help="Pause after this stage.")]
@@ -207,12 +206,12 @@ def run(
     else:
         setup = in_world_of(world_of, plan, judged=judge)
     start = Checkpoint(setup=setup)
-    stops = _stops(plan.program, to=to if stage is None else stage, until=until, breaks=breaks or [])
-    _check_order(plan.program, first, to)
-    kept = _checkpoint_folder(checkpoints, out)
+    stops = stops_of(plan.program, to=to if stage is None else stage, until=until, breaks=breaks or [])
+    check_order(plan.program, first, to)
+    kept = checkpoint_folder(checkpoints, out)
     if stage is not None or first is not None:
-        start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
-    _check_ahead(start, stops, breaks or [])
+        start = at_stage(start, (first if stage is None else stage) or "", kept, out)
+    check_ahead(start, stops, breaks or [])
     if checkpoints is not None and kept is not None and not kept.exists():
         note(f"created {kept} for the checkpoints")
     return work(
@@ -292,9 +291,9 @@ def resume(
     else:
         start = read_checkpoint(path)
     check_task(wanted_task, start.setup.task, path)
-    stops = _stops(listing_of(start.setup), to=to, until=until, breaks=breaks or [])
-    _check_order(listing_of(start.setup), start.stage, to)
-    _check_ahead(start, stops, breaks or [])
+    stops = stops_of(listing_of(start.setup), to=to, until=until, breaks=breaks or [])
+    check_order(listing_of(start.setup), start.stage, to)
+    check_ahead(start, stops, breaks or [])
     wanted = start.setup.judged if judge is None else judge
     if folder is not None and not step and has_ended(folder.path, start, judged=wanted):
         note(f"the run in {folder.path} has ended: there is nothing to resume")
@@ -331,82 +330,3 @@ def _check_live(live: bool, step: bool) -> None:
     """Raises InvalidInput for --live without --step."""
     if live and not step:
         raise BadArgument("--live needs --step: it shows the lines of a stepped run as they begin")
-
-
-def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
-    """The conditions at which a run ends. Breakpoints are not among them, but are parsed here, so that an invalid
-    one is refused before anything moves.
-    """
-    from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
-    from handeye.runs.advance import AfterStage, BeforeStep
-
-    for text in breaks:
-        breakpoint(text, listing)
-    stops: list[AnyStop] = []
-    if to is not None:
-        number = stage_number(to, listing)
-        stops.append(AfterStage(stage=number, name=listing.stages[number]))
-    if until is not None:
-        stops.append(BeforeStep(steps=(step_number(until, listing),)))
-    return stops
-
-
-def _check_order(listing: "Listing", first: str | None, last: str | None) -> None:
-    """Raises InvalidInput if a run that begins with stage `first` cannot end with stage `last`."""
-    from handeye.debugger.breakpoints import stage_number
-
-    if first is None or last is None:
-        return
-    stages = listing.stages
-    begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
-    if stages.index(end) < stages.index(begin):
-        raise BadArgument(f"the run would begin with “{begin}”, which comes after its last stage, “{end}”")
-
-
-def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
-    """Print notes on breakpoints that a run cannot reach from its start. Raises Refused if the run cannot reach the
-    place where it is to end.
-    """
-    from handeye.debugger.breakpoints import breakpoint, is_ahead
-    from handeye.runs.advance import BeforeStep
-    from handeye.runs.systems import listing_of
-
-    for stop in stops:
-        if isinstance(stop, BeforeStep) and not is_ahead(stop, start):
-            raise BadArgument(f"the run never reaches step {stop.step} from where it starts")
-    for text in breaks:
-        if not is_ahead(breakpoint(text, listing_of(start.setup)), start):
-            note(f"the run never reaches {text} from where it starts")
-
-
-def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
-    """The folder that is searched for checkpoints: the given folder, or the folder of checkpoints in the folder of
-    a run.
-    """
-    from handeye.runs.folder import CHECKPOINTS
-
-    folder = checkpoints or out
-    if folder is not None and (checkpoints is None or (folder / CHECKPOINTS).is_dir()):
-        return folder / CHECKPOINTS
-    return folder
-
-
-def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | None) -> "Checkpoint":
-    """The checkpoint from which the fewest steps lead to a stage."""
-    from handeye.debugger.breakpoints import stage_number
-    from handeye.runs.checkpoint_store import CheckpointStore
-    from handeye.runs.folder import EVENTS
-    from handeye.runs.systems import listing_of
-
-    if out is not None and (out / EVENTS).exists():
-        raise CannotWrite(f"{out} holds a run; give it as --checkpoints, and another folder as --out")
-    listing = listing_of(start.setup)
-    number = stage_number(name, listing)
-    wanted = listing.stages[number]
-    found = None if kept is None else CheckpointStore(kept).for_stage(start.setup, number)
-    if number > 0 and (found is None or found.stage != wanted):
-        reached = "the beginning" if found is None else f"“{found.stage}”"
-        note(
-            f"no checkpoint of “{wanted}” for this plan and world: running the earlier steps, from {reached}"
-        )
-    return found or start
