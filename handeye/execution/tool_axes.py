@@ -112,7 +112,7 @@ class ToolAxes(Axes):
         self._go_on(self._motion)
 
     def _finish(self) -> None:
-        """Process the readings of the last servo period if it has passed."""
+        """If the servo period begun by the last `put` has passed, process its readings."""
         if self._motion is not None and self._drive.cell.clock.now > self._put_at:
             self._go_on(self._motion)
 

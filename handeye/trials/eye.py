@@ -57,7 +57,7 @@ def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
     def summary(rows: Sequence[EyeRow]) -> list[str]:
         known = attempts(rows)
         lines = trial.count(known).lines if known else ()
-        return [*lines, f"{sum(row.cpu_s for row in rows) / max(1, len(rows)):.1f} CPU seconds each"]
+        return [*lines, f"{sum(row.cpu_s for row in rows) / max(1, len(rows)):.1f} CPU seconds per attempt"]
 
     return replace(EYE, kind=f"eye {name}", more=more, summary=summary)
 

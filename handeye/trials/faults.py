@@ -255,4 +255,4 @@ FAULTS: Final = Sweep(
     summary=_summary,
     more=_more,
 )  # fmt: skip
-"""Sweep of a plan executed with one fault each."""
+"""Sweep of runs of a plan, with one fault in each run."""
