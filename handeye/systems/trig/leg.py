@@ -17,13 +17,12 @@ import msgspec
 import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.core.errors import BadFile, InvalidInput, Refused
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array, hand
 from handeye.core.record import Record, Vector3
 from handeye.core.source import read_source
 from handeye.core.units import INCH
-from handeye.execution.state import ReversalOrder
 from handeye.execution.tool_axes import ToolAxes
 from handeye.machines.stanford_tool import LIMITS
 from handeye.planfile.store import written_digest
@@ -228,13 +227,6 @@ class TaughtLeg(ToolLeg, RunningJob):
         self.tool.resume()
         self._use_arm()
         self.job.arm.remember(state.arm)
-
-    @property
-    def executed(self) -> Sequence[Any]:
-        return ()  # the forces met on the way are kept, but the way back was never tried on this arm
-
-    def reverse(self, undoing: ReversalOrder) -> None:
-        raise Refused("a leg of TRIG cannot be undone in a relay yet")
 
     @property
     def shown(self) -> Mapping[str, Any]:
