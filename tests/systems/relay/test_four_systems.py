@@ -125,7 +125,9 @@ def test_the_check_names_the_lines_that_a_language_has_no_words_for(tmp_path: Pa
 def test_undoing_stops_at_a_leg_that_cannot_be_undone(run: Run) -> None:
     kept = run[2]
     again = Runner(on_disk(kept[max(kept)]))
-    with pytest.raises(Refused, match=r"`lift it`, which lift\.ml has done, cannot be undone; the arm can undo"):
+    with pytest.raises(
+        Refused, match=r"`lift it`, which lift\.ml has done, cannot be undone; the arm can undo"
+    ):
         again.order_reversal(0)
     own = len(again.system.executed) - 1
     again.order_reversal(own)
