@@ -92,6 +92,7 @@ CHEAP = {
     "mcp": "mcp --folder ✓ --bad",
     "relay": "relay check ✓.relay",
     "trials chaos": "trials chaos --schedule ✓",
+    "trials relay": "trials relay ✓.relay",
     "cache": "cache",
     "bench timing": "bench timing --set ✓",
     "bench insertion": "bench insertion ✓",

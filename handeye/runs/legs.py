@@ -55,6 +55,12 @@ class RunningLeg(RunningSystem):
         this program does not know.
         """
 
+    def take_back(self, station: StationMemory) -> None:
+        """Take the arm back from the program of the next leg, which has undone its steps. The arm stands about where
+        this program left it. Only a program that can undo its own steps has to do so.
+        """
+        raise NotImplementedError
+
     @property
     @abstractmethod
     def station(self) -> StationMemory:
@@ -66,6 +72,7 @@ class LegSystem(ABC):
 
     system: str  # its entry's name
     state: type[SystemState]  # of its running legs
+    undoes = False  # True: its legs can be undone
     stages_in_text = False  # True: the text itself is divided into stages; False: it is one leg
     words: frozenset[str] | None = None
     """Operations (`program/operations.py`) for which the language has words; None: for all of them. `Restore` stands

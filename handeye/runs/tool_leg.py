@@ -1,6 +1,7 @@
 """What all legs share that move the arm as a machine of tool axes (`handeye/execution/tool_axes.py`)."""
 
-from typing import Final
+from collections.abc import Sequence
+from typing import Any, Final
 
 import numpy as np
 from msgspec import field
@@ -8,15 +9,20 @@ from msgspec import field
 from handeye.arm.model import ArmModel
 from handeye.cell.compiled_arm import CompiledArm
 from handeye.cell.simulated import SimulatedCell
-from handeye.core.errors import BadFile
+from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import MutableRecord
+from handeye.core.record import Record
 from handeye.execution.drive import ArmDrive
 from handeye.execution.hand_actions import SHUT
 from handeye.execution.state import DriveState
 from handeye.execution.tool_axes import ToolAxes
+from handeye.ports.axes import Channel
+from handeye.program.events import AnyEvent
+from handeye.program.system_state import SystemState
 from handeye.program.world_model import rounded_place
 from handeye.runs.hand_over import HandOver, Kind, StationMemory, place_now
-from handeye.runs.system import RunCallbacks
+from handeye.runs.legs import Lack, LegSystem, RunningLeg
+from handeye.runs.system import ExecutedStep, RunCallbacks
 from handeye.touch.senses import EMPTY_GAP
 
 _SIZE: Final = 7  # axes of the tool
@@ -111,3 +117,52 @@ class ToolArm:
             load=load if holds else 0.0,
             named=named,
         )
+
+
+class ToolLeg(RunningLeg):
+    """A program that moves the tool of the arm in its leg. The whole program is one leg."""
+
+    tool: ToolArm
+
+    @property
+    def cell(self) -> SimulatedCell:
+        return self.tool.cell
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return tuple(joint.name for joint in self.tool.arm.joints)
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return ()
+
+    @property
+    def time(self) -> float:
+        return self.tool.time
+
+    @property
+    def station(self) -> StationMemory:
+        return self.tool.station
+
+    def begin(self) -> Sequence[AnyEvent]:
+        raise Refused(
+            "the first leg of a relay must be one of the system of 1973, which measures the joints of the arm"
+        )
+
+    def stand_at(self, stage: str) -> None:
+        """Do nothing: the program begins when it takes the arm over."""
+
+
+class ToolLegs(LegSystem):
+    """Legs of a system that moves the tool of the arm. A program is one leg."""
+
+    language: str  # its name in sentences
+
+    def steps(self, plan: Any, stage: str) -> range:
+        return range(len(self.listing(plan).steps))
+
+    def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
+        return ()
+
+    def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
+        return [Lack(1, f"a program in {self.language} can do only one leg")] if earlier else []

@@ -15,7 +15,7 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
-_OUTCOMES: Final = {0: "right", 1: "stopped", 3: "silent"}
+OUTCOMES: Final = {0: "right", 1: "stopped", 3: "silent"}
 
 
 class JobRow(TrialRow, frozen=True, kw_only=True):
@@ -64,7 +64,7 @@ class JobWork(Generic[J]):
             self.row(
                 trial=case.trials[0],
                 seed=case.seed,
-                result=_OUTCOMES[result.exit_code],
+                result=OUTCOMES[result.exit_code],
                 message=result.message if not result.completed else "",
                 checks=result.referee,
                 figures=result.figures or {},

@@ -23,19 +23,18 @@ from msgspec.structs import replace
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.errors import BadFile, Refused
 from handeye.core.pose import Array
-from handeye.core.record import Record
 from handeye.core.source import read_source
 from handeye.core.units import INCH
 from handeye.execution.tool_axes import ToolAxes
 from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel, Outputs
 from handeye.ports.clock import Clock
-from handeye.program.events import AnyEvent, SystemEvent
+from handeye.program.events import SystemEvent
 from handeye.program.system_state import SystemState
 from handeye.runs.hand_over import HandOver, StationMemory
-from handeye.runs.legs import Lack, LegSystem, RunningLeg, Use
+from handeye.runs.legs import Lack, Use
 from handeye.runs.setup import Setup
-from handeye.runs.system import ExecutedStep, RunCallbacks
-from handeye.runs.tool_leg import ToolArm, ToolMemory
+from handeye.runs.system import RunCallbacks
+from handeye.runs.tool_leg import ToolArm, ToolLeg, ToolLegs, ToolMemory
 from handeye.systems.ml import ENTRY
 from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.machine.rectilinear import axes_of
@@ -51,7 +50,7 @@ from handeye.systems.ml.machine.spec import (
 )
 from handeye.systems.ml.realtime.machine import Machine
 from handeye.systems.ml.run.hardware import Hardware, Tell
-from handeye.systems.ml.run.plan import MlPlan, listing, sound
+from handeye.systems.ml.run.plan import MlPlan, sound
 from handeye.systems.ml.run.running import RunningMl
 from handeye.systems.ml.run.state import MlState
 
@@ -189,11 +188,10 @@ class LegHardware(Hardware):
         raise Refused("the cell has no interlocks that ML could sense")
 
 
-class MlLeg(RunningMl, RunningLeg):
+class MlLeg(ToolLeg, RunningMl):
     """A program in ML during its leg."""
 
     def __init__(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> None:
-        self._common = cell
         self.tool = ToolArm(cell, STANFORD, around)
         super().__init__(setup, around)
         plain = self._state
@@ -211,33 +209,8 @@ class MlLeg(RunningMl, RunningLeg):
         return hardware.axes
 
     @property
-    def cell(self) -> "SimulatedCell":
-        return self._common
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        return tuple(joint.name for joint in STANFORD.joints)
-
-    @property
-    def channels(self) -> tuple[Channel, ...]:
-        return ()
-
-    @property
-    def time(self) -> float:
-        return self.tool.time
-
-    @property
-    def station(self) -> StationMemory:
-        return self.tool.station
-
-    @property
     def figures(self) -> Mapping[str, float]:
         return {}
-
-    def begin(self) -> Sequence[AnyEvent]:
-        raise Refused(
-            "the first leg of a relay must be one of the system of 1973, which measures the joints of the arm"
-        )
 
     def _watch(self) -> None:
         """The drive reports every servo period."""
@@ -248,9 +221,6 @@ class MlLeg(RunningMl, RunningLeg):
         super()._tell(replace(event, time=self.time))
 
     # -- taking over ------------------------------------------------------------------------------------------
-
-    def stand_at(self, stage: str) -> None:
-        """The whole program is one leg, which begins when it takes the arm over."""
 
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
         self._held = None
@@ -345,10 +315,10 @@ def _taken(plan: MlPlan) -> dict[str, int]:
     }
 
 
-class MlLegs(LegSystem):
+class MlLegs(ToolLegs):
     """Legs of ML. A program is one leg."""
 
-    system = ENTRY.name
+    system, language = ENTRY.name, "ML"
     state = MlLegState
     words = frozenset({
         "Move", "Change", "Test", "Jump", "Open", "Close", "Search", "Advance", "Countdown", "Assign", "Save", "Here",
@@ -360,9 +330,6 @@ class MlLegs(LegSystem):
         sound(plan)
         return plan
 
-    def steps(self, plan: Any, stage: str) -> range:
-        return range(len(listing(plan).steps))
-
     def reads(self, plan: Any, stage: str) -> Sequence[Use]:
         return [Use(name, "height", 1) for name in sorted(_given(plan))]
 
@@ -371,7 +338,7 @@ class MlLegs(LegSystem):
 
     def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
         motors = {motor.number for motor in SPEC.motors}
-        found = [Lack(1, "a program in ML can do only one leg")] if earlier else []
+        found = [*super().lacks(plan, stage, earlier)]
         for number, line in plan.lines.items():
             statement = line.statement
             if statement.code in ("MOTOR", "DMOTOR") and str(statement).split()[1].isdigit():
@@ -380,9 +347,6 @@ class MlLegs(LegSystem):
             elif statement.code in ("MOVE", "DMOVE", "GOPOINT"):
                 found.append(Lack(number, f"{statement.code} moves all motors of the rectilinear arm"))
         return found
-
-    def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
-        return ()
 
     def build(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> MlLeg:
         return MlLeg(setup, around, cell)

@@ -14,7 +14,9 @@ ENTRY = Entry(
     },
     commands="""
 relay = handeye.systems.relay.cli.commands:relay: Let programs of several systems do the stages of one pump, one after the other, on the same arm.
+trials relay = handeye.systems.relay.cli.commands:relay_trials: Run a relay in many worlds: success rate, and time and force of each leg.
 """,  # noqa: E501 - a command a line
+    sweeps={"relay": "handeye.systems.relay.trials:RELAYS"},
     languages={".relay": "handeye.systems.relay.language:LANGUAGE"},
     events="handeye.systems.relay.happenings:EVENTS",
 )

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import msgspec
 
+from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile, Refused
 from handeye.execution.state import ReversalOrder
 from handeye.program.system_state import SystemState
-from handeye.systems.relay.plan import RelayPlan, legs, listing
+from handeye.systems.relay.plan import Leg, RelayPlan, legs, listing
 from handeye.systems.relay.state import RelayCore
 
 
@@ -53,20 +54,38 @@ def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
     return found
 
 
-def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder:
-    """Return an order to reverse steps, in the numbers of the program that has the arm. Raises Refused if it would
-    reverse steps of another program.
-    """
-    here = legs(plan)[last_leg(state)]
-    others = [leg for leg in legs(plan)[: here.index] if leg.file != here.file]
-    own = legs(plan)[others[-1].index + 1 if others else 0]
+def own_legs(plan: RelayPlan, state: RelayCore) -> tuple[Leg, ...]:
+    """Return the leg that has the arm, after the legs directly before it that the same program has done."""
+    all_legs, here = legs(plan), last_leg(state)
+    first = here
+    while first and all_legs[first - 1].file == all_legs[here].file:
+        first -= 1
+    return all_legs[first : here + 1]
+
+
+def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> None:
+    """Raise Refused if an order would undo steps of a leg that cannot be undone, or no steps at all."""
+    passed = legs(plan)[: last_leg(state) + 1]
     done = executed(plan, state)
-    kept = sum(each.step < own.first for each in done)
-    if undoing.left < kept:
-        raise Refused(
-            f"only the steps of {here.file} can be undone here; {others[-1].file} did the leg before them"
-        )
+    fast = next((leg for leg in reversed(passed) if not leg.system.undoes), None)
+    if fast is not None and undoing.left < sum(each.step < fast.numbers.stop for each in done):
+        later = passed[fast.index + 1 :]
+        back_to = f"; the arm can undo its steps back to the stage {quoted(later[0].stage)}" if later else ""
+        raise Refused(f"the leg {quoted(fast.stage)}, which {fast.file} has done, cannot be undone{back_to}")
     if undoing.left >= len(done):
         raise Refused("there is nothing to undo")
-    whole = len(here.system.executed(here.plan, memories(plan, state)[here.file]))
-    return msgspec.structs.replace(undoing, left=whole - (len(done) - undoing.left))
+
+
+def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
+    """Return the part of an order that the program with the arm can execute, in its own numbers: to undo its steps
+    since it took the arm over, or fewer. None if it has no such steps.
+    """
+    own, done = own_legs(plan, state), executed(plan, state)
+    before = sum(each.step < own[0].first for each in done)
+    left = max(undoing.left, before)
+    if left >= len(done):
+        return None
+    whole = len(own[0].system.executed(own[0].plan, memories(plan, state)[own[0].file]))
+    return msgspec.structs.replace(
+        undoing, left=whole - (len(done) - left), halts=undoing.halts or left > undoing.left
+    )

@@ -24,6 +24,8 @@ from handeye.program.events import (
     StageStarted,
     StepFinished,
     StepStarted,
+    UndoEnded,
+    UndoOrdered,
 )
 from handeye.program.system_state import SystemState
 from handeye.runs.legs import RunningLeg
@@ -31,7 +33,16 @@ from handeye.runs.setup import Setup
 from handeye.runs.system import RunCallbacks, RunningSystem, Settable
 from handeye.runs.systems import system_named
 from handeye.systems.relay import ENTRY
-from handeye.systems.relay.executed import LegStep, executed, fits, last_leg, memories, own_order
+from handeye.systems.relay.executed import (
+    LegStep,
+    check_order,
+    executed,
+    fits,
+    last_leg,
+    memories,
+    own_legs,
+    own_order,
+)
 from handeye.systems.relay.happenings import LegStarted, of_leg
 from handeye.systems.relay.plan import Leg, RelayPlan, legs, listing
 from handeye.systems.relay.state import RelayCore
@@ -168,6 +179,11 @@ class RunningRelay(RunningSystem):
         self._cell.begin_stage(state.leg + 1)
         undoing = self._undoing
         self._running.step()
+        if undoing and not self._undoing and self._goes_further_back:
+            self._take_back()
+            self._go_back()
+            return
+        self._state.undoing = self._state.undoing if self._undoing else None
         self._go_on(undoing=undoing)
 
     def answer(self, choice: Choice) -> None:
@@ -175,6 +191,7 @@ class RunningRelay(RunningSystem):
             self._answer_refusal(choice)
             return
         self._running.answer(choice)
+        self._state.undoing = self._state.undoing if self._undoing else None
         self._go_on()
 
     def _go_on(self, *, undoing: bool = False) -> None:
@@ -194,6 +211,7 @@ class RunningRelay(RunningSystem):
             place = own.at if own.at is not None else own.onward
             same = (leg.index for leg in self._legs if leg.file == self.leg.file and place in leg.steps)
             state.leg = next(same, state.leg)
+            del state.records[state.leg :]
         state.stopped = own.stopped
         ended = own.at is None and (own.stopped is not None or self._turned)
         state.at = None if ended else self.leg.number(own.at)
@@ -214,7 +232,7 @@ class RunningRelay(RunningSystem):
     def _leave(self) -> None:
         """Set the brakes, and make the record for the next leg."""
         state = self._state
-        state.record = self._running.leave(state.record)
+        state.records.append(self._running.leave(state.record))
         state.station = self._running.station
         if self.leg.onward is not None:
             before = self.leg
@@ -282,6 +300,8 @@ class RunningRelay(RunningSystem):
             self._around.emit(StageFinished(time=self.time, stage=self.leg.stage, status="skipped"))
             state.stage = None
             if self.leg.onward is not None:
+                assert state.record is not None
+                state.records.append(state.record)
                 state.leg += 1
 
     def settables(self) -> Mapping[str, Settable]:
@@ -297,10 +317,36 @@ class RunningRelay(RunningSystem):
         return executed(self._plan, self._state)
 
     def reverse(self, undoing: ReversalOrder) -> None:
-        order = own_order(self._plan, self._state, undoing)
+        check_order(self._plan, self._state, undoing)
+        self._state.undoing = undoing
+        self._around.emit(
+            UndoOrdered(time=self.time, left=undoing.left, halts=undoing.halts, asked_by=undoing.asked_by)
+        )
         self._state.leg, self._state.entered = last_leg(self._state), True
+        self._go_back()
+
+    def _go_back(self) -> None:
+        """Let the program that has the arm undo its steps, or the next program before it that has any."""
+        assert self._state.undoing is not None
+        while (order := own_order(self._plan, self._state, self._state.undoing)) is None:
+            self._take_back()
         self._running.reverse(order)
         self._mirror(undoing=True)
+
+    def _take_back(self) -> None:
+        """Give the arm back to the program that had it before."""
+        state = self._state
+        self._running.leave(state.record)
+        station = self._running.station
+        state.leg = own_legs(self._plan, state)[0].index - 1
+        del state.records[state.leg :]
+        self._running.take_back(station)
+
+    @property
+    def _goes_further_back(self) -> bool:
+        """True if steps of earlier programs remain to be undone."""
+        order = self._state.undoing
+        return order is not None and len(self.executed) > order.left
 
     # -- ending -------------------------------------------------------------------------------------------
 
@@ -328,7 +374,16 @@ class RunningRelay(RunningSystem):
     # -- events -------------------------------------------------------------------------------------------
 
     def _retell(self, event: AnyEvent) -> None:
-        """Emit an event of a program with the numbers and stages of the relay."""
+        """Emit an event of a program with the numbers and stages of the relay. An order that several programs execute
+        is ordered once, and ends once.
+        """
+        if isinstance(event, UndoOrdered):
+            if self._state.undoing is not None:
+                return
+            own = self.leg.system.executed(self.leg.plan, self._running.state)
+            event = msgspec.structs.replace(event, left=event.left + len(self.executed) - len(own))
+        if isinstance(event, UndoEnded) and self._goes_further_back:
+            return
         if isinstance(event, StageStarted | StageFinished):
             if isinstance(event, StageStarted) and self._state.stage == self._state.leg:
                 return  # begun when the leg refused to take the arm over

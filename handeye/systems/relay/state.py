@@ -6,6 +6,7 @@ import msgspec
 from msgspec import field
 
 from handeye.core.entries import entries
+from handeye.execution.state import ReversalOrder
 from handeye.program.system_state import SystemState
 from handeye.runs.hand_over import HandOver, StationMemory
 from handeye.runs.legs import leg_system
@@ -17,8 +18,14 @@ class RelayCore(SystemState, kw_only=True):
     leg: int = 0  # index of the leg that has the arm, or had it last
     entered: bool = False  # the leg has taken the arm over
     refused: bool = False  # the leg has refused to take it over
-    record: HandOver | None = None  # from the leg before; None for the first one
+    records: list[HandOver] = field(default_factory=list)  # made at the end of each leg before this one
     station: StationMemory | None = None  # None: not measured yet
+    undoing: ReversalOrder | None = None  # an order to undo steps, perhaps of several programs
+
+    @property
+    def record(self) -> HandOver | None:
+        """The record from the leg before; None for the first leg."""
+        return self.records[-1] if self.records else None
 
 
 def state_type() -> type[RelayCore]:

@@ -68,6 +68,13 @@ class PlanLeg(RunningPlan, RunningLeg):
         names = needed | (known & {*record.named.get(kind, {})})
         return {name: record.value(name, kind) for name in sorted(names)}
 
+    def take_back(self, station: StationMemory) -> None:
+        self._take_station(station)
+        drive = self.state.drive
+        load, gap = drive.load, drive.gap
+        drive.hold_anew(self._cell.devices.sense(), self.arm)
+        drive.load, drive.gap = load, gap
+
     def leave(self, record: HandOver | None) -> HandOver:
         run, state = self.context, self.state
         run.drive.state.tool = 0.0
@@ -134,7 +141,7 @@ class PlanLegs(LegSystem):
 
     system = PLANNED
     state = ExecutionState
-    stages_in_text = True
+    stages_in_text = undoes = True
 
     def read(self, file: Path) -> Plan:
         made = plan_script(file)

@@ -17,24 +17,22 @@ import msgspec
 import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.core.errors import BadFile, InvalidInput, Refused
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array, hand
 from handeye.core.record import Record, Vector3
 from handeye.core.source import read_source
 from handeye.core.units import INCH
-from handeye.execution.state import ReversalOrder
 from handeye.execution.tool_axes import ToolAxes
 from handeye.machines.stanford_tool import LIMITS
 from handeye.planfile.store import written_digest
 from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel
-from handeye.program.events import AnyEvent
 from handeye.program.system_state import SystemState
 from handeye.runs.hand_over import HandOver, StationMemory
-from handeye.runs.legs import Lack, LegSystem, RunningLeg, Use
+from handeye.runs.legs import Lack, Use
 from handeye.runs.setup import Setup
-from handeye.runs.system import ExecutedStep, RunCallbacks
-from handeye.runs.tool_leg import ToolArm, ToolMemory
+from handeye.runs.system import RunCallbacks
+from handeye.runs.tool_leg import ToolArm, ToolLeg, ToolLegs, ToolMemory
 from handeye.systems.trig import ENTRY
 from handeye.systems.trig.language.axes_arm import ArmMemory, AxesArm
 from handeye.systems.trig.language.command_input import Script
@@ -138,7 +136,7 @@ class _Job:
         """A leg is not reversed by a job."""
 
 
-class TaughtLeg(RunningJob, RunningLeg):
+class TaughtLeg(ToolLeg, RunningJob):
     """A taught program during its leg."""
 
     def __init__(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> None:
@@ -147,7 +145,6 @@ class TaughtLeg(RunningJob, RunningLeg):
         self._around = around
         known: TaughtListing = listing(self._plan)
         self._steps, self._numbers = known.steps, known.numbers
-        self._common = cell
         self.tool = ToolArm(cell, STANFORD, around)
         imaginary = NoArm()
         session = Session(arm=imaginary, table=imaginary, desk=Script((), halted=around.halt))
@@ -157,34 +154,10 @@ class TaughtLeg(RunningJob, RunningLeg):
         self._rest, self._felt = np.zeros(3), 0.0
 
     @property
-    def cell(self) -> "SimulatedCell":
-        return self._common
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        return tuple(joint.name for joint in STANFORD.joints)
-
-    @property
-    def channels(self) -> tuple[Channel, ...]:
-        return ()
-
-    @property
-    def time(self) -> float:
-        return self.tool.time
-
-    @property
     def switched_on(self) -> float:
         return 0.0
 
-    def begin(self) -> Sequence[AnyEvent]:
-        raise Refused(
-            "the first leg of a relay must be one of the system of 1973, which measures the joints of the arm"
-        )
-
     # -- taking over ----------------------------------------------------------------------------------------
-
-    def stand_at(self, stage: str) -> None:
-        """The whole program is one leg, which begins when it takes the arm over."""
 
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
         program = self.job.session.program
@@ -203,7 +176,7 @@ class TaughtLeg(RunningJob, RunningLeg):
 
     def _use_arm(self) -> None:
         axes = PlatterAxes(self.tool.axes)
-        clock = self._common.devices.clock
+        clock = self.cell.devices.clock
         self.job.axes = axes
         self.job.arm = self.job.session.arm = AxesArm(axes, clock, LIMITS, ready=True)
 
@@ -216,10 +189,6 @@ class TaughtLeg(RunningJob, RunningLeg):
         }
         held = "a part" if self.job.arm.closed else ""
         return self.tool.hand_over(record, held, 0.0, saved)
-
-    @property
-    def station(self) -> StationMemory:
-        return self.tool.station
 
     # -- running --------------------------------------------------------------------------------------------
 
@@ -260,21 +229,14 @@ class TaughtLeg(RunningJob, RunningLeg):
         self.job.arm.remember(state.arm)
 
     @property
-    def executed(self) -> Sequence[Any]:
-        return ()  # the forces met on the way are kept, but the way back was never tried on this arm
-
-    def reverse(self, undoing: ReversalOrder) -> None:
-        raise Refused("a leg of TRIG cannot be undone in a relay yet")
-
-    @property
     def shown(self) -> Mapping[str, Any]:
         return {} if self.job.axes is None else super().shown
 
 
-class TaughtLegs(LegSystem):
+class TaughtLegs(ToolLegs):
     """Legs of TRIG. A program is one leg."""
 
-    system = ENTRY.name
+    system, language = ENTRY.name, "TRIG"
     state = LegState
     words = frozenset({
         "Move", "Change", "Test", "Jump", "Open", "Close", "Search", "Advance", "Countdown", "Assign",
@@ -314,14 +276,8 @@ class TaughtLegs(LegSystem):
     def listing(self, plan: Any) -> TaughtListing:
         return listing(plan)
 
-    def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
-        return ()
-
-    def steps(self, plan: Any, stage: str) -> range:
-        return range(len(listing(plan).steps))
-
     def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        found = [Lack(1, "a program in TRIG can do only one leg")] if earlier else []
+        found = [*super().lacks(plan, stage, earlier)]
         if FINISH not in {step.label for step in listing(plan).steps}:
             found.append(Lack(1, f"no step is called {FINISH}, so the leg could never end well"))
         return found

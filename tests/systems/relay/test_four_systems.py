@@ -7,7 +7,7 @@ from mixed_bench import TEXTS, mixed_relay
 from msgspec.structs import replace
 from relay_bench import call, on_disk, runner_of, to_end
 
-from handeye.core.errors import BadFile
+from handeye.core.errors import BadFile, Refused
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -120,3 +120,19 @@ def test_the_check_names_the_lines_that_a_language_has_no_words_for(tmp_path: Pa
     told = [each.sentence for each in inexpressible(renamed)]
     assert any(each.startswith("TRIG has no words for CENTER") for each in told)
     assert not any("SAVE" in each for each in told)
+
+
+def test_undoing_stops_at_a_leg_that_cannot_be_undone(run: Run) -> None:
+    kept = run[2]
+    again = Runner(on_disk(kept[max(kept)]))
+    with pytest.raises(
+        Refused, match=r"`lift it`, which lift\.ml has done, cannot be undone; the arm can undo"
+    ):
+        again.order_reversal(0)
+    own = len(again.system.executed) - 1
+    again.order_reversal(own)
+    again.step()
+    assert len(again.system.executed) == own
+    again = Runner(on_disk(kept[first_of(kept, 3) + 2]))
+    with pytest.raises(Refused, match=r"`lift it`, which lift\.ml has done, cannot be undone$"):
+        again.order_reversal(0)

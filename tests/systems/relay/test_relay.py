@@ -10,7 +10,7 @@ from relay_bench import CARRY, RELAY, call, on_disk, pin_relay, runner_of, to_en
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
-from handeye.program.events import StageStarted
+from handeye.program.events import StageStarted, UndoEnded, UndoOrdered
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.hand_over import HandOver
 from handeye.runs.runner import Runner
@@ -113,7 +113,7 @@ def refused(kept: dict[int, Checkpoint], change: "dict[str, object]") -> str:
     state = runner.system.state
     assert isinstance(state, RelayCore)
     assert isinstance(state.record, HandOver)
-    state.record = replace(state.record, **change)
+    state.records[-1] = replace(state.record, **change)
     runner.step()
     assert runner.ended
     return call(runner)
@@ -151,9 +151,9 @@ def test_a_leg_that_was_refused_can_be_tried_again(run: Run) -> None:
     assert isinstance(state, RelayCore)
     record = state.record
     assert record is not None
-    state.record = replace(record, gap=0.02)
+    state.records[-1] = replace(record, gap=0.02)
     again.step()
-    state.record = record
+    state.records[-1] = record
     again.answer("retry")
     to_end(again)
     assert again.at is None
@@ -162,18 +162,20 @@ def test_a_leg_that_was_refused_can_be_tried_again(run: Run) -> None:
 
 
 @pytest.mark.slow
-def test_undoing_goes_back_through_the_legs_of_one_program_and_stops_at_another(run: Run) -> None:
-    runner = Runner(on_disk(run[2][6]))
+@pytest.mark.parametrize("done", [6, 8])  # within the first program, and within the second
+def test_undoing_goes_back_through_the_legs_of_all_programs(run: Run, done: int) -> None:
+    runner = Runner(on_disk(run[2][done]))
+    begun = len(runner.events)
     runner.order_reversal(0)
     while runner.system.executed:
+        runner = runner if len(runner.system.executed) != 4 else Runner(on_disk(runner.checkpoint()))
         runner.step()
     assert runner.at == 0
+    assert [event.left for event in runner.events if isinstance(event, UndoOrdered)] == [0]
+    assert [event.step for event in runner.events[begun:] if isinstance(event, UndoEnded)] == [0]
     assert to_end(runner)
     assert runner.call is None
     assert [*runner.system.executed] == [*run[0].system.executed]
-    runner = Runner(on_disk(run[2][8]))
-    with pytest.raises(InvalidInput, match=r"only the steps of carry\.al can be undone"):
-        runner.order_reversal(0)
 
 
 @pytest.mark.slow

@@ -19,17 +19,15 @@ from msgspec.structs import replace
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.errors import BadFile, Refused
 from handeye.core.pose import hand
-from handeye.core.record import Record
 from handeye.core.source import Source, read_source
 from handeye.core.units import INCH
-from handeye.ports.axes import Channel
-from handeye.program.events import AnyEvent, SystemEvent
+from handeye.program.events import SystemEvent
 from handeye.program.system_state import SystemState
 from handeye.runs.hand_over import HandOver, Kind, StationMemory
-from handeye.runs.legs import Lack, LegSystem, RunningLeg, Use
+from handeye.runs.legs import Lack, Use
 from handeye.runs.setup import Setup
-from handeye.runs.system import ExecutedStep, RunCallbacks
-from handeye.runs.tool_leg import ToolArm, ToolMemory
+from handeye.runs.system import RunCallbacks
+from handeye.runs.tool_leg import ToolArm, ToolLeg, ToolLegs, ToolMemory
 from handeye.systems.sigma import ENTRY
 from handeye.systems.sigma.bridge.borrowed_arm import BorrowedArm
 from handeye.systems.sigma.bridge.borrowed_run import check_program
@@ -108,7 +106,7 @@ class LegArm(BorrowedArm):
         self._memory.devices[NUMBERS["HAND1"]][0] = 1
 
 
-class MalLeg(RunningMal, RunningLeg):
+class MalLeg(ToolLeg, RunningMal):
     """A MAL program during its leg."""
 
     def __init__(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> None:
@@ -118,7 +116,6 @@ class MalLeg(RunningMal, RunningLeg):
         self._early, self._begun = [], False
         self._gantries = self._witness = None
         self._watched = 0
-        self._common = cell
         self.tool = ToolArm(cell, STANFORD, around)
         self._machine: Any = LegArm(self.tool)
         self.vm = VirtualMachine(
@@ -132,38 +129,10 @@ class MalLeg(RunningMal, RunningLeg):
             memory=self.vm.memory, machine=self._machine.memory, tool=self.tool.memory
         )
 
-    @property
-    def cell(self) -> "SimulatedCell":
-        return self._common
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        return tuple(joint.name for joint in STANFORD.joints)
-
-    @property
-    def channels(self) -> tuple[Channel, ...]:
-        return ()
-
-    @property
-    def time(self) -> float:
-        return self.tool.time
-
-    @property
-    def station(self) -> StationMemory:
-        return self.tool.station
-
-    def begin(self) -> Sequence[AnyEvent]:
-        raise Refused(
-            "the first leg of a relay must be one of the system of 1973, which measures the joints of the arm"
-        )
-
     def _tell(self, event: SystemEvent) -> None:
         self._around.emit(replace(event, time=self.time))
 
     # -- taking over ------------------------------------------------------------------------------------------
-
-    def stand_at(self, stage: str) -> None:
-        """The whole program is one leg, which begins when it takes the arm over."""
 
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
         found = {}
@@ -264,10 +233,10 @@ def _line_of(plan: MalPlan, name: str) -> int:
     return next((line.number for line in plan.program.lines if name in line.text), 0)
 
 
-class MalLegs(LegSystem):
+class MalLegs(ToolLegs):
     """Legs of SUPERSIGMA. A program is one leg."""
 
-    system = ENTRY.name
+    system, language = ENTRY.name, "MAL"
     state = MalLegState
     words = frozenset({
         "Move", "Change", "Test", "Jump", "Open", "Close", "Search", "Advance", "Countdown", "Assign", "Wait", "Save",
@@ -281,15 +250,12 @@ class MalLegs(LegSystem):
         check_program(checked(source)[0])
         return plan
 
-    def steps(self, plan: Any, stage: str) -> range:
-        return range(len(listing(plan).steps))
-
     def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
         try:
             check_program(checked(Source(name=plan.name, text=plan.text))[0])
         except BadFile as error:
             return [Lack(1, str(error))]
-        return [Lack(1, "a program in MAL can do only one leg")] if earlier else []
+        return super().lacks(plan, stage, earlier)
 
     def reads(self, plan: Any, stage: str) -> Sequence[Use]:
         """Return the values in variables that the program never sets."""
@@ -300,9 +266,6 @@ class MalLegs(LegSystem):
             for name in sorted(given)
             if name[-1] in kinds
         ]
-
-    def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
-        return ()
 
     def build(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> MalLeg:
         return MalLeg(setup, around, cell)
