@@ -65,6 +65,7 @@ CHEAP = {
     "render": "render -o ✓.jpg",
     "export mjcf": "export mjcf ✓ -o ✓",
     "export glb": "export glb ✓ -o ✓.jpg",
+    "export urdf": "export urdf -o ✓.jpg",
     "trials assembly": "trials assembly --seeds ✓",
     "trials dismantling": "trials dismantling --set ✓",
     "trials disturbed": "trials disturbed --seed ✓",
