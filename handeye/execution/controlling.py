@@ -3,7 +3,7 @@
 The controller knows the cell only by the readings of the devices, and acts only through the devices.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -14,6 +14,12 @@ from handeye.program.events import CommandedPeriod
 
 Controller = Callable[[Sensed], CommandedPeriod | None]
 """A function from the readings of a servo period to the commands for the next one; None ends the control."""
+
+
+def repeated(periods: Sequence[CommandedPeriod]) -> Controller:
+    """Return a controller that gives recorded commands again, whatever it reads."""
+    commands = iter(periods)
+    return lambda _: next(commands, None)
 
 
 def controlled(run: ExecutionContext, controller: Controller, most: int) -> tuple[CommandedPeriod, ...]:

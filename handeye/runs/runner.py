@@ -17,7 +17,7 @@ from handeye.core.errors import BadArgument, BadFile, PhysicsFailed, Refused
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.execution.context import ExecutionContext, Stopwatch
-from handeye.execution.controlling import Controller, controlled
+from handeye.execution.controlling import Controller, controlled, repeated
 from handeye.execution.scheduler import Deadlock
 from handeye.execution.servo import Halted, ServoPeriod
 from handeye.execution.state import ReversalOrder
@@ -290,8 +290,7 @@ class Runner:
             elif isinstance(then, ExperimentMade):
                 self.experiment(then.what, then.name, then.value)
             elif isinstance(then, PeriodsCommanded):
-                commands = iter(then.periods)
-                self.control(then.by, lambda _: next(commands, None), len(then.periods))
+                self.control(then.by, repeated(then.periods), len(then.periods))
             elif self.ended:
                 self.finish()
                 return

@@ -1,4 +1,4 @@
-"""Code of the caller commands the arm, servo period by servo period: recorded, repeatable, and refused if it is wrong."""
+"""Code of the caller commands the arm, servo period by servo period: recorded, repeatable, refused if it is wrong."""
 
 import re
 from pathlib import Path
@@ -27,7 +27,7 @@ class Turn:
     def __call__(self, seen: Sensed) -> handeye.Command | None:
         self.seen.append(seen)
         gone = seen.time - self.start.time
-        goal = self.start.joints + [0, 0, 0, 0, 0, TURNED * min(1.0, gone / 0.3)]
+        goal = self.start.joints + np.array([0, 0, 0, 0, 0, TURNED * min(1.0, gone / 0.3)])
         torque = gravity(seen.q) + HELD * (goal - seen.q) - HELD / 8 * seen.qd
         return None if gone > 0.4 else handeye.Command(torque=torque, gap=0.01)
 
@@ -83,7 +83,7 @@ def failing(seen: Sensed) -> handeye.Command:
     """Fails in the middle."""
     if seen.time > 1.0:
         raise ZeroDivisionError
-    return handeye.Command(torque=gravity(seen.q) + [0, 0, 0, 0, 0, 3])
+    return handeye.Command(torque=gravity(seen.q) + np.array([0, 0, 0, 0, 0, 3]))
 
 
 @pytest.mark.slow

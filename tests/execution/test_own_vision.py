@@ -1,4 +1,4 @@
-"""Functions of the caller in the place of GENERAL, SPECIFIC and INSPECT: the arm believes them, and says whose they are."""
+"""Functions of the caller behind GENERAL, SPECIFIC and INSPECT: the arm believes them, and says whose they are."""
 
 import re
 
