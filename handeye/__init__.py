@@ -12,8 +12,9 @@ Names are loaded on first use, so `import handeye` itself takes only millisecond
 
 TYPE_CHECKING = False  # type checkers take it as True; importing `typing` would delay the handling of Ctrl-C
 if TYPE_CHECKING:
-    from handeye import tasks, trials, vision
+    from handeye import arm, tasks, trials, vision
     from handeye.api.begin import assemble, begin
+    from handeye.api.control import Command
     from handeye.api.diagnostic import Diagnostic, ScriptError
     from handeye.api.plans import Plan, plan
     from handeye.api.provided import demo, scripts
@@ -46,6 +47,7 @@ __all__ = [
     "BadArgument",
     "BadFile",
     "CannotWrite",
+    "Command",
     "Comparison",
     "Diagnostic",
     "Finding",
@@ -67,6 +69,7 @@ __all__ = [
     "TrigSession",
     "World",
     "__version__",
+    "arm",
     "assemble",
     "at_least",
     "at_most",
@@ -85,6 +88,7 @@ _HOMES = {
     "BadArgument": "handeye.core.errors",
     "BadFile": "handeye.core.errors",
     "CannotWrite": "handeye.core.errors",
+    "Command": "handeye.api.control",
     "Comparison": "handeye.comparison.comparison",
     "Diagnostic": "handeye.api.diagnostic",
     "Finding": "handeye.judge.finding",
@@ -116,7 +120,7 @@ _HOMES = {
     "scripts": "handeye.api.provided",
 }
 """The module that defines each public name."""
-_MODULES = ("tasks", "trials", "vision")
+_MODULES = ("arm", "tasks", "trials", "vision")
 
 if not TYPE_CHECKING:  # with this function, type checkers would accept every name
 

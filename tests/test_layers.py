@@ -27,6 +27,7 @@ LAYERS: list[set[str]] = [
     {"editor"},
     {"api"},
     {"trials"},
+    {"datasets"},
     {"agents"},
     {"exercises"},
     {"env"},

@@ -6,7 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from handeye.api.parts import Camera, limits_of, parts_of, referee_of
+from handeye.api.parts import Camera, Vision, limits_of, parts_of, referee_of
 from handeye.api.plans import FileName, Planned
 from handeye.api.run import Place, Run, RunEnding
 from handeye.api.starts import RunRequest, Start, start_of
@@ -42,6 +42,7 @@ def begin(
     world: World | WorldSpec | None = None,
     camera: Camera = "auto",
     search: SearchPattern | None = None,
+    vision: Vision | None = None,
     referee: Referee | Limits | None = None,
     judge: bool | None = None,
     taught: FileName | None = None,
@@ -71,6 +72,15 @@ def begin(
             raises StopIteration, or when it has tried the number of places that the `SEARCH` allows, 49 by default.
             A search `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
             `run.state.memory.place` is the number of the current place.
+        vision: functions in place of handeye's own vision, by instruction, such as `{"SPECIFIC": my_function}`.
+            Pictures are arrays of shape (256, 333), from 0 to 15. `view` is the calibrated camera in the position
+            of the picture: `view.project(points)` and `view.back_project(uv, z)` convert between points in W (m)
+            and picture points. `part` is the drawing of the part: its planned place `at`, the height of its `face`,
+            and its `holes`.
+            `GENERAL`: (picture, view, part) returns the place (x, y) of the part's reference point in W, in m.
+            `SPECIFIC`: (picture, view, part, (x, y)) returns its pose (x, y, yaw), in m and rad; the last argument
+            is the place that `GENERAL` found. Both return None if they do not find the part.
+            `INSPECT`: (before, after, view, part, (x, y, yaw)) returns True if the gasket on the part is right.
         referee: how to judge the finished work. Give a function that takes the true state of the cell and returns
             findings by name. Or keep the task's referee and give it other limits, such as `{"screws_clamp": 60}`;
             each limit has the unit of its finding. To judge a saved run again, use
@@ -86,9 +96,9 @@ def begin(
             True, the brakes are set and the run pauses; the interrupted step is undone. If the cell is still being
             prepared, the run does not begin.
 
-    Limits given as `referee` are saved with the run. Python code (`search`, `camera`, `referee`) cannot be saved;
-    checkpoints, trace and result hold only the name of the function or class. `handeye resume` and `handeye trace
-    verify` refuse such a run; `handeye.begin` resumes the run if you give code with the same name.
+    Limits given as `referee` are saved with the run. Python code (`search`, `camera`, `vision`, `referee`) cannot be
+    saved; checkpoints, trace and result hold only the name of the function or class. `handeye resume` and `handeye
+    trace verify` refuse such a run; `handeye.begin` resumes the run if you give code with the same name.
 
     Raises:
         ScriptError: the script has errors.
@@ -100,7 +110,7 @@ def begin(
     <Run script, seed 3: 0 steps done, 0.00 s, program, line 1: OPEN 1; ready>
     """
     timer = HostTimer()
-    parts, own_referee, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
+    parts, own_referee, limits = parts_of(search, camera, vision), referee_of(referee), limits_of(referee)
     wanted = RunRequest(
         seed=seed,
         world=world,
@@ -133,6 +143,7 @@ def assemble(
     world: World | WorldSpec | None = None,
     camera: Camera = "auto",
     search: SearchPattern | None = None,
+    vision: Vision | None = None,
     referee: Referee | Limits | None = None,
     taught: FileName | None = None,
     task: str | None = None,
@@ -167,6 +178,7 @@ def assemble(
         world=world,
         camera=camera,
         search=search,
+        vision=vision,
         referee=referee,
         judge=True,
         taught=taught,

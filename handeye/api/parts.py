@@ -12,8 +12,9 @@ from handeye.cell.rendering import CameraMaker, ReplacedCamera
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.results.judging import Limits, Referee, checked_findings, checked_limits
-from handeye.runs.parts import Parts, name_of
+from handeye.runs.parts import Parts, VisionFunction, name_of
 from handeye.touch.spiral import SearchPattern
+from handeye.vision.replaceable import WRAPPERS
 
 CAMERAS: Final = ("auto", "gl", "ray")
 
@@ -21,12 +22,15 @@ CAMERAS: Final = ("auto", "gl", "ray")
 Camera = str | CameraMaker
 """`auto`, `gl` (OpenGL), `ray` (ray casting), or a function or class that makes a renderer for a scene."""
 
+Vision = Mapping[str, VisionFunction]
+"""Functions behind the instructions `GENERAL`, `SPECIFIC` and `INSPECT`; see `handeye.begin`."""
+
 Code = TypeVar("Code", bound=Callable[..., Any])
 
 
-def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
-    """Collect the caller's search pattern and camera. Raises InvalidInput if one of them cannot be called, or if
-    the camera has an unknown name.
+def parts_of(search: SearchPattern | None, camera: Camera, vision: Vision | None = None) -> Parts:
+    """Collect the caller's search pattern, camera and vision functions. Raises InvalidInput if one of them cannot be
+    called, or if the camera or an instruction has an unknown name.
     """
     if isinstance(camera, str):
         if camera not in CAMERAS:
@@ -41,7 +45,8 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
             )
         name = name_of(camera)
         maker = _named(lambda model: ReplacedCamera(name, camera, model), camera)
-    return Parts(search=None if search is None else _checked_search(search), camera=maker)
+    pattern = None if search is None else _checked_search(search)
+    return Parts(search=pattern, camera=maker, vision=_checked_vision(vision or {}))
 
 
 def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
@@ -64,6 +69,23 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
         )
     name = name_of(given)
     return _named(lambda truth: checked_findings(name, given(truth)), given)
+
+
+def _checked_vision(vision: object) -> dict[str, VisionFunction]:
+    """Wrap the caller's vision functions. Raises InvalidInput if they cannot be used."""
+    if not isinstance(vision, Mapping):
+        raise BadArgument(f"`vision` must be a dictionary from instructions to functions, not {vision!r}")
+    for word, function in vision.items():
+        if word not in WRAPPERS:
+            raise NoSuchName(
+                f"vision has no function for {word!r}; you can give one for {', '.join(WRAPPERS)}"
+            )
+        if not callable(function):
+            raise BadArgument(f"the vision of {word} must be a function; {function!r} is none")
+    return {
+        word: _named(WRAPPERS[word](name_of(function), function), function)
+        for word, function in vision.items()
+    }
 
 
 def _checked_search(search: SearchPattern) -> SearchPattern:

@@ -11,11 +11,13 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.api.control import Controller, take_control
 from handeye.api.exporting import exported
 from handeye.api.plans import Plan
 from handeye.api.run_page import run_page
 from handeye.api.state import Answer, State, answer, state_of
 from handeye.api.trace import Trace
+from handeye.arm.model import ArmModel
 from handeye.core.arguments import given_count, given_file, given_place
 from handeye.core.brief import Several
 from handeye.core.errors import BadArgument, Refused
@@ -259,6 +261,37 @@ class Run:
             raise
         return self._stand(reason(pause))
 
+    def control(self, controller: Controller, seconds: float = 60.0) -> State:
+        """Let a controller command the arm, once in every servo period (1/60 s), before the program continues.
+
+        The controller knows the cell by its sensors only. It takes the readings at the end of a servo period: `time`
+        (s), `q` and `qd` (joint positions and rates, shape (n,), rad and m), `gap` (m), `touch` (the two switches of
+        the fingers), `tool_torque` (of the screwdriver, N m), and `braked`. It returns a `handeye.Command` for the
+        next period, or None to end. Then the brakes are set for .1 s, until the arm stands. Fingers and screwdriver
+        keep their last commands. `run.arm` gives the model of the arm, for `handeye.arm`.
+
+        The commands are recorded as an event of the run, so `handeye trace verify` and `back` repeat them. The arm
+        cannot undo the steps that it did before.
+
+        Args:
+            controller: a function that takes the readings, and returns the command or None.
+            seconds: greatest simulated time for which the controller commands the arm.
+
+        Raises:
+            InvalidInput: the run cannot be controlled now, an argument cannot be used, or the controller returned
+                something other than a command.
+            PhysicsFailed: the simulation became unstable.
+
+        If the controller raises an exception, the run returns to its state before the call.
+
+        >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
+        >>> wait = lambda seen: handeye.Command() if seen.time < 0.5 else None
+        >>> round(run.control(wait).time, 2)
+        0.6
+        """
+        self._check_open()
+        return self._stand(take_control(self._runner, controller, seconds))
+
     def _stand(self, why: str) -> State:
         self._why = why
         return self.state
@@ -269,6 +302,13 @@ class Run:
     def plan(self) -> Plan:
         """The plan of the run."""
         return Plan(record=plan_of(self._runner.setup))
+
+    @property
+    def arm(self) -> ArmModel:
+        """The model of the arm, with the link weights that the arm has measured. It describes the arm as drawn; the
+        arm of a world has errors that only measurements show.
+        """
+        return self._runner.context.drive.built
 
     @property
     def state(self) -> State:

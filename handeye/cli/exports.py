@@ -69,6 +69,22 @@ def glb(
     return _told(export_glb(output, lambda: _exhibit(run, world), part=part, overwrite=overwrite), json=json)
 
 
+def urdf(
+    *,
+    output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the arm (.urdf).")],
+    overwrite: Overwrite = False,
+    json: Json = False,
+) -> int:
+    """Write the arm, as its drawing describes it, as URDF, and list its joints.
+
+    Exit code 0: written; 2: bad input.
+    """
+    from handeye.results.arm_export import export_urdf
+
+    written = export_urdf(output, overwrite=overwrite)
+    return answer(written, tuple(written.lines), json=json)
+
+
 def _told(written: "Export", *, json: bool) -> int:
     """Report the written files."""
     return answer(written, (f"{written.path}: {written.shows}", *written.remarks), json=json)

@@ -205,7 +205,7 @@ def show(run: Run = None, /, *, json: Json = False) -> int:
 
 def _way_on(folder: Path, result: "Result") -> str:
     """The command that resumes a run; a run that used Python code of its caller must be resumed from Python."""
-    from handeye.runs.parts import deciding
+    from handeye.runs.parts import deciding, given_as
     from handeye.tasks import known_any, option
 
     parts = deciding(result.replaced or {})
@@ -214,7 +214,7 @@ def _way_on(folder: Path, result: "Result") -> str:
         own.append(f"task {quoted(result.task)}")
     if not own:
         return f"resume with: handeye resume {shlex.join([str(folder), *option(result.task)])}"
-    call = ", ".join([repr(str(folder)), *(f"{part}=..." for part in parts)])
+    call = ", ".join([repr(str(folder)), *map(given_as, parts)])
     return (
         f"the run uses code of the calling program ({' and '.join(own)}); resume the run from Python with "
         f"handeye.begin({call})"

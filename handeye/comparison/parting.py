@@ -82,6 +82,8 @@ def _decides(event: AnyEvent) -> Any:
             return event.choice
         case happened.ExperimentMade():
             return event.what, event.name, event.value
+        case happened.PeriodsCommanded():
+            return event.by, event.periods
         case happened.LineTyped():
             return event.task, event.text
         case happened.PanicStopped():

@@ -3,7 +3,7 @@
 import os
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,13 +54,24 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
-    """Replace a folder atomically. If writing fails, the old folder stays."""
+    """Replace a folder atomically by one with these files. If writing fails, the old folder stays."""
+
+    def fill(new: Path) -> None:
+        for name, data in files.items():
+            _write(new / name, data)
+
+    fill_folder(path, fill)
+
+
+def fill_folder(path: Path, fill: Callable[[Path], None]) -> None:
+    """Replace a folder atomically by the one that `fill` makes at the place that it is given. If that fails, the old
+    folder stays.
+    """
     place = Path(os.path.realpath(path))
     temporary = None
     try:
         temporary = Path(tempfile.mkdtemp(dir=place.parent, prefix=temporary_beside(place)))
-        for name, data in files.items():
-            _write(temporary / "new" / name, data)
+        fill(temporary / "new")
         if place.exists():
             place.rename(temporary / "old")
         _put(temporary, place)

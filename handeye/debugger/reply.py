@@ -21,6 +21,7 @@ _BETWEEN: Final = (
     happened.StageStarted,
     happened.OperatorAnswered,
     happened.ExperimentMade,
+    happened.PeriodsCommanded,
     happened.LineTyped,
     happened.UndoOrdered,
 )  # events between two steps

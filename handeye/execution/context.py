@@ -19,6 +19,7 @@ from handeye.program.guards import Guards
 from handeye.program.world_model import WorldModel
 from handeye.touch.spiral import SearchPattern, spiral
 from handeye.vision.camera_model import CameraModel
+from handeye.vision.replaceable import BUILT_IN, VisionFunctions
 
 
 @dataclass(slots=True)
@@ -50,6 +51,7 @@ class ExecutionContext:
     camera: CameraModel | None  # calibrated; None in a cell without one
     emit: Callable[[AnyEvent], None]
     search: SearchPattern = spiral  # places that a search tries
+    seeing: VisionFunctions = BUILT_IN  # what GENERAL, SPECIFIC and INSPECT call
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     vision: Stopwatch = field(default_factory=Stopwatch)

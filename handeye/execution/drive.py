@@ -35,6 +35,12 @@ class ArmDrive(ServoLoop):
         """Release the arm and let time pass. The drives balance gravity and load, so that a push moves the hand."""
         self._pass(self.floating(seconds))
 
+    def exert(self, torque: Array) -> None:
+        """Let a servo period pass with these joint torques, shape (n,). The position of the arm at the end becomes the
+        set-point.
+        """
+        self._pass(self.exerting(torque))
+
     def follow(
         self,
         samples: Samples,

@@ -106,6 +106,13 @@ class ServoLoop(Servo):
             yield from self._wait(borne - here.M @ self.sensed.qd / self.arm.servo.drag)
         self.state.q, self.state.met = self.state.here.copy(), None
 
+    def exerting(self, torque: Array) -> Motion[None]:
+        """Exert joint torques, shape (n,), for a servo period. The position of the arm at the end becomes the
+        set-point.
+        """
+        yield from self._wait(torque)
+        self.state.q, self.state.met = self.state.here.copy(), None
+
     def following(
         self,
         samples: Samples,

@@ -23,10 +23,9 @@ from handeye.program.events import (
 from handeye.program.operation import Operation
 from handeye.program.program import Part
 from handeye.program.vision_operations import Aim, Comparison, General, Inspect, Lens, Look, Match, Specific
-from handeye.vision.base import Failure, PartMatch, locate_general, locate_specific
+from handeye.vision.base import Failure, PartMatch
 from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import GasketInspection
-from handeye.vision.gasket import inspect as inspect_gasket
 from handeye.vision.live import MAX_NOISE, blank, noise, repeated
 from handeye.vision.marks import Mark, grasp_line
 
@@ -136,7 +135,7 @@ def general(run: ExecutionContext, operation: General) -> Fault | None:
     if shot is None:
         return _no_picture(errors.PART_NOT_SEEN, operation.picture)
     with run.vision.running():
-        found = locate_general(shot.picture, shot.view, part)
+        found = run.seeing.general(shot.picture, shot.view, part)
     if isinstance(found, Failure):
         return Fault(number=errors.PART_NOT_SEEN, cause=found.cause)
     run.state.general[operation.part] = found
@@ -158,7 +157,7 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
     if general is None:
         return Fault(number=errors.FEATURES_NOT_SEEN, cause=NoGeneral())
     with run.vision.running():
-        found = locate_specific(shot.picture, shot.view, part, general)
+        found = run.seeing.specific(shot.picture, shot.view, part, general)
     if isinstance(found, Failure):
         return Fault(number=errors.FEATURES_NOT_SEEN, cause=found.cause)
     x, y, angle = (round(value, 9) for value in found.pose)
@@ -175,7 +174,7 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
 
 def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     """Inspect a gasket by the difference between two pictures."""
-    seen = _compared(run, operation, errors.GASKET_WRONG, inspect_gasket)
+    seen = _compared(run, operation, errors.GASKET_WRONG, run.seeing.inspect)
     if not isinstance(seen, GasketInspection):
         return seen
     run.state.found[operation.after] = VisionResult(inspection=seen)

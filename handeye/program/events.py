@@ -294,6 +294,25 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
     value: tuple[float, ...]
 
 
+class CommandedPeriod(Record, frozen=True, kw_only=True, array_like=True):
+    """What the calling program commanded for one servo period."""
+
+    torque: tuple[float, ...] | None  # of each joint, N m, or N if prismatic; None: the brakes were set
+    gap: float  # goal of the finger gap, m
+    grip: float  # greatest force of each finger, N
+    driver: float  # speed of the screwdriver, rad/s
+    magnet: bool  # the magnet of the screwdriver is on
+
+
+class PeriodsCommanded(Event, frozen=True, kw_only=True):
+    """Between two steps, a controller of the calling program commanded the arm. The run then no longer follows from
+    the plan alone.
+    """
+
+    by: str  # name of the controller
+    periods: tuple[CommandedPeriod, ...]
+
+
 class LineTyped(Event, frozen=True, kw_only=True):
     """A person typed a line at the console of a system, for one of its tasks. The run then no longer follows from
     the program alone.
@@ -361,7 +380,8 @@ CommonEvent = (
     | GuardFaint | GuardTripped
     | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
     | PictureTaken | PartSeen | PartInspected | PartMatched | CameraStarted | CameraBusy
-    | OperatorCalled | OperatorAnswered | ExperimentMade | LineTyped | PanicStopped | WentBack
+    | OperatorCalled | OperatorAnswered | ExperimentMade | PeriodsCommanded | LineTyped | PanicStopped
+    | WentBack
     | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded | RunFinished
 )  # fmt: skip
 AnyEvent = CommonEvent | SystemEvent

@@ -17,6 +17,7 @@ from handeye.program.events import (
     GuardFaint,
     LineTyped,
     OperatorAnswered,
+    PeriodsCommanded,
     RunStarted,
     StageFinished,
     StageStarted,
@@ -90,7 +91,9 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
         when = f"at {event.time:.1f} s"
         if isinstance(event, OperatorAnswered):
             yield f"{when} the operator chose: {event.choice}"
-        elif isinstance(event, LineTyped) or (isinstance(event, UndoOrdered) and event.asked_by == "person"):
+        elif isinstance(event, LineTyped | PeriodsCommanded) or (
+            isinstance(event, UndoOrdered) and event.asked_by == "person"
+        ):
             yield f"{when} {sentence(event)}"
         elif isinstance(event, ExperimentMade):
             yield f"{when} {event.what} {event.name} was set by the experimenter"

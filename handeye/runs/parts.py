@@ -6,7 +6,8 @@ continue only with a part of the same name.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
 from handeye.core.errors import Refused
@@ -15,7 +16,15 @@ from handeye.touch.spiral import SearchPattern
 if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
 
-NEEDED: Final = ("search", "camera")  # parts that determine the course of a run; the referee does not
+VISION: Final = ("GENERAL", "SPECIFIC", "INSPECT")  # instructions behind which a caller can put a function
+NEEDED: Final = (
+    "search",
+    "camera",
+    *VISION,
+)  # parts that determine the course of a run; the referee does not
+
+
+VisionFunction = Callable[..., Any]  # see `handeye.begin`
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,11 +34,12 @@ class Parts:
 
     search: SearchPattern | None = None  # the places that a search tries
     camera: RendererMaker | None = None  # maker of pictures
+    vision: Mapping[str, VisionFunction] = field(default_factory=dict)  # by instruction; see `VISION`
 
     @property
     def names(self) -> dict[str, str]:
         """The names of the replaced parts."""
-        found = {"search": self.search, "camera": self.camera}
+        found = {"search": self.search, "camera": self.camera, **self.vision}
         return {part: name_of(code) for part, code in found.items() if code is not None}
 
     def check(self, begun: dict[str, str]) -> None:
@@ -40,11 +50,16 @@ class Parts:
             if was is not None and now is None:
                 raise Refused(
                     f"the run uses a {part} of the calling program, `{was}`, whose code is not saved in the run; in "
-                    f"Python, pass it to `handeye.begin` as {part}=..."
+                    f"Python, pass it to `handeye.begin` as {given_as(part)}"
                 )
             if was != now:
                 before = f"handeye's own {part}" if was is None else f"`{was}` as its {part}"
                 raise Refused(f"the run began with {before}, but `{now}` was given")
+
+
+def given_as(part: str) -> str:
+    """Return how a caller passes a replacement of a part to `handeye.begin`."""
+    return f"vision={{{part!r}: ...}}" if part in VISION else f"{part}=..."
 
 
 def deciding(names: dict[str, str]) -> dict[str, str]:

@@ -17,6 +17,7 @@ from handeye.core.errors import BadArgument, BadFile, PhysicsFailed, Refused
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.execution.context import ExecutionContext, Stopwatch
+from handeye.execution.controlling import Controller, controlled, repeated
 from handeye.execution.scheduler import Deadlock
 from handeye.execution.servo import Halted, ServoPeriod
 from handeye.execution.state import ReversalOrder
@@ -29,6 +30,7 @@ from handeye.program.events import (
     OperatorAnswered,
     OperatorCalled,
     PanicStopped,
+    PeriodsCommanded,
     StageStarted,
     StepFinished,
     StepStarted,
@@ -287,6 +289,8 @@ class Runner:
                 self.type_line(then.text, then.task)
             elif isinstance(then, ExperimentMade):
                 self.experiment(then.what, then.name, then.value)
+            elif isinstance(then, PeriodsCommanded):
+                self.control(then.by, repeated(then.periods), len(then.periods))
             elif self.ended:
                 self.finish()
                 return
@@ -351,6 +355,19 @@ class Runner:
         self.system.set_value(what, name, value)
         self._emit(ExperimentMade(time=self.time, what=what, name=name, value=value))
         self._settle()
+
+    def control(self, by: str, controller: Controller, most: int) -> int:
+        """Let a controller, called `by`, command the arm for at most `most` servo periods. Returns the number of
+        periods that it commanded. After an exception, `rollback` reverts them.
+
+        Raises:
+            InvalidInput: the run's system does not execute plans of motions.
+            PhysicsFailed, Halted: the simulation broke down, or the panic button was pressed.
+        """
+        periods = controlled(self.context, controller, most)
+        self._emit(PeriodsCommanded(time=self.time, by=by, periods=periods))
+        self._settle()
+        return len(periods)
 
     def type_line(self, text: str, task: str = "") -> None:
         """Type a line at the system's console, for one of the system's tasks. If a step is being executed, the line is

@@ -7,7 +7,14 @@ import msgspec
 
 from handeye.cell.state import CellState
 from handeye.core.record import Record
-from handeye.program.events import AnyEvent, ExperimentMade, LineTyped, OperatorAnswered, UndoOrdered
+from handeye.program.events import (
+    AnyEvent,
+    ExperimentMade,
+    LineTyped,
+    OperatorAnswered,
+    PeriodsCommanded,
+    UndoOrdered,
+)
 from handeye.program.system_state import SystemState
 from handeye.runs.setup import Setup
 from handeye.runs.systems import listing_of
@@ -70,6 +77,6 @@ def interfered(events: Iterable[AnyEvent]) -> bool:
     return any(
         event.asked_by == "person"
         if isinstance(event, UndoOrdered)
-        else isinstance(event, ExperimentMade | LineTyped | OperatorAnswered)
+        else isinstance(event, ExperimentMade | LineTyped | OperatorAnswered | PeriodsCommanded)
         for event in events
     )

@@ -93,6 +93,7 @@ class _Teller:
                 self.lines += ["", f"{self.clock(event)}  {sentence(event)}"]
             case (
                 happened.ExperimentMade()
+                | happened.PeriodsCommanded()
                 | happened.LineTyped()
                 | happened.WentBack()
                 | happened.UndoOrdered()

@@ -27,7 +27,8 @@ _IMPORTANCE: Final[dict[happened.Importance, Log.Level.ValueType]] = {
     "error": Log.ERROR,
 }
 _WARNED: Final = (
-    happened.GuardFaint, happened.ErrorRaised, happened.ExperimentMade, happened.LineTyped, happened.UndoOrdered
+    happened.GuardFaint, happened.ErrorRaised, happened.ExperimentMade, happened.PeriodsCommanded,
+    happened.LineTyped, happened.UndoOrdered
 )  # fmt: skip
 _INFORMED: Final = (
     happened.RunStarted, happened.StageStarted, happened.StageFinished, happened.FrictionMeasured,
@@ -164,6 +165,8 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.ExperimentMade():
             value = _value(event.value) if event.what in _PLACES else ", ".join(f"{x:g}" for x in event.value)
             return f"experiment: {event.what} {event.name} is set to {value}"
+        case happened.PeriodsCommanded():
+            return f"the controller {event.by} commanded {counted(len(event.periods), 'servo period')}"
         case happened.LineTyped():
             return f"typed{f' to {event.task}' if event.task else ''}: {printable(event.text)}"
         case happened.PanicStopped():

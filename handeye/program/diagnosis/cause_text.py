@@ -68,7 +68,7 @@ def cause_sentence(cause: Cause) -> str:
             return f"no picture {cause.picture} was taken"
         case c.NoGeneral():
             return "no earlier GENERAL found the part"
-        case c.NoOutline() | c.OutsidePicture() | c.NoHoles():
+        case c.NoOutline() | c.OutsidePicture() | c.NoHoles() | c.CallersVision():
             return _not_found(cause)
         case c.NoGasket() | c.GasketWrong():
             return inspection_sentence(cause)
@@ -102,6 +102,8 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
             return "no gasket: the later picture shows nothing new where the gasket should be"
         case c.GasketWrong():
             return "; ".join(map(_gasket_fault, cause.faults))
+        case c.CallersVision():
+            return f"the calling program's own vision, {cause.by}, rejects the gasket"
     assert_never(cause)
 
 
@@ -162,6 +164,8 @@ def _not_found(cause: c.SightCause) -> str:
             return "found no hole: is the picture in focus, and is the part in it?"
         case c.NoHoles(blobs=1):
             return "found only one hole, which cannot locate the part: is the picture in focus?"
+        case c.CallersVision():
+            return f"the calling program's own vision, {cause.by}, does not accept what it sees"
         case c.NoHoles():
             found = f"{cause.blobs} dark blobs are found"
             return f"{found}, but no two are the part's largest holes: is the picture in focus?"

@@ -155,6 +155,12 @@ class NoHoles(CauseRecord, frozen=True, kw_only=True):
     blobs: int
 
 
+class CallersVision(CauseRecord, frozen=True, kw_only=True):
+    """A vision function of the calling program did not find the part, or rejected it."""
+
+    by: str  # name of the function
+
+
 class NoGasket(CauseRecord, frozen=True, kw_only=True):
     """The later picture shows no change where the gasket should be."""
 
@@ -272,9 +278,11 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
     """The record that a step made for its reversal is not usable."""
 
 
-SightCause = NoOutline | OutsidePicture | NoHoles  # causes for which vision does not find a part
+SightCause = (
+    NoOutline | OutsidePicture | NoHoles | CallersVision
+)  # causes for which vision does not find a part
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
-InspectionCause = NoGasket | GasketWrong
+InspectionCause = NoGasket | GasketWrong | CallersVision
 Cause = (
     BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside | HeightOutside | HeightUnknown
     | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause

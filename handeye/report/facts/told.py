@@ -30,6 +30,7 @@ SENSED: Final = (
     happened.PartInspected,
     happened.PartMatched,
     happened.PartSeen,
+    happened.PeriodsCommanded,
     happened.PictureTaken,
     happened.PositionDefined,
     happened.Saved,

@@ -19,7 +19,7 @@ from handeye.core.markup import (
 )
 from handeye.core.variation import World
 from handeye.core.versions import HANDEYE
-from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered
+from handeye.program.events import ExperimentMade, LineTyped, OperatorAnswered, PeriodsCommanded
 from handeye.program.senses import assumption
 from handeye.report.facts.again import command
 from handeye.report.recorded import RecordedRun, told_faults
@@ -47,7 +47,8 @@ def _again(run: RecordedRun) -> Iterator[Markup]:
         )
         return
     yield element("pre", element("code", typed), class_="command")
-    if any(isinstance(event, OperatorAnswered | ExperimentMade | LineTyped) for event in run.trace.events):
+    given = OperatorAnswered | ExperimentMade | LineTyped | PeriodsCommanded
+    if any(isinstance(event, given) for event in run.trace.events):
         yield note(
             "A user gave commands during this run; `handeye trace verify` repeats these commands as well."
         )

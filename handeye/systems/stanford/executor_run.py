@@ -54,6 +54,7 @@ from handeye.tasks.interface import CameraSetup
 from handeye.touch.spiral import spiral
 from handeye.vision.calibration import Calibration
 from handeye.vision.marks import Mark
+from handeye.vision.replaceable import with_functions
 
 
 class RunningPlan(RunningSystem):
@@ -80,6 +81,7 @@ class RunningPlan(RunningSystem):
             camera=None if self._eye is None else self._eye.drawing,
             emit=around.emit,
             search=around.parts.search or spiral,
+            seeing=with_functions(around.parts.vision),
             without=frozenset(setup.without),
             vision=around.vision,
             arithmetic=CompiledArm,

@@ -1,0 +1,125 @@
+"""Control of the arm by the caller's own code, servo period by servo period."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from handeye.core.errors import BadArgument, Refused
+from handeye.core.plain_text import counted
+from handeye.execution.servo import Halted
+from handeye.execution.state import DriveState
+from handeye.ports.workcell import Sensed
+from handeye.program.events import CommandedPeriod
+from handeye.runs.parts import name_of
+from handeye.runs.runner import Runner
+
+HOUR: Final = 3600.0  # s; a controller commands the arm for at most this time at once
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Command:
+    """What a controller commands for one servo period. Where a field is None, the device keeps its last command.
+
+    >>> handeye.Command(torque=[0.0] * 6, gap=0.02).gap
+    0.02
+    """
+
+    torque: ArrayLike | None = None
+    """Torque of each joint, shape (n,), in N m, or in N if the joint is prismatic. The drives limit it to their
+    greatest torque (`effort` of the joint). None sets the brakes.
+    """
+    gap: float | None = None  # goal of the opening between the finger tips, m
+    grip: float | None = None  # greatest force of each finger, N
+    driver: float | None = None  # speed of the screwdriver, rad/s; positive drives a screw in
+    magnet: bool | None = None  # the magnet of the screwdriver's bit is on
+
+
+Controller = Callable[[Sensed], Command | None]
+"""A function from the readings at the end of a servo period to the command for the next one; None ends the control."""
+
+
+def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
+    """Let a controller command the arm for at most a time (s). Returns why the control ended, in words. If the
+    controller or the simulation fails, the run returns to its state before the control.
+
+    Raises:
+        InvalidInput: the run cannot be controlled now, an argument cannot be used, or the controller returned
+            something that is not a command.
+    """
+    period, name = runner.context.drive.period, _named(controller)
+    most = _periods(seconds, period)
+    if runner.trouble is not None:
+        raise Refused(f"the arm cannot be controlled, because the run cannot continue: {runner.trouble}")
+    if runner.context.state.undoing is not None:
+        raise Refused("the arm cannot be controlled while it is undoing steps")
+    try:
+        done = runner.control(name, _checked(name, controller, runner), most)
+    except Halted:
+        runner.rollback()
+        return f"the panic button stopped the controller {name}, and its servo periods were undone"
+    except BaseException:  # in code of the caller, or in the simulation
+        runner.rollback()
+        raise
+    end = "ended" if done < most else "used all its time"
+    return f"the controller {name} {end} after {done * period:.2f} s"
+
+
+def _named(controller: object) -> str:
+    if not callable(controller):
+        raise BadArgument(f"a controller must be a function of the readings, not {controller!r}")
+    return name_of(controller)
+
+
+def _periods(seconds: object, period: float) -> int:
+    """Return the number of servo periods in a time (s). Raises BadArgument unless the time is usable."""
+    if not isinstance(seconds, int | float) or isinstance(seconds, bool) or not period <= seconds <= HOUR:
+        raise BadArgument(
+            f"`seconds` must be a number from one servo period ({period:.4f} s) to {HOUR:.0f} s, not {seconds!r}"
+        )
+    return int(seconds / period + 1e-6)
+
+
+def _checked(name: str, controller: Controller, runner: Runner) -> Callable[[Sensed], CommandedPeriod | None]:
+    """Wrap a controller: its commands are checked and completed with the last ones."""
+    joints, last = len(runner.context.arm.joints), runner.context.drive.state
+
+    def command(sensed: Sensed) -> CommandedPeriod | None:
+        given = controller(sensed)
+        if given is None:
+            return None
+        if not isinstance(given, Command):
+            raise BadArgument(f"the controller {name} must return a handeye.Command or None, not {given!r}")
+        return CommandedPeriod(torque=_torque(name, given, joints), **_devices(name, given, last))
+
+    return command
+
+
+def _torque(name: str, given: Command, joints: int) -> tuple[float, ...] | None:
+    if given.torque is None:
+        return None
+    try:
+        torque = np.asarray(given.torque, dtype=np.float64)
+    except (TypeError, ValueError):
+        torque = np.empty(0)
+    if torque.shape != (joints,) or not np.isfinite(torque).all():
+        raise BadArgument(
+            f"the controller {name} must give {counted(joints, 'finite torque')}, not {given.torque!r}"
+        )
+    return tuple(torque.tolist())
+
+
+def _devices(name: str, given: Command, last: DriveState) -> dict[str, float | bool]:
+    """Return the commands to fingers and screwdriver, by field of `CommandedPeriod`."""
+    found: dict[str, float | bool] = {}
+    for field, before in (("gap", last.gap), ("grip", last.grip), ("driver", last.tool)):
+        value = getattr(given, field)
+        try:
+            found[field] = float(before if value is None else value)
+        except (TypeError, ValueError):
+            found[field] = float("nan")
+        if not np.isfinite(found[field]):
+            raise BadArgument(f"the controller {name} must give a finite number as `{field}`, not {value!r}")
+    return {**found, "magnet": last.magnet if given.magnet is None else bool(given.magnet)}

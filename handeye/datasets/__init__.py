@@ -1,0 +1,1 @@
+"""Recorded runs as data sets for learned policies."""

@@ -1,0 +1,52 @@
+"""Servo periods that a controller of the calling program commands, between two steps of the plan.
+
+The controller knows the cell only by the readings of the devices, and acts only through the devices.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from handeye.arm.model import constants
+from handeye.execution.context import ExecutionContext
+from handeye.ports.workcell import Sensed
+from handeye.program.events import CommandedPeriod
+
+Controller = Callable[[Sensed], CommandedPeriod | None]
+"""A function from the readings of a servo period to the commands for the next one; None ends the control."""
+
+
+def repeated(periods: Sequence[CommandedPeriod]) -> Controller:
+    """Return a controller that gives recorded commands again, whatever it reads."""
+    commands = iter(periods)
+    return lambda _: next(commands, None)
+
+
+def controlled(run: ExecutionContext, controller: Controller, most: int) -> tuple[CommandedPeriod, ...]:
+    """Let a controller command servo periods until it ends, but at most `most` periods, and then set the brakes until
+    the arm stands. Returns the commands.
+
+    The steps before cannot be undone any more, because a reversal would begin where the last step ended. The
+    program assumes no longer that nothing touches the hand.
+    """
+    drive, effort, commands = run.drive, constants(run.arm).effort, []
+    while len(commands) < most and (command := controller(drive.sensed)) is not None:
+        commands.append(command)
+        _command_devices(run, command)
+        if command.torque is None:
+            drive.brake(drive.period)
+        else:
+            drive.exert(np.clip(command.torque, -effort, effort))
+    drive.stop()
+    state = drive.state
+    state.in_air = state.clear = False
+    run.state.done.clear()
+    return tuple(commands)
+
+
+def _command_devices(run: ExecutionContext, command: CommandedPeriod) -> None:
+    """Set what fingers and screwdriver shall do in the next servo period."""
+    state = run.drive.state
+    state.gap, state.grip, state.magnet = command.gap, command.grip, command.magnet
+    if state.tool != command.driver:
+        state.tool, state.current, state.starting, state.lately = command.driver, 0.0, [], []
