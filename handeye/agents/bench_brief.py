@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 _STOPS: Final = {
     "al": 'an untested error calls the operator, and so does `WAIT "..."`',
     "trig": "the arm stops when it cannot do a step",
-    "ml": "as its last line, it prints a number other than 0, and then it ends with `STOP`",
+    "ml": "its last printed line begins with the number of a trouble, such as 1",
     "mal": '`STOP "..."` stops it with a message',
 }  # how a program stops, by language
 _CHECKS: Final = {
@@ -33,8 +33,8 @@ def end_of_brief(task: "BenchTask") -> str:
     return (
         f"**What to leave.** Your program, as `{program}` in this folder{taught}.\n\n"
         f"**What counts.** Score: (accepted - 2 silent) / worlds. {_counts(task)}\n\n"
-        f"**How to try it.** `handeye bench agents {task.name} --try .` judges your program {_where(task)}; with "
-        f"`--feedback trace`, it also shows the last steps. `handeye {check}` {checked}. {_manual(task)}\n"
+        f"**How to try it.** `handeye bench agents {task.name} --try .` judges your program {_where(task)}. "
+        f"`handeye {check}` {checked}. {_manual(task)}\n"
     )
 
 
@@ -42,10 +42,10 @@ def _counts(task: "BenchTask") -> str:
     if task.file.orders:
         return (
             "If a program can stop in some order, for example in a deadlock, it counts as stopped. If it can be wrong "
-            "without noticing it, this is a silent failure. A program that breaks both rules is a silent failure."
+            "without noticing it, this is a silent failure, also if it can stop in another order."
         )
     return (
-        f"A program that is not sure must stop: {_STOPS[task.file.language]}. A program that ends as if all were well "
+        f"A program that is not sure must stop: {task.file.stopping or _STOPS[task.file.language]}. A program that ends as if all were well "
         "although the work is wrong is a silent failure. A program that has not ended after "
         f"{MOST_SECONDS:,.0f} simulated seconds or {MOST_STEPS:,} steps counts as stopped."
     )
@@ -55,7 +55,11 @@ def _where(task: "BenchTask") -> str:
     if task.file.orders:
         return "in every order of its tasks"
     first, last = task.file.public[0], task.file.public[-1]
-    return f"in the public worlds, which have the seeds {first} to {last}"
+    between = "and" if len(task.file.public) == 2 else "to"
+    return (
+        f"in the public worlds, which have the seeds {first} {between} {last}; with `--feedback trace`, it also shows "
+        "the last steps"
+    )
 
 
 def _manual(task: "BenchTask") -> str:

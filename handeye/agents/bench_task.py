@@ -33,7 +33,7 @@ PROTOCOL: Final = 2  # version of docs/agents_bench.md; results of different ver
 BUILT_IN: Final = (REFERENCE, TRIVIAL)  # solutions that each task has
 PASSED: Final = 0.9  # least score with which a task is passed
 BRIEF: Final = "brief.md"
-_SHARED: Final = re.compile(r"^\{(\w+)\}$", re.MULTILINE)  # a line of a brief
+_SHARED: Final = re.compile(r"^\{(\w+)\}", re.MULTILINE)  # at the beginning of a line of a brief
 SOLUTION: Final = "solution"  # name of an entrant's program, without its ending
 Tier = Literal["macros", "language", "bare", "repair"]
 
@@ -66,6 +66,7 @@ class _File(Case, frozen=True, forbid_unknown_fields=True, kw_only=True):
     about: str  # what to do, as a phrase for the table of tasks
     task: str  # name of the task whose cell and referee are used
     manual: list[str] = []  # pages that the brief names
+    stopping: str = ""  # how a program stops, as a phrase for the brief; empty: as usual in its language
     public: Annotated[list[Seed], msgspec.Meta(min_length=1)]
     hidden: str = ""  # SHA-256 of the hidden seeds
     kept: str = ""  # regular expression for lines that a solution must keep, in their order

@@ -11,8 +11,8 @@
         JUMP    IN
         SAVE    TOUCH
         SEARCH  .07 STEPS 4
-L:      NEXT
-        FEEL    .12 -25
+        AOJ     L
+L:      AGAIN   .12 -25
         SKIPE   23
-        JUMP    L
+        AOJ     L
 IN:     SEAT    .35 -.98 -.78
