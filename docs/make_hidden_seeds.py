@@ -37,4 +37,7 @@ def main(file: Path, names: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2:] or [name for name, task in bench_tasks().items() if not task.file.orders])
+    main(
+        Path(sys.argv[1]),
+        sys.argv[2:] or [name for name, task in bench_tasks().items() if not task.file.orders],
+    )

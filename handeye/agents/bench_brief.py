@@ -66,4 +66,8 @@ def _manual(task: "BenchTask") -> str:
     if task.file.tier == "bare":
         return "This task is without the manual: do not use `handeye docs` or `handeye explain`."
     pages = [f"`handeye docs {page}`" for page in task.file.manual]
-    return f"The manual: {', '.join(pages[:-1])} and {pages[-1]}." if len(pages) > 1 else f"The manual: {pages[0]}."
+    return (
+        f"The manual: {', '.join(pages[:-1])} and {pages[-1]}."
+        if len(pages) > 1
+        else f"The manual: {pages[0]}."
+    )

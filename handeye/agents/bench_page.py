@@ -1,15 +1,19 @@
 """Shows the result of the agents' bench as an HTML page, in the style of the report of a run."""
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import Final
 
 from handeye.agents.bench_result import HEADS, TEXTS, BenchResult, TaskScore, rows
+from handeye.agents.judging import Outcome
 from handeye.core.files import Kind
 from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.core.plain_text import counted
 from handeye.report.page.document import head, resource
 
 _MARK: Final = "<!doctype html>\n<!-- handeye agents' bench -->\n"
+_CLASSES: Final[dict[Outcome, str]] = {"silent": "bad", "stopped": "doubtful", "accepted": "good"}
+_ORDER: Final = (*_CLASSES,)
 PAGE: Final = Kind("page", _MARK.encode(), ending=".html")
 
 
@@ -43,18 +47,19 @@ def _sections(result: BenchResult) -> Iterator[Markup]:
             "success although its work was wrong."
         ),
     )
-    for each in result.tasks:
-        yield section(f"task-{each.task}", each.title, _verdicts(each))
-
-
-def _verdicts(score: TaskScore) -> Markup:
-    """Return the verdicts on a task, one line for each kind of verdict, with the number of worlds."""
-    found: dict[str, int] = {}
-    for each in score.verdicts:
-        found[each.told] = found.get(each.told, 0) + 1
-    lines = sorted(found.items(), key=lambda line: -line[1])
-    return table(
-        [*figure_heads("worlds"), *heads("verdict")],
-        [[figure_cell(str(number)), cell(told)] for told, number in lines],
-        label=f"Verdicts on the task {score.task}",
+    verdicts = table(
+        [*heads("task"), *figure_heads("worlds"), *heads("verdict")],
+        [row for each in result.tasks for row in _verdicts(each)],
+        label="Verdicts of the referee",
     )
+    yield section("verdicts", "Verdicts", verdicts)
+
+
+def _verdicts(score: TaskScore) -> Iterator[list[Markup]]:
+    """Yield a row for each verdict on a task, with the number of worlds; silent failures come first."""
+    found = Counter((each.outcome, each.told) for each in score.verdicts)
+    lines = sorted(found.items(), key=lambda line: (_ORDER.index(line[0][0]), -line[1]))
+    for number, ((outcome, told), worlds) in enumerate(lines):
+        word = element("span", outcome, class_=_CLASSES[outcome])
+        title = score.title if number == 0 else None
+        yield [cell(title), figure_cell(str(worlds)), cell(word, told.removeprefix(outcome))]

@@ -53,7 +53,9 @@ class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     worlds: Worlds = Worlds()
     right: Right = Right()
-    replace: dict[str, str] = {}  # lines of the solution, by the lines that the organiser puts in their places
+    replace: dict[
+        str, str
+    ] = {}  # lines of the solution, by the lines that the organiser puts in their places
     job: str = ""  # variant of the job, such as a number of pieces
 
 

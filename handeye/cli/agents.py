@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from handeye.agents.judging import Verdict
 
 
-
 def mcp(
     *,
     folder: Annotated[
@@ -147,7 +146,9 @@ def bench_agents(
         raise BadArgument(f"{solutions}: there is no such folder")
     if page is not None:
         check_place(page, PAGE, overwrite=overwrite)
-    entrant = None if command is None else Entrant(command=command, rounds=rounds, feedback=feedback or "verdict")
+    entrant = (
+        None if command is None else Entrant(command=command, rounds=rounds, feedback=feedback or "verdict")
+    )
     with TemporaryDirectory() as aside:
         scores = _scores(chosen, entrant, solutions or out or Path(aside), hidden)
     result = BenchResult(
@@ -219,9 +220,7 @@ def _scores(
     for task in tasks:
         note(f"{task.name}: {task.file.title}")
         place = folder / task.name
-        efforts[task.name] = (
-            Effort() if entrant is None else solved(task, entrant, place, Call())
-        )
+        efforts[task.name] = Effort() if entrant is None else solved(task, entrant, place, Call())
     seeds = None if hidden is None else read_hidden(hidden)
     scores = []
     for task in tasks:

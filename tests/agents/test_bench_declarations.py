@@ -14,7 +14,9 @@ from handeye.core.errors import BadFile
 
 
 def files(folder: Path, **derived: Derived) -> TaskFiles:
-    return TaskFiles(folder, {name.replace("_", "/") + ".al": each for name, each in derived.items()}, bench_task)
+    return TaskFiles(
+        folder, {name.replace("_", "/") + ".al": each for name, each in derived.items()}, bench_task
+    )
 
 
 def test_a_file_is_derived_by_changes_in_their_order(tmp_path: Path) -> None:

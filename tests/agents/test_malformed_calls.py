@@ -100,9 +100,7 @@ def test_the_sentence_names_what_is_wrong(toolbox: Toolbox, tool: str, arguments
     ],
 )
 def test_half_of_a_surrogate_pair_does_not_leave_a_client_without_an_answer(sent: str, read: str) -> None:
-    asked = (
-        '{"jsonrpc":"2.0","id":1,"method":"tools/call","params":{"name":"docs","arguments":{"topic":%s}}}'
-    )
+    asked = '{"jsonrpc":"2.0","id":1,"method":"tools/call","params":{"name":"docs","arguments":{"topic":%s}}}'
     message = jsonrpc_message_adapter.validate_json(decodable(asked % sent))
     assert isinstance(message, JSONRPCRequest)
     assert message.params == {"name": "docs", "arguments": {"topic": read}}

@@ -156,4 +156,6 @@ def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob
     from handeye.systems.trig.jobs.jobs import ArrangeJob, BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 
-    return {"palletise": PalletJob, "bucket": BucketJob, "arrange": ArrangeJob}[name](script, BlocksWorld(world))
+    return {"palletise": PalletJob, "bucket": BucketJob, "arrange": ArrangeJob}[name](
+        script, BlocksWorld(world)
+    )
