@@ -44,8 +44,9 @@ def _counts(task: "BenchTask") -> str:
             "If a program can stop in some order, for example in a deadlock, it counts as stopped. If it can be wrong "
             "without noticing it, this is a silent failure, also if it can stop in another order."
         )
+    stops = task.file.stopping or _STOPS[task.file.language]
     return (
-        f"A program that is not sure must stop: {task.file.stopping or _STOPS[task.file.language]}. A program that ends as if all were well "
+        f"A program that is not sure must stop: {stops}. A program that ends as if all were well "
         "although the work is wrong is a silent failure. A program that has not ended after "
         f"{MOST_SECONDS:,.0f} simulated seconds or {MOST_STEPS:,} steps counts as stopped."
     )

@@ -62,8 +62,8 @@ def setup_of(plan: Plan, world: WorldSpec) -> Setup:
 
 
 def judged(setup: Setup, call: Call, right: Right = USUAL) -> Verdict:
-    """Run a program to its end, or to the limits of time and steps, and judge it by what is `right` in its world. Raises
-    Refused if the call is cancelled.
+    """Run a program to its end, or to the limits of time and steps, and judge it by what is `right` in its world.
+    Raises Refused if the call is cancelled.
     """
     try:
         with warnings.catch_warnings():

@@ -124,8 +124,8 @@ def bench_agents(
     is not right; 3: a silent failure; 2: bad input; 130: interrupted.
     """
     from handeye.agents.bench_entrant import Entrant
-    from handeye.agents.bench_result import BenchResult, to_json
     from handeye.agents.bench_page import PAGE, bench_page
+    from handeye.agents.bench_result import BenchResult, to_json
     from handeye.agents.bench_task import bench_task, bench_tasks
 
     chosen = [*bench_tasks().values()] if task is None else [bench_task(task)]
