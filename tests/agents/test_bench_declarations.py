@@ -14,9 +14,8 @@ from handeye.core.errors import BadFile
 
 
 def files(folder: Path, **derived: Derived) -> TaskFiles:
-    return TaskFiles(
-        folder, {name.replace("_", "/") + ".al": each for name, each in derived.items()}, bench_task
-    )
+    named = {name.replace("_", "/") + ".al": each for name, each in derived.items()}
+    return TaskFiles(folder, named, lambda name: bench_task(name).files)
 
 
 def test_a_file_is_derived_by_changes_in_their_order(tmp_path: Path) -> None:

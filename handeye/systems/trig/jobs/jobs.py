@@ -132,7 +132,7 @@ class ArrangeJob(_Job):
     """A job of a user's own script, which places blocks anywhere."""
 
     task, undoable = ARRANGE, True
-    goals = ()
+    goals: tuple[tuple[float, float], ...] = ()
 
 
 def _mm(at: Sequence[float] | Array) -> tuple[float, float, float]:
