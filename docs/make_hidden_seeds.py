@@ -16,7 +16,8 @@ import msgspec
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
-from handeye.agents.bench_task import bench_task, bench_tasks, commitment  # noqa: E402
+from handeye.agents.bench_task import bench_task, bench_tasks  # noqa: E402
+from handeye.agents.hidden_seeds import commitment  # noqa: E402
 from handeye.core.variation import LARGEST_SEED  # noqa: E402
 
 WORLDS: Final = 20
@@ -36,4 +37,7 @@ def main(file: Path, names: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2:] or [*bench_tasks()])
+    main(
+        Path(sys.argv[1]),
+        sys.argv[2:] or [name for name, task in bench_tasks().items() if not task.file.orders],
+    )

@@ -16,6 +16,7 @@ LONGEST = 50
 LEAVES = {"force_against_time.py": "force.svg"}
 """A file that an example leaves."""
 SAYS = {
+    "guess_and_check.py": "left solution.al with a search of 2 rings",
     "insert_a_pin.py": "right after ",
     "missing_pin.py": "by a person: at 0.0 s position PIN was set by the experimenter",
     "referee_limit.py": "wrong: greatest tilt of a pin in its holder (at most 0.2 deg)",

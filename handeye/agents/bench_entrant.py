@@ -1,5 +1,6 @@
 """Lets an entrant of the bench solve a task: it runs the entrant's command in a folder, and gives feedback."""
 
+import os
 import shlex
 import subprocess
 import time
@@ -8,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Literal
 
-from handeye.agents.bench_task import REFERENCE, TRIVIAL, BenchTask
+from handeye.agents.bench_task import BUILT_IN, BenchTask
 from handeye.agents.call import Call
 from handeye.agents.judging import Verdict, judged
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
@@ -16,7 +17,6 @@ from handeye.core.files import write_whole
 
 Feedback = Literal["verdict", "errors", "trace"]
 FEEDBACK: Final = "feedback.md"  # file that the entrant finds after its first round
-BUILT_IN: Final = (REFERENCE, TRIVIAL)  # entrants that need no command
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,8 +33,9 @@ class Entrant:
 class Effort:
     """What an entrant spent on a task. The time differs from run to run."""
 
-    rounds: int
-    wall_s: float
+    rounds: int = 0
+    wall_s: float = 0.0
+    barred: str = ""  # why the entrant has lost the task before it was judged; empty if it has not
 
 
 def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effort:
@@ -48,18 +49,29 @@ def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effor
     if entrant.command in BUILT_IN:
         for name, data in task.solution(entrant.command).items():
             write_whole(folder / name, data)
-        return Effort(rounds=0, wall_s=0.0)
-    began, rounds = time.monotonic(), 0
-    while rounds < entrant.rounds:
+        return Effort()
+    began, rounds, barred = time.monotonic(), 0, ""
+    while rounds < entrant.rounds and not barred:
         _run(entrant, folder)
         rounds += 1
-        if rounds == entrant.rounds:
+        barred = _blocked(folder)
+        if rounds == entrant.rounds or barred:
             break
         found = verdicts(task, folder, task.file.public, call)
         if all(each.outcome == "accepted" for each in found):
             break
         write_whole(folder / FEEDBACK, feedback(found, entrant.feedback).encode())
-    return Effort(rounds=rounds, wall_s=round(time.monotonic() - began, 1))
+    return Effort(rounds=rounds, wall_s=round(time.monotonic() - began, 1), barred=barred)
+
+
+def _blocked(folder: Path) -> str:
+    """Return why handeye cannot go on in the folder that an entrant has left; empty if it can."""
+    if folder.is_symlink() or not os.access(folder, os.R_OK | os.W_OK | os.X_OK):
+        return "the entrant has removed, replaced or locked the folder of the task"
+    place = folder / FEEDBACK
+    if os.path.lexists(place) and (place.is_symlink() or not place.is_file()):
+        return f"the entrant has put something other than a file in the place of {FEEDBACK}"
+    return ""
 
 
 def verdicts(
@@ -69,20 +81,43 @@ def verdicts(
     call: Call,
     tell: Callable[[Verdict], None] = lambda _: None,
 ) -> list[Verdict]:
-    """Judge the solution in a folder in the worlds with these seeds. A solution that cannot be run has stopped in each
-    of them.
+    """Judge the solution in a folder in the worlds with these seeds, or once in every order of its tasks. A solution
+    that cannot be run has stopped in each of the worlds.
     """
     try:
+        if task.file.orders:
+            found = [_in_every_order(task, folder)]
+            tell(found[0])
+            return found
         setups = task.setups(folder, seeds)
     except InvalidInput as error:
-        found = [Verdict(seed=seed, outcome="stopped", message=str(error)) for seed in seeds]
-        tell(found[0])
-        return found
+        return lost(task, seeds, str(error), tell)
     found = []
-    for setup in setups:
-        found.append(judged(setup, call))
+    for seed, setup in zip(seeds, setups, strict=True):
+        found.append(judged(setup, call, task.case(seed).right))
         tell(found[-1])
     return found
+
+
+def lost(
+    task: BenchTask, seeds: Sequence[int], why: str, tell: Callable[[Verdict], None] = lambda _: None
+) -> list[Verdict]:
+    """Return the verdicts on an entrant without a solution that can be judged, which counts as stopped everywhere."""
+    judged_in = task.file.public[:1] if task.file.orders else seeds
+    found = [Verdict(seed=seed, outcome="stopped", message=why) for seed in judged_in]
+    tell(found[0])
+    return found
+
+
+def _in_every_order(task: BenchTask, folder: Path) -> Verdict:
+    """Judge a solution in every order of its tasks."""
+    seed, problems = task.file.public[0], task.problems(folder)
+    if not problems:
+        return Verdict(seed=seed, outcome="accepted")
+    silent, told = problems[0]
+    if silent:
+        return Verdict(seed=seed, outcome="silent", rejected=(told,))
+    return Verdict(seed=seed, outcome="stopped", message=told)
 
 
 def feedback(found: Sequence[Verdict], kind: Feedback) -> str:

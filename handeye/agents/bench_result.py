@@ -1,12 +1,11 @@
-"""The result of the agents' bench: scores as a record, as text, and as a page."""
+"""The result of the agents' bench: scores as a record, and as a table."""
 
 from collections.abc import Sequence
-from html import escape
 from typing import Final
 
 import msgspec
 
-from handeye.agents.bench_task import PROTOCOL
+from handeye.agents.bench_task import PASSED, PROTOCOL
 from handeye.agents.judging import Verdict
 from handeye.core.record import Record
 from handeye.core.versions import HANDEYE
@@ -28,6 +27,11 @@ class TaskScore(Record, frozen=True, kw_only=True):
     wall_s: float  # effort: wall-clock time of the command
     verdicts: tuple[Verdict, ...]
 
+    @property
+    def passed(self) -> bool:
+        """True if the task is passed."""
+        return self.score >= PASSED
+
 
 class BenchResult(Record, frozen=True, kw_only=True):
     """The result of an entrant."""
@@ -45,6 +49,12 @@ class BenchResult(Record, frozen=True, kw_only=True):
         return round(sum(each.score for each in self.tasks) / len(self.tasks), 4)
 
 
+def score_of(found: Sequence[Verdict]) -> float:
+    """Return the score of verdicts: (accepted - 2 silent) / worlds."""
+    accepted, silent = (sum(each.outcome == word for each in found) for word in ("accepted", "silent"))
+    return round((accepted - 2 * silent) / len(found), 4)
+
+
 def scored(
     task: str, title: str, language: str, tier: str, found: Sequence[Verdict], *, rounds: int, wall_s: float
 ) -> TaskScore:
@@ -59,7 +69,7 @@ def scored(
         accepted=accepted,
         silent=silent,
         stopped=len(found) - accepted - silent,
-        score=round((accepted - 2 * silent) / len(found), 4),
+        score=score_of(found),
         rounds=rounds,
         wall_s=wall_s,
         verdicts=tuple(msgspec.structs.replace(each, steps=()) for each in found),
@@ -96,39 +106,3 @@ def rows(result: BenchResult) -> list[tuple[str, ...]]:
         )
         for each in result.tasks
     ]
-
-
-def page(result: BenchResult) -> str:
-    """Write the result as one HTML page without scripts."""
-    heads = "".join(f"<th>{head}</th>" for head in HEADS)
-    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows(result))
-    details = "".join(
-        f"<details><summary>{escape(each.title)}</summary><ol>"
-        + "".join(f'<li class="{verdict.outcome}">{escape(verdict.told)}</li>' for verdict in each.verdicts)
-        + "</ol></details>"
-        for each in result.tasks
-    )
-    told = f"{escape(result.entrant)}, {result.seeds} worlds, feedback: {escape(result.feedback)}"
-    return _PAGE.format(
-        told=told, protocol=result.protocol, score=result.score, heads=heads, body=body, details=details
-    )
-
-
-_PAGE: Final = """<!doctype html>
-<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>The agents' bench: {told}</title>
-<style>
-body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222; }}
-table {{ border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }}
-th, td {{ text-align: right; padding: .3rem .6rem; border-bottom: 1px solid #ddd; }}
-th:nth-child(-n+2), td:nth-child(-n+2) {{ text-align: left; }}
-summary {{ cursor: pointer; margin-top: .8rem; font-weight: 600; }}
-.accepted {{ color: #14612e; }} .stopped {{ color: #6b5300; }} .silent {{ color: #a11313; font-weight: 600; }}
-</style>
-<h1>The agents' bench</h1>
-<p>{told}. Protocol {protocol}.</p>
-<p>The mean score is <strong>{score:.2f}</strong>; the best possible score is 1. A silent failure counts -2.</p>
-<table><tr>{heads}</tr>{body}</table>
-{details}
-</html>
-"""

@@ -2,35 +2,39 @@
 a trivial one.
 """
 
-import hashlib
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
 import msgspec
 
 from handeye.agents.agent_folder import AgentFolder
+from handeye.agents.bench_brief import end_of_brief
+from handeye.agents.bench_files import GIVEN, REFERENCE, TRIVIAL, Derived, TaskFiles
+from handeye.agents.bench_right import Right
+from handeye.agents.hidden_seeds import commitment
 from handeye.agents.judging import setup_of
 from handeye.agents.scripts import Scripts
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.entries import entry_of_file, loaded
 from handeye.core.errors import BadFile, NoSuchName
-from handeye.core.files import read_whole
 from handeye.core.resources import benches
 from handeye.core.source import read_source
 from handeye.core.variation import Level, Seed, WorldSpec
-from handeye.core.world_options import overrides
+from handeye.core.world_options import faults, from_start_only, overrides
 from handeye.program.language import own_language
 from handeye.runs.setup import Setup
 from handeye.tasks import any_task
 
-PROTOCOL: Final = 1  # version of docs/agents_bench.md; results of different versions cannot be compared
-GIVEN, REFERENCE, TRIVIAL = "given", "reference", "trivial"  # folders of a task
+PROTOCOL: Final = 2  # version of docs/agents_bench.md; results of different versions cannot be compared
+BUILT_IN: Final = (REFERENCE, TRIVIAL)  # solutions that each task has
+PASSED: Final = 0.9  # least score with which a task is passed
 BRIEF: Final = "brief.md"
+_SHARED: Final = re.compile(r"^\{(\w+)\}", re.MULTILINE)  # at the beginning of a line of a brief
 SOLUTION: Final = "solution"  # name of an entrant's program, without its ending
-_LARGEST: Final = 1 << 20  # bytes of a file of hidden seeds
 Tier = Literal["macros", "language", "bare", "repair"]
 
 
@@ -41,22 +45,40 @@ class Worlds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     without: list[str] = []
     set: dict[str, float | str] = {}
     scale: dict[str, float] = {}
+    faults: list[str] = []
 
 
-class _File(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a program finds in a world, and what is right there."""
+
+    worlds: Worlds = Worlds()
+    right: Right = Right()
+    replace: dict[
+        str, str
+    ] = {}  # lines of the solution, by the lines that the organiser puts in their places
+    job: str = ""  # variant of the job, such as a number of pieces
+
+
+class _File(Case, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The file `task.toml`."""
 
     title: str
     language: str  # ending of the program's file
     tier: Tier
+    about: str  # what to do, as a phrase for the table of tasks
     task: str  # name of the task whose cell and referee are used
+    manual: list[str] = []  # pages that the brief names
+    stopping: str = ""  # how a program stops, as a phrase for the brief; empty: as usual in its language
     public: Annotated[list[Seed], msgspec.Meta(min_length=1)]
     hidden: str = ""  # SHA-256 of the hidden seeds
     kept: str = ""  # regular expression for lines that a solution must keep, in their order
-    worlds: Worlds = Worlds()
+    orders: bool = False  # the program is judged in every order of its tasks, and not in worlds
+    variants: list[dict[str, dict[str, Any] | str]] = []
+    """Changes of the case. A world has the variant whose number is its seed modulo the number of variants."""
+    derived: dict[str, Derived] = {}
 
 
-class BenchTask(msgspec.Struct, frozen=True, kw_only=True):
+class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     """A task of the bench."""
 
     name: str
@@ -64,9 +86,20 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True):
     file: _File
 
     @property
+    def files(self) -> TaskFiles:
+        return TaskFiles(
+            self.folder, self.file.derived, lambda name: read_task(self.folder.parent / name).files
+        )
+
+    @property
     def brief(self) -> str:
         """The page that the entrant reads."""
-        return read_source(self.folder / BRIEF).text
+        own = read_source(self.folder / BRIEF).text.rstrip()
+        return f"{_SHARED.sub(self._shared, own)}\n\n{end_of_brief(self)}"
+
+    def _shared(self, found: re.Match[str]) -> str:
+        """Return the text that a line of the brief names, which several briefs share."""
+        return read_source(self.folder.parent / f"{found[1]}.md").text.rstrip()
 
     @property
     def program(self) -> str:
@@ -75,51 +108,97 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True):
 
     def given(self) -> dict[str, bytes]:
         """Return the files with which an entrant begins, by name."""
-        return {BRIEF: self.brief.encode(), **_files(self.folder / GIVEN)}
+        return {BRIEF: self.brief.encode(), **self.files.read(GIVEN)}
 
     def solution(self, kind: str) -> dict[str, bytes]:
-        """Return the files of the reference solution or of the trivial one."""
-        return _files(self.folder / kind)
+        """Return the files of the reference solution or of the trivial one. The trivial solution of a task without one
+        is the given program.
+        """
+        return self.files.read(kind) or self.files.read(GIVEN)
+
+    @cached_property
+    def cases(self) -> tuple[Case, ...]:
+        """The cases of the task: one for each variant, or only one."""
+        usual: dict[str, Any] = {
+            name: msgspec.to_builtins(getattr(self.file, name)) for name in Case.__struct_fields__
+        }
+        found = []
+        for change in self.file.variants or [{}]:
+            made = dict(usual)
+            for name, value in change.items():
+                made[name] = usual[name] | value if isinstance(value, dict) else value
+            found.append(msgspec.convert(made, Case))
+        return tuple(found)
+
+    def case(self, seed: int) -> Case:
+        """Return the case of the world with this seed."""
+        return self.cases[seed % len(self.cases)]
 
     def world(self, seed: int) -> WorldSpec:
         """Return the world with this seed."""
-        worlds = self.file.worlds
+        worlds, task = self.case(seed).worlds, any_task(self.file.task)
         settings = [f"{name}={value}" for name, value in worlds.set.items()]
         scales = [f"{name}={factor}" for name, factor in worlds.scale.items()]
-        wanted = overrides(any_task(self.file.task).variation(), worlds.without, settings, scales)
-        return WorldSpec(seed=seed, level=worlds.level, overrides=wanted)
+        spec = WorldSpec(
+            seed=seed,
+            level=worlds.level,
+            overrides=overrides(task.variation(), worlds.without, settings, scales),
+        )
+        planted = faults(task.faults(spec), worlds.faults, from_start_only)
+        return msgspec.structs.replace(spec, faults=planted)
 
     def setups(self, folder: Path, seeds: Sequence[int]) -> list[Setup]:
         """Return the runs that judge the solution in a folder, one for each seed. Raises InvalidInput if there is no
         solution, or if it has errors.
         """
         own = AgentFolder(folder.resolve())
-        if not own.has(self.program):
-            raise BadFile(f"there is no file {self.program}")
-        self._check_kept(own.source(self.program).text)
+        text = self._checked(own)
         entry, _ = entry_of_file(self.program)
         if entry is None:
             plan = Scripts(folder=own).plan(self.program, None, self.file.task)
             return [setup_of(plan, self.world(seed)) for seed in seeds]
+        found = []
+        for seed in seeds:
+            case = self.case(seed)
+            made = loaded(entry.programs)(
+                self.file.task, self.program, _replaced(text, case.replace), case.job
+            )
+            world = self.world(seed)
+            found.append(Setup(system=entry.name, plan=made, world=world, camera="ray", judged=True))
+        return found
+
+    def problems(self, folder: Path) -> list[tuple[bool, str]]:
+        """Return what is wrong with the solution in a folder in some order of its tasks, the worst first: whether the
+        program does not notice it, and a sentence. Raises InvalidInput if there is no solution, or if it has errors.
+        """
+        text = self._checked(AgentFolder(folder.resolve()))
+        entry, _ = entry_of_file(self.program)
+        if entry is None or not entry.orders:
+            raise BadFile(f"programs in .{self.file.language} cannot be judged in every order of their tasks")
+        found: list[tuple[bool, str]] = loaded(entry.orders)(self.program, text)
+        return found
+
+    def _checked(self, own: AgentFolder) -> str:
+        """Return the text of a solution. Raises InvalidInput if there is none, if it lacks lines that it must keep, or
+        if it has errors.
+        """
+        if not own.has(self.program):
+            raise BadFile(f"there is no file {self.program}")
         source, language = own.source(self.program), own_language(self.program)
+        self._check_kept(source.text)
         found = [] if language is None else language.check(source)
         if has_errors(found):
             raise BadFile(
                 f"{self.program}: {next(each.message for each in found if each.severity == 'error')}"
             )
-        made = loaded(entry.programs)(self.file.task, self.program, source.text)
-        return [
-            Setup(system=entry.name, plan=made, world=self.world(seed), camera="ray", judged=True)
-            for seed in seeds
-        ]
+        return source.text
 
     def _check_kept(self, text: str) -> None:
         """Raise BadFile if a solution lacks lines that it must keep, or has more of them."""
         if not self.file.kept:
             return
         kept = re.compile(self.file.kept, re.MULTILINE)
-        wanted = kept.findall(read_source(self.folder / GIVEN / self.program).text)
-        if kept.findall(text) != wanted:
+        if kept.findall(text) != kept.findall(self.files.text(f"{GIVEN}/{self.program}")):
             raise BadFile(
                 f"the lines of {self.program} that the brief says to keep are not those of the given program"
             )
@@ -132,30 +211,15 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True):
             )
 
 
-class HiddenSeeds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The file of hidden seeds, which is not in the repository."""
-
-    salt: Annotated[str, msgspec.Meta(min_length=16)]
-    seeds: Mapping[str, list[Seed]]  # by task
-
-
-def read_hidden(path: Path) -> HiddenSeeds:
-    """Read a file of hidden seeds. Raises BadFile if it cannot be used."""
-    try:
-        return msgspec.json.decode(read_whole(path, _LARGEST), type=HiddenSeeds)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise BadFile(f"{path} is not a file of hidden seeds: {error}") from None
-
-
-def commitment(salt: str, task: str, seeds: Sequence[int]) -> str:
-    """Return the SHA-256 of the hidden seeds of a task. The salt keeps short lists from being guessed."""
-    return hashlib.sha256(f"{salt}:{task}:{','.join(map(str, seeds))}".encode()).hexdigest()
+def _replaced(text: str, lines: Mapping[str, str]) -> str:
+    """Return a program with other lines. The lines that are replaced are among those that a solution must keep."""
+    return "\n".join(lines.get(line, line) for line in text.splitlines()) + "\n"
 
 
 def bench_tasks() -> dict[str, BenchTask]:
     """Return all tasks of the bench by name, sorted."""
     folders = sorted(file.parent for file in (benches() / "agents").glob("*/task.toml"))
-    return {folder.name: _read(folder) for folder in folders}
+    return {folder.name: read_task(folder) for folder in folders}
 
 
 def bench_task(name: str) -> BenchTask:
@@ -167,13 +231,10 @@ def bench_task(name: str) -> BenchTask:
     return known[name]
 
 
-def _read(folder: Path) -> BenchTask:
+def read_task(folder: Path) -> BenchTask:
+    """Read the task in a folder. Raises BadFile if it cannot be used."""
     try:
         file = msgspec.convert(tomllib.loads(read_source(folder / "task.toml").text), _File)
     except (tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         raise BadFile(f"{folder / 'task.toml'} cannot be used: {error}") from None
     return BenchTask(name=folder.name, folder=folder, file=file)
-
-
-def _files(folder: Path) -> dict[str, bytes]:
-    return {file.name: read_whole(file) for file in sorted(folder.glob("*.*"))}

@@ -1,8 +1,11 @@
 """Judges programs: runs each to its end in a world, and lets the referee judge the result."""
 
+import re
 import warnings
+from functools import partial
 from typing import Final, Literal
 
+from handeye.agents.bench_right import USUAL, Right
 from handeye.agents.call import Call
 from handeye.api.plans import Plan
 from handeye.core.errors import HandeyeError, Refused
@@ -13,7 +16,7 @@ from handeye.debugger.reply import step_summaries
 from handeye.execution.servo import Halted
 from handeye.results.finishing import outcome as result_of
 from handeye.results.result import Result
-from handeye.runs.advance import AfterSteps, advance
+from handeye.runs.advance import AfterSteps, Pause, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
@@ -58,13 +61,15 @@ def setup_of(plan: Plan, world: WorldSpec) -> Setup:
     return Setup(plan=plan.record, world=world, camera="ray", judged=True)
 
 
-def judged(setup: Setup, call: Call) -> Verdict:
-    """Run a program to its end, or to the limits of time and steps. Raises Refused if the call is cancelled."""
+def judged(setup: Setup, call: Call, right: Right = USUAL) -> Verdict:
+    """Run a program to its end, or to the limits of time and steps, and judge it by what is `right` in its world.
+    Raises Refused if the call is cancelled.
+    """
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             runner = Runner(Checkpoint(setup=setup), halt=call.cancelled.is_set)
-            return _judged(runner, call)
+            return _judged(runner, call, right)
     except Halted:
         raise Refused("the judging was cancelled") from None
     except HandeyeError as error:
@@ -73,24 +78,46 @@ def judged(setup: Setup, call: Call) -> Verdict:
         return Verdict(seed=setup.world.seed, outcome="stopped", message=str(error))
 
 
-def _judged(runner: Runner, call: Call) -> Verdict:
-    late = ""
+def _judged(runner: Runner, call: Call, right: Right) -> Verdict:
+    pause, late = _to_end(runner, call)
+    referee = None if right == USUAL else partial(right.findings, runner)
+    result = result_of(runner, pause, Meter(), judged=True, referee=referee)
+    if right.undone and result.judged:
+        runner.order_reversal(0, halts=True)
+        pause, late = _to_end(runner, call)
+        result = result_of(runner, pause, Meter(), judged=True)
+    outcome, message = outcome_of(result), late or ("" if result.completed else result.message)
+    if right.stops and not late:
+        outcome, message = _stopped(outcome, message, right.stops)
+    shown = step_summaries(runner.events, runner.listing, runner.task.measures)[-TRACED:]
+    return Verdict(
+        seed=runner.setup.world.seed,
+        outcome=outcome,
+        message=message,
+        rejected=tuple(check.told for check in result.checks if check.refuses and outcome != "accepted"),
+        seconds=result.timing.working_s,
+        steps=tuple(f"{each.line or '-'} {each.text}: {each.outcome}".rstrip(": ") for each in shown),
+    )
+
+
+def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]:
+    """Return the outcome in a world in which the work is impossible, and why."""
+    if outcome != "stopped":
+        return "silent", "it reported success, but the work is impossible in this world"
+    if re.search(wanted, message):
+        return "accepted", f"it stopped, as it must in this world ({message})"
+    return "stopped", message
+
+
+def _to_end(runner: Runner, call: Call) -> tuple[Pause, str]:
+    """Execute a program to its end, or to the limits. Returns the pause, and a sentence if it has reached a limit."""
     while True:
         pause = advance(runner, steps=AT_ONCE)
         if call.cancelled.is_set():
             raise Refused("the judging was cancelled")
         if not isinstance(pause.met, AfterSteps):
-            break
+            return pause, ""
         if runner.time > MOST_SECONDS or runner.position > MOST_STEPS:
-            late = f"the program was still running after {counted(runner.position, 'step')} and {runner.time:.0f} s"
-            break
-    result = result_of(runner, pause, Meter(), judged=True)
-    shown = step_summaries(runner.events, runner.listing, runner.task.measures)[-TRACED:]
-    return Verdict(
-        seed=runner.setup.world.seed,
-        outcome=outcome_of(result),
-        message=late or ("" if result.completed else result.message),
-        rejected=tuple(check.told for check in result.checks if check.refuses),
-        seconds=result.timing.working_s,
-        steps=tuple(f"{each.line or '-'} {each.text}: {each.outcome}".rstrip(": ") for each in shown),
-    )
+            return pause, (
+                f"the program was still running after {counted(runner.position, 'step')} and {runner.time:.0f} s"
+            )

@@ -6,6 +6,7 @@ all others meanwhile. If the agent leaves, the runs are closed, and can be resum
 
 import base64
 import logging
+import re
 import sys
 from contextlib import suppress
 from typing import Any, Final, Self
@@ -60,7 +61,20 @@ class _Lines:
         line: bytes = await anyio.to_thread.run_sync(sys.stdin.buffer.readline, abandon_on_cancel=True)
         if not line:
             raise StopAsyncIteration
-        return line.decode("utf-8", errors="replace")
+        return decodable(line.decode("utf-8", errors="replace"))
+
+
+_ESCAPED: Final = re.compile(
+    r"\\u[dD][89abAB][\da-fA-F]{2}\\u[dD][c-fC-F][\da-fA-F]{2}|(\\u[dD][89a-fA-F][\da-fA-F]{2})|\\."
+)
+"""An escape in a JSON text. The group is half of a surrogate pair without the other half."""
+
+
+def decodable(line: str) -> str:
+    """Return a message that the decoder of the SDK accepts. It drops a message with half of a surrogate pair without
+    an answer; here the half becomes a replacement character, as a byte that is not UTF-8 does.
+    """
+    return _ESCAPED.sub(lambda found: r"\ufffd" if found[1] else found[0], line)
 
 
 def server_of(toolbox: Toolbox) -> Server[Any]:

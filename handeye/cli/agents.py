@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, Overwrite, WholeNumber, note, positive, put, say, screen
+from handeye.cli.common import Json, Overwrite, WholeNumber, note, positive, put, put_json, say, screen
 from handeye.core.errors import BadArgument, BadFile, MissingExtra
-from handeye.core.files import Kind, check_place, write_over
+from handeye.core.files import check_place, write_over
 
 if TYPE_CHECKING:
     from handeye.agents.bench_entrant import Entrant
     from handeye.agents.bench_result import BenchResult, TaskScore
-    from handeye.agents.bench_task import BenchTask, HiddenSeeds
+    from handeye.agents.bench_task import BenchTask
+    from handeye.agents.hidden_seeds import HiddenSeeds
     from handeye.agents.judging import Verdict
-
-_PAGE = Kind("page", rb"<!doctype html>", ".html")
 
 
 def mcp(
@@ -66,6 +65,22 @@ def bench_agents(
             "program. `reference` and `trivial` are included with handeye."
         ),
     ] = None,
+    attempt: Annotated[
+        Path | None,
+        Parameter(
+            name="--try",
+            help="Instead of --command: a folder with one program for the task, such as `.`. It is judged in the "
+            "public worlds, and the command prints the feedback.",
+        ),
+    ] = None,
+    check: Annotated[
+        bool,
+        Parameter(
+            negative="",
+            help="Check the tasks: in the public worlds, the reference must be accepted everywhere, and the trivial "
+            "program must not pass.",
+        ),
+    ] = False,
     solutions: Annotated[
         Path | None,
         Parameter(
@@ -73,12 +88,13 @@ def bench_agents(
         ),
     ] = None,
     feedback: Annotated[
-        Literal["verdict", "errors", "trace"],
+        Literal["verdict", "errors", "trace"] | None,
         Parameter(
             help="What the entrant learns between two rounds about its program in the public worlds. verdict: the "
-            "verdict in each world; errors: also the errors; trace: also what each step did."
+            "verdict in each world; errors: also the errors; trace: also what each step did. Default: verdict, or "
+            "errors with --try."
         ),
-    ] = "verdict",
+    ] = None,
     rounds: Annotated[
         WholeNumber,
         Parameter(
@@ -104,12 +120,12 @@ def bench_agents(
 ) -> int:
     """Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
 
-    The score of a task is (accepted - 2 silent) / worlds. Exit code 0: no silent failure; 3: a silent failure; 2: bad
-    input; 130: interrupted.
+    The score of a task is (accepted - 2 silent) / worlds. Exit code 0: no silent failure; 1: --check found a task that
+    is not right; 3: a silent failure; 2: bad input; 130: interrupted.
     """
     from handeye.agents.bench_entrant import Entrant
+    from handeye.agents.bench_page import PAGE, bench_page
     from handeye.agents.bench_result import BenchResult, to_json
-    from handeye.agents.bench_result import page as written
     from handeye.agents.bench_task import bench_task, bench_tasks
 
     chosen = [*bench_tasks().values()] if task is None else [bench_task(task)]
@@ -117,29 +133,74 @@ def bench_agents(
         for each in chosen:
             say(f"{each.name:<20} {each.file.language:<6} {each.file.tier:<9} {each.file.title}")
         return 0
-    if (command is None) == (solutions is None):
+    if [command is not None, solutions is not None, attempt is not None, check].count(True) != 1:
         raise BadArgument(
-            "give either --command or --solutions; `handeye bench agents --list` lists the tasks"
+            "give one of --command, --solutions, --try and --check; `handeye bench agents --list` lists the tasks"
         )
+    if check:
+        return _check(chosen, json=json)
+    if attempt is not None:
+        return _try(chosen, attempt, feedback or "errors")
     positive(rounds, "round")
     if solutions is not None and not solutions.is_dir():
         raise BadArgument(f"{solutions}: there is no such folder")
     if page is not None:
-        check_place(page, _PAGE, overwrite=overwrite)
-    entrant = None if command is None else Entrant(command=command, rounds=rounds, feedback=feedback)
+        check_place(page, PAGE, overwrite=overwrite)
+    entrant = (
+        None if command is None else Entrant(command=command, rounds=rounds, feedback=feedback or "verdict")
+    )
     with TemporaryDirectory() as aside:
         scores = _scores(chosen, entrant, solutions or out or Path(aside), hidden)
     result = BenchResult(
-        entrant=command or str(solutions), feedback=feedback if rounds > 1 else "none",
+        entrant=command or str(solutions), feedback=feedback or "verdict" if rounds > 1 else "none",
         seeds="public" if hidden is None else "hidden", tasks=tuple(scores),
     )  # fmt: skip
     if page is not None:
-        write_over(page, written(result).encode(), _PAGE)
+        write_over(page, bench_page(result), PAGE)
     if json:
         put(to_json(result))
     else:
         _show(result)
     return 3 if any(each.silent for each in scores) else 0
+
+
+def _try(chosen: "list[BenchTask]", folder: Path, kind: 'Literal["verdict", "errors", "trace"]') -> int:
+    """Judge one program in the public worlds, and print the feedback."""
+    from handeye.agents.bench_entrant import feedback, verdicts
+    from handeye.agents.call import Call
+
+    if len(chosen) != 1:
+        raise BadArgument("--try needs the name of one task")
+    if not folder.is_dir():
+        raise BadArgument(f"{folder}: there is no such folder")
+    found = verdicts(chosen[0], folder, chosen[0].file.public, Call())
+    put(feedback(found, kind).encode())
+    return 3 if any(each.outcome == "silent" for each in found) else 0
+
+
+def _check(chosen: "list[BenchTask]", *, json: bool) -> int:
+    """Check tasks, and print the verdicts on their own solutions."""
+    from rich.table import Table
+
+    from handeye.agents.bench_check import checked
+    from handeye.agents.call import Call
+
+    found = checked(
+        chosen, Call(), lambda task, kind, each: note(f"{task}, {kind}, seed {each.seed}: {each.told}")
+    )
+    if json:
+        put_json(found)
+    else:
+        table = Table(box=None, pad_edge=False)
+        table.add_column("task", no_wrap=True)
+        for name in ("worlds", "reference", "trivial", "silent", "score", "CPU s", ""):
+            table.add_column(name, justify="right")
+        for each in found:
+            figures = each.worlds, each.reference_accepted, each.trivial_accepted, each.trivial_silent
+            score, most = f"{each.trivial_score:.2f}", f"{each.largest_cpu_s:.1f}"
+            table.add_row(each.task, *map(str, figures), score, most, "" if each.right else "WRONG")
+        screen.print(table)
+    return 0 if all(each.right for each in found) else 1
 
 
 def _scores(
@@ -148,10 +209,10 @@ def _scores(
     """Let the entrant solve each task, then judge all solutions. The hidden seeds are read after that.
     Raises BadFile at once if their file does not exist.
     """
-    from handeye.agents.bench_entrant import Effort, solved, verdicts
+    from handeye.agents.bench_entrant import Effort, lost, solved, verdicts
     from handeye.agents.bench_result import scored
-    from handeye.agents.bench_task import read_hidden
     from handeye.agents.call import Call
+    from handeye.agents.hidden_seeds import read_hidden
 
     efforts = {}
     if hidden is not None and not hidden.is_file():
@@ -159,14 +220,17 @@ def _scores(
     for task in tasks:
         note(f"{task.name}: {task.file.title}")
         place = folder / task.name
-        efforts[task.name] = (
-            Effort(rounds=0, wall_s=0.0) if entrant is None else solved(task, entrant, place, Call())
-        )
+        efforts[task.name] = Effort() if entrant is None else solved(task, entrant, place, Call())
     seeds = None if hidden is None else read_hidden(hidden)
     scores = []
     for task in tasks:
-        found = verdicts(task, folder / task.name, _seeds(task, seeds), Call(), partial(_tell, task.name))
         effort, file = efforts[task.name], task.file
+        chosen, tell = _seeds(task, seeds), partial(_tell, task.name)
+        found = (
+            lost(task, chosen, effort.barred, tell)
+            if effort.barred
+            else verdicts(task, folder / task.name, chosen, Call(), tell)
+        )
         scores.append(
             scored(
                 task.name,
@@ -187,7 +251,7 @@ def _tell(task: str, verdict: "Verdict") -> None:
 
 def _seeds(task: "BenchTask", hidden: "HiddenSeeds | None") -> list[int]:
     """The seeds of the worlds that judge a task; raises BadArgument if a file of hidden seeds has none for it."""
-    if hidden is None:
+    if hidden is None or task.file.orders:
         return task.file.public
     if not hidden.seeds.get(task.name):
         raise BadArgument(f"the file of hidden seeds has none for the task {task.name}")

@@ -76,8 +76,14 @@ class Entry(Record, frozen=True, kw_only=True):
     work of `handeye faults`. Empty if the system has no such trials.
     """
     programs: str = ""
-    """`module:NAME` of a function that takes the name of a task, and the name and text of a program, and returns the
-    plan with which the program does the task. Empty if the system has no such tasks, or if it runs plans of motions.
+    """`module:NAME` of a function that takes the name of a task, the name and text of a program, and a variant of the
+    task (empty for the usual one), and returns the plan with which the program does the task. Empty if the system has
+    no such tasks, or if it runs plans of motions.
+    """
+    orders: str = ""
+    """`module:NAME` of a function that takes the name and text of a program. It returns what is wrong with the program
+    in some order of its concurrent tasks, the worst first: whether the program does not notice it, and a sentence.
+    Empty if the system cannot try every order.
     """
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending

@@ -2,6 +2,7 @@
 
 import json
 import re
+import runpy
 import shlex
 import sys
 from pathlib import Path
@@ -10,36 +11,59 @@ import pytest
 from conftest import Command
 from cyclopts import CycloptsError
 
-from handeye.agents.bench_entrant import FEEDBACK, Entrant, solved, verdicts
-from handeye.agents.bench_result import BenchResult, page, scored, to_json
-from handeye.agents.bench_task import BenchTask, bench_task, bench_tasks, commitment
+from handeye.agents.bench_entrant import FEEDBACK, Entrant, lost, solved, verdicts
+from handeye.agents.bench_page import bench_page
+from handeye.agents.bench_result import BenchResult, scored, to_json
+from handeye.agents.bench_task import BenchTask, bench_task, bench_tasks
 from handeye.agents.call import Call
+from handeye.agents.hidden_seeds import commitment
 from handeye.agents.judging import Outcome, Verdict
 from handeye.cli import app
 from handeye.core.errors import BadFile
 
 TASKS = bench_tasks()
 EVERY = pytest.mark.parametrize("task", TASKS.values(), ids=TASKS)
-LONGEST = 400  # words of a brief, so that it is one page
+ROOT = Path(__file__).parent.parent.parent
+LONGEST = 600  # words of a brief, so that it is one page
 
 
 @EVERY
-def test_a_brief_is_one_page_with_the_title_of_the_task(task: BenchTask) -> None:
-    assert task.brief.startswith("# ")
-    assert len(task.brief.split()) <= LONGEST
+def test_a_brief_is_one_page_and_says_what_an_entrant_must_know(task: BenchTask) -> None:
+    brief = task.brief
+    assert brief.startswith("# ")
+    assert len(brief.split()) <= LONGEST
     for said in (
-        "**What differs from world to world.**",
+        "**What differs",
         "**What is right.**",
-        "Score: (accepted - 2 silent) / worlds",
+        f"**What to leave.** Your program, as `{task.program}` in this folder",
+        "**What counts.** Score: (accepted - 2 silent) / worlds.",
+        f"**How to try it.** `handeye bench agents {task.name} --try .` judges your program",
     ):
-        assert said in task.brief
-    assert f"seeds {task.file.public[0]} to {task.file.public[-1]}" in task.brief
+        assert said in brief
+    assert ("do not use `handeye docs`" in brief) == (task.file.tier == "bare")
+    assert not re.search(r"^\{", brief, re.MULTILINE)
+    if not task.file.orders:
+        assert re.search(rf"the seeds {task.file.public[0]} (to|and) {task.file.public[-1]}", brief)
+
+
+def test_there_are_enough_tasks_in_each_language() -> None:
+    languages = [task.file.language for task in TASKS.values()]
+    assert len(TASKS) >= 30
+    for language, least in {"al": 10, "trig": 10, "ml": 5, "mal": 5}.items():
+        assert languages.count(language) >= least
+    assert {task.file.tier for task in TASKS.values()} == {"macros", "language", "bare", "repair"}
+
+
+def test_the_page_lists_the_tasks() -> None:
+    made = runpy.run_path(str(ROOT / "docs/make_agents_bench.py"))
+    page = (ROOT / "docs/agents_bench.md").read_text(encoding="utf-8")
+    assert made["between"](page, "tasks", made["tasks"]()) == page
 
 
 @EVERY
 def test_the_commands_of_a_brief_can_be_typed(task: BenchTask) -> None:
     commands = re.findall(r"`handeye ([^`]*)`", task.brief)
-    assert len(commands) >= 3
+    assert len(commands) >= 2
     for command in commands:
         try:
             app.parse_args(shlex.split(command), exit_on_error=False, print_error=False)
@@ -49,31 +73,70 @@ def test_the_commands_of_a_brief_can_be_typed(task: BenchTask) -> None:
 
 @EVERY
 def test_the_repository_is_committed_to_the_hidden_seeds_of_each_task(task: BenchTask) -> None:
-    assert re.fullmatch("[0-9a-f]{64}", task.file.hidden)
+    assert re.fullmatch("" if task.file.orders else "[0-9a-f]{64}", task.file.hidden)
 
 
 @EVERY
-def test_a_reference_solution_can_be_run(task: BenchTask, tmp_path: Path) -> None:
-    solved(task, Entrant(command="reference"), tmp_path / "a", Call())
-    assert len(task.setups(tmp_path / "a", task.file.public)) == len(task.file.public)
+def test_the_own_solutions_of_a_task_can_be_judged(task: BenchTask, tmp_path: Path) -> None:
+    for kind in ("reference", "trivial"):
+        solved(task, Entrant(command=kind), tmp_path / kind, Call())
+        assert (tmp_path / kind / task.program).is_file()
+    if not task.file.orders:
+        assert len(task.setups(tmp_path / "reference", task.file.public)) == len(task.file.public)
+
+
+JUDGED = [
+    ("pin", "reference", 0, "accepted"),
+    ("pin", "trivial", 0, "silent"),  # findings of the task's referee
+    ("stand_gently", "trivial", 0, "silent"),  # the pin must stand on the face
+    ("touch_and_return", "trivial", 0, "silent"),  # the pin must be back
+    ("stack_elsewhere", "trivial", 0, "stopped"),
+    ("swap_blocks", "trivial", 0, "silent"),  # places of bodies
+    ("reversible", "trivial", 0, "stopped"),  # the arm must undo its work
+    ("sort_by_width", "trivial", 0, "accepted"),
+    ("sort_by_width", "trivial", 1, "silent"),  # printed lines
+    ("find_the_stop", "trivial", 1, "silent"),  # measured values
+    ("find_the_stop", "trivial", 2, "silent"),  # impossible work
+    ("count_pieces", "trivial", 1, "silent"),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "command", "seed", "outcome"), JUDGED)
+def test_each_kind_of_referee_tells_right_from_wrong(
+    tmp_path: Path, name: str, command: str, seed: int, outcome: str
+) -> None:
+    task = bench_task(name)
+    solved(task, Entrant(command=command), tmp_path / "a", Call())
+    assert [each.outcome for each in verdicts(task, tmp_path / "a", [seed], Call())] == [outcome]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "command", "outcome"),
-    [
-        ("pin", "reference", "accepted"),
-        ("pin", "trivial", "silent"),
-        ("stack_elsewhere", "trivial", "stopped"),
-        ("handover_race", "trivial", "stopped"),
-    ],
+    ("program", "seed", "outcome"),
+    [('WAIT "NO"\n', 0, "stopped"), ('WAIT "NO"\n', 1, "accepted"), ("OPEN 1\n", 1, "silent")],
 )
-def test_the_referee_tells_the_reference_from_the_trivial_solution(
-    tmp_path: Path, name: str, command: str, outcome: str
+def test_where_the_work_is_impossible_only_a_stop_is_right(
+    tmp_path: Path, program: str, seed: int, outcome: str
 ) -> None:
-    task = bench_task(name)
-    solved(task, Entrant(command=command), tmp_path / "a", Call())
-    assert [each.outcome for each in verdicts(task, tmp_path / "a", [0], Call())] == [outcome]
+    (tmp_path / "solution.al").write_text(program)
+    (found,) = verdicts(bench_task("honest_search"), tmp_path, [seed], Call())
+    assert found.outcome == outcome
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "outcomes"),
+    [("deadlock", ["accepted", "stopped"]), ("rendezvous", ["accepted", "silent"])],
+)
+def test_a_program_is_judged_in_every_order_of_its_tasks(
+    tmp_path: Path, name: str, outcomes: list[str]
+) -> None:
+    task, found = bench_task(name), []
+    for kind in ("reference", "trivial"):
+        solved(task, Entrant(command=kind), tmp_path / kind, Call())
+        found += verdicts(task, tmp_path / kind, [5, 6], Call())
+    assert [each.outcome for each in found] == outcomes
 
 
 def entrant(tmp_path: Path, *programs: str, rounds: int = 1, task: str = "pin") -> list[Verdict]:
@@ -127,6 +190,53 @@ def test_an_entrant_that_leaves_nothing_has_stopped(tmp_path: Path) -> None:
     assert (found.outcome, found.message) == ("stopped", "there is no file solution.al")
 
 
+@pytest.mark.parametrize(
+    ("done", "said"),
+    [
+        ("(here / 'feedback.md').mkdir()", "something other than a file in the place of feedback.md"),
+        ("(here / 'feedback.md').symlink_to('/dev/null')", "something other than a file in the place of"),
+        ("here.rename(here.parent / 'b')", "the entrant has removed, replaced or locked the folder"),
+    ],
+)
+def test_an_entrant_that_blocks_its_feedback_loses_the_task(tmp_path: Path, done: str, said: str) -> None:
+    task, file = bench_task("pin"), tmp_path / "entrant.py"
+    file.write_text(f"import pathlib\nhere = pathlib.Path.cwd()\n{done}\n")
+    command = shlex.join([sys.executable, str(file)])
+    effort = solved(task, Entrant(command=command, rounds=3), tmp_path / "a", Call())
+    assert effort.rounds == 1
+    assert said in effort.barred
+    assert {each.outcome for each in lost(task, [1, 2], effort.barred)} == {"stopped"}
+
+
+def test_the_bench_goes_on_after_an_entrant_that_blocks_its_feedback(
+    command: Command, tmp_path: Path
+) -> None:
+    (tmp_path / "entrant.py").write_text("import os\nos.mkdir('feedback.md')\n")
+    words = shlex.join([sys.executable, str(tmp_path / "entrant.py")])
+    code, out, err = command("bench", "agents", "deadlock", "--command", words, "--rounds", "2", "--json")
+    assert code == 0
+    assert json.loads(out)["tasks"][0]["stopped"] == 1
+    assert "something other than a file in the place of feedback.md" in err
+
+
+def test_one_program_can_be_tried(command: Command, tmp_path: Path) -> None:
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine/solution.mal").write_text("10 PRINT 1\n")
+    code, out, _ = command("bench", "agents", "deadlock", "--try", "mine")
+    assert code == 0
+    assert out.startswith("# Your solution in the public worlds")
+    assert "stopped: the lines of solution.mal that the brief says to keep are not those of the given" in out
+
+
+@pytest.mark.slow
+def test_the_tasks_can_be_checked(command: Command) -> None:
+    code, out, err = command("bench", "agents", "deadlock", "--check", "--json")
+    assert code == 0
+    (found,) = json.loads(out)
+    assert (found["worlds"], found["reference_accepted"], found["trivial_accepted"]) == (1, 1, 0)
+    assert "deadlock, trivial, seed 0: stopped: no task can continue" in err
+
+
 def test_a_solution_keeps_the_lines_of_the_table(tmp_path: Path) -> None:
     task = bench_task("stack_elsewhere")
     solved(task, Entrant(command="reference"), tmp_path / "a", Call())
@@ -162,8 +272,8 @@ def test_a_result_does_not_name_hidden_seeds() -> None:
     assert b'"seed": 71' in to_json(result("accepted", "silent"))
     hidden = result("accepted", "silent", seeds="hidden")
     assert b"71" not in to_json(hidden)
-    assert "71" not in page(hidden)
-    assert "A &lt;pin&gt;" in page(hidden)
+    assert b"71" not in bench_page(hidden).partition(b"<body>")[2]
+    assert b"A &lt;pin&gt;" in bench_page(hidden)
 
 
 def test_other_seeds_than_the_committed_ones_are_refused(command: Command, tmp_path: Path) -> None:
@@ -184,7 +294,10 @@ def test_a_commitment_depends_on_salt_task_and_order() -> None:
     [
         (("nix",), "the bench has no task `nix`"),
         (("pin", "--command", "false", "--hidden", "none.json"), "none.json: there is no such file"),
-        (("pin",), "give either --command or --solutions"),
+        (("pin",), "give one of --command, --solutions, --try and --check"),
+        (("pin", "--check", "--try", "."), "give one of --command, --solutions, --try and --check"),
+        (("--try", "."), "--try needs the name of one task"),
+        (("pin", "--try", "nowhere"), "nowhere: there is no such folder"),
         (("pin", "--command", "no-such-program"), "--command cannot be started: No such file or directory"),
         (("pin", "--command", ""), "--command is empty"),
         (("pin", "--solutions", "nowhere"), "nowhere: there is no such folder"),

@@ -5,10 +5,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mcp.types import JSONRPCRequest, jsonrpc_message_adapter
 
 from handeye.agents.agent_folder import AgentFolder
 from handeye.agents.call import Call
 from handeye.agents.requests import schema
+from handeye.agents.server import decodable
 from handeye.agents.toolbox import Toolbox
 from handeye.agents.tools import TOOLS, tool_named, used
 
@@ -86,3 +88,19 @@ def test_the_sentence_names_what_is_wrong(toolbox: Toolbox, tool: str, arguments
     reply = used(tool_named(tool), toolbox, arguments, Call())
     assert reply.failed
     assert reply.text.startswith(said)
+
+
+@pytest.mark.parametrize(
+    ("sent", "read"),
+    [
+        (r'"\ud800"', "�"),
+        (r'"\udc00nix \uD83d"', "�nix �"),
+        (r'"\ud800\ud83d\ude00"', "�😀"),
+        (r'"\ud83d\ude00 \\ud800 \u0041"', r"😀 \ud800 A"),
+    ],
+)
+def test_half_of_a_surrogate_pair_does_not_leave_a_client_without_an_answer(sent: str, read: str) -> None:
+    asked = '{"jsonrpc":"2.0","id":1,"method":"tools/call","params":{"name":"docs","arguments":{"topic":%s}}}'
+    message = jsonrpc_message_adapter.validate_json(decodable(asked % sent))
+    assert isinstance(message, JSONRPCRequest)
+    assert message.params == {"name": "docs", "arguments": {"topic": read}}

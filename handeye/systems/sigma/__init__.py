@@ -42,6 +42,7 @@ trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line i
     },
     programs="handeye.systems.sigma.run.jobs:program_plan",
     faults="handeye.systems.sigma.run.fault_trials:fault_trials",
+    orders="handeye.systems.sigma.mal.orders:order_problems",
     exercises=("handeye.systems.sigma.order_exercise:SHARE",),
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

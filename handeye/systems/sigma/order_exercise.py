@@ -2,30 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from handeye.exercises.exercise import Exercise, Submission, Verdict
 from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.compiler import program_of
-from handeye.systems.sigma.mal.interleavings import (
-    KINDS,
-    FindingKind,
-    Interleavings,
-    interleavings,
-    schedule_lines,
-    unreached_lines,
-)
+from handeye.systems.sigma.mal.interleavings import KINDS, interleavings
+from handeye.systems.sigma.mal.orders import problems
 
 if TYPE_CHECKING:
     from handeye.core.diagnostics import Diagnostic
     from handeye.core.source import Source
-    from handeye.systems.sigma.mal.compiler import MalProgram
 
 _WORK: Final = ("MOVE", "ACTUATE", "FOR", "NEXT")  # statements that a student must keep
-_STOPPING: Final[tuple[FindingKind, ...]] = ("deadlock", "stops")
-"""Findings that stop the program. The program notices none of the others."""
 _CASE: Final = "every order"
 
 
@@ -62,7 +52,7 @@ class OrderExercise(Exercise):
     def verdicts(self, given: Submission) -> list[Verdict]:
         program = program_of(given.source.name, given.source.text)
         found = interleavings(program)
-        problem = next(_problems(program, found), None)
+        problem = next(problems(program, found), None)
         if problem is None:
             return [Verdict(case=_CASE, standing="right", outcome="accepted")]
         again = f"handeye sigma check {given.source.name} --interleavings"
@@ -85,21 +75,6 @@ def _work(source: Source) -> dict[str, list[str]]:
         if line.statement.word in _WORK:
             found.setdefault(line.task, []).append(" ".join(line.text.upper().split()))
     return found
-
-
-def _problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, str, str]]:
-    """Yield what is wrong with a program, the worst first: whether the program itself does not notice it, what
-    happens, and an example.
-    """
-    for each in sorted(found.findings, key=lambda finding: finding.kind in _STOPPING):
-        order = "; ".join(" ".join(line.split()) for line in schedule_lines(each.schedule))
-        yield each.kind not in _STOPPING, KINDS[each.kind], f"{each.told}. Order of the tasks: {order}"
-    if not found.complete:
-        yield False, "too many orders", f"the program has more than {found.states} states; make it simpler"
-    if not found.ends:
-        yield False, "the program never ends", "no order of the tasks leads to the end"
-    if lines := unreached_lines(program, found):
-        yield True, "lines are never executed", f"no order reaches {lines}"
 
 
 SHARE: Final = OrderExercise(

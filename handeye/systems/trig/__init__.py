@@ -23,6 +23,7 @@ trials pallet = handeye.systems.trig.cli.jobs:pallet_trials: Palletise in many w
     tasks={
         "palletise": "handeye.systems.trig.jobs.task:PALLET",
         "bucket": "handeye.systems.trig.jobs.task:BUCKET_TASK",
+        "arrange": "handeye.systems.trig.jobs.task:ARRANGE",
     },
     languages={
         ".trig": "handeye.systems.trig.own_language:LANGUAGE",

@@ -38,6 +38,7 @@ the sensor.
 """
 _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
 """What the sensor measures: one value, the resultant force of all contacts."""
+_ON_THE_FLOOR: Final = np.array([0.5, -0.5, -0.7])  # m: place of a pin that is not in the holder
 _RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
 """Default classes of the shapes whose friction varies between worlds."""
@@ -54,7 +55,7 @@ def build(world: InsertionWorld) -> mujoco.MjModel:
         shaper.style(style).geom.friction[0] *= world.friction["part"]
     _add_room(shaper)
     _add_plate(shaper, world)
-    _add_holder(shaper)
+    _add_holder(shaper, empty=world.empty)
     spec.add_sensor(
         name=PUSH, type=mujoco.mjtSensor.mjSENS_CONTACT, intprm=_NET_FORCE,
         objtype=mujoco.mjtObj.mjOBJ_BODY, objname="plate", reftype=mujoco.mjtObj.mjOBJ_BODY, refname="pin",
@@ -87,9 +88,9 @@ def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
     shaper.hole(plate, "hole", (0, 0, FACE), radius)
 
 
-def _add_holder(shaper: Shaper) -> None:
+def _add_holder(shaper: Shaper, *, empty: bool) -> None:
     """Add a holder like the holder of the pump's pins, with the pin in it; the pin's origin is in the plane of its
-    shoulder.
+    shoulder. If the holder is empty, the pin lies on the floor, where the arm cannot touch it.
     """
     d, (x, y) = dimensions(), HOLDER
     radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
@@ -97,7 +98,8 @@ def _add_holder(shaper: Shaper) -> None:
     holder = shaper.spec.worldbody.add_body(name="holder", pos=[x, y, 0.0])
     for wedge in shaper.ring(holder, "holder", hole, (0, 0, height - hole.height), lambda _: "bore"):
         wedge.group, wedge.material = SEEN, "enamel"
-    pin = shaper.spec.worldbody.add_body(name="pin", pos=in_holder().tolist())
+    at = _ON_THE_FLOOR if empty else in_holder()
+    pin = shaper.spec.worldbody.add_body(name="pin", pos=at.tolist(), gravcomp=float(empty))
     pin.add_freejoint(name="pin")
     _add_pin(shaper, pin)
 

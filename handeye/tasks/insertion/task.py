@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
+    from handeye.core.faults import Catalogue
     from handeye.core.variation import Variation, WorldSpec
 
 
@@ -52,6 +53,11 @@ class Insertion(InsertionTask):
         from handeye.tasks.insertion.world import VARIATION
 
         return VARIATION
+
+    def faults(self, world: WorldSpec) -> Catalogue:
+        from handeye.tasks.insertion.world import FAULTS
+
+        return FAULTS
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         from handeye.tasks.insertion.cell import build

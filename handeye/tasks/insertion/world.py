@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final, Self
 
 from handeye.core.distributions import Normal, Range
+from handeye.core.faults import Catalogue, ExpectedDetection, FaultKind
 from handeye.core.variation import Quantity, Variation, WorldSpec
 from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD
 from handeye.tasks.stanford_cell.arm_variation import arm, hand, rubbing
@@ -37,6 +38,13 @@ def _hole() -> tuple[Quantity, ...]:
 
 VARIATION: Final = Variation(*arm(), *hand(), *rubbing(_RUBBING), *_hole())  # the quantities of the bench
 
+NO_PIN: Final = "pin.absent"
+FAULTS: Final = Catalogue(
+    FaultKind(
+        name=NO_PIN, meaning="There is no pin in the holder.", when="before", expected=ExpectedDetection(errors=(2,))
+    )
+)  # fmt: skip
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWorld(ArmWorld):
@@ -45,14 +53,17 @@ class InsertionWorld(ArmWorld):
     clearance: float  # diameter of the hole minus diameter of the pin's nose, m
     chamfer: float  # width of the chamfer around the hole, m
     plate: tuple[float, float]  # displacement of the hole, x and y, m
+    empty: bool = False  # there is no pin in the holder
 
     @classmethod
     def draw(cls, spec: WorldSpec) -> Self:
         """Draw the world of a specification. Raises InvalidInput if the specification does not fit this task."""
         world = VARIATION.draw(spec)
+        FAULTS.check(spec.faults)
         return cls(
             **arm_values(world, _RUBBING),
             clearance=world["hole.clearance"],
             chamfer=world["hole.chamfer"],
             plate=(world["plate.x"], world["plate.y"]),
+            empty=any(fault.name == NO_PIN for fault in spec.faults),
         )

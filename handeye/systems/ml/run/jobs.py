@@ -38,9 +38,11 @@ def job_plan(job: str, variant: str = "") -> MlPlan:
     return MlPlan(name=name, text=text, arm="rectilinear", job=job, variant=variant)
 
 
-def program_plan(task: str, name: str, text: str) -> MlPlan:
-    """Return the plan with which a user's program does a job. Raises BadFile if the program has errors."""
-    plan = MlPlan(name=name, text=text, arm="rectilinear", job=task, variant=USUAL.get(task, ""))
+def program_plan(task: str, name: str, text: str, variant: str = "") -> MlPlan:
+    """Return the plan with which a user's program does a variant of a job, by default the usual one. Raises BadFile if
+    the program has errors.
+    """
+    plan = MlPlan(name=name, text=text, arm="rectilinear", job=task, variant=variant or USUAL.get(task, ""))
     sound(plan)
     return plan
 

@@ -28,12 +28,13 @@ def job_plan(job: JobName, pieces: int) -> MalPlan:
     return MalPlan(name=name, text=read_source(plans() / name).text, arm="gantries", job=job, pieces=pieces)
 
 
-def program_plan(task: str, name: str, text: str) -> MalPlan:
-    """Return the plan with which a user's program does a job, with the usual number of pieces. Raises BadFile if the
-    program has errors.
+def program_plan(task: str, name: str, text: str, variant: str = "") -> MalPlan:
+    """Return the plan with which a user's program does a job. The variant is the number of pieces; by default it is the
+    usual one. Raises BadFile if the program has errors.
     """
     job = next(job for job in PROGRAMS if job == task)
-    plan = MalPlan(name=name, text=text, arm="gantries", job=job, pieces=job_task(job).usual)
+    pieces = int(variant) if variant else job_task(job).usual
+    plan = MalPlan(name=name, text=text, arm="gantries", job=job, pieces=pieces)
     sound(plan)
     return plan
 

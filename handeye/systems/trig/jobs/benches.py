@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from handeye.tasks.interface import AnyTask
 
 ArmName = Literal["none", "purbrick"]
-JobName = Literal["palletise", "bucket"]
+JobName = Literal["palletise", "bucket", "arrange"]
+JOBS: tuple[JobName, ...] = ("palletise", "bucket", "arrange")
 MOST_BLOCKS = 20  # blocks in the palletiser's stack, limited by the arm's reach
 _LONGEST = 100_000  # characters of a script; the paper's scripts have about a thousand
 
@@ -152,7 +153,9 @@ def job_script(name: JobName, blocks: int = MOST_BLOCKS) -> str:
 
 def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob:
     """Open a job in a world, or without errors if `world` is None. Nothing is taught yet."""
-    from handeye.systems.trig.jobs.jobs import BucketJob, PalletJob
+    from handeye.systems.trig.jobs.jobs import ArrangeJob, BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 
-    return {"palletise": PalletJob, "bucket": BucketJob}[name](script, BlocksWorld(world))
+    return {"palletise": PalletJob, "bucket": BucketJob, "arrange": ArrangeJob}[name](
+        script, BlocksWorld(world)
+    )

@@ -19,7 +19,7 @@ from handeye.machines.purbrick import PURBRICK
 from handeye.systems.trig.jobs.benches import BlockPose, JobName, Moment, TaughtJob
 from handeye.systems.trig.jobs.referee import judge_program
 from handeye.systems.trig.jobs.table import BlockTable
-from handeye.systems.trig.jobs.task import BUCKET, BUCKET_TASK, PALLET, lay
+from handeye.systems.trig.jobs.task import ARRANGE, BUCKET, BUCKET_TASK, PALLET, lay
 from handeye.systems.trig.jobs.witness import ObservedScene, Witness, stands
 from handeye.systems.trig.jobs.world import WEAK, BlocksWorld
 from handeye.systems.trig.language.axes_arm import AxesArm
@@ -33,7 +33,7 @@ _LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")  # the one for a r
 def script_of(name: JobName, blocks: int) -> str:
     """Return the script of a job. `blocks` is the number of blocks in the palletiser's stack."""
     text = read_source(plans() / f"{name}.trig").text
-    if name == "bucket":
+    if name != "palletise":
         return text
     return _LAST_STACK.sub(rf"* STACK {blocks} \1" if blocks else "", text)
 
@@ -126,6 +126,13 @@ class BucketJob(_Job):
     def goals(self) -> tuple[tuple[float, float], ...]:
         a, b = BUCKET, self._witness.began.place("BLOCK")
         return (a[0] / MILLIMETRE, a[1] / MILLIMETRE), _mm(b)[:2]
+
+
+class ArrangeJob(_Job):
+    """A job of a user's own script, which places blocks anywhere."""
+
+    task, undoable = ARRANGE, True
+    goals: tuple[tuple[float, float], ...] = ()
 
 
 def _mm(at: Sequence[float] | Array) -> tuple[float, float, float]:

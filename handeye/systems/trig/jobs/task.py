@@ -112,6 +112,24 @@ class Bucket(_BlocksTask):
         return {**dropped, "hand": _ends_at(seen, stood, "CENTER")}
 
 
+class Arrange(_BlocksTask):
+    """Place blocks as a user's script says. Only a referee of the user can judge the work: this one judges its
+    reversal.
+    """
+
+    name = "arrange"
+    words = Words(
+        product="the arrangement", done="The program has ended.", apart="Every block is back in its place."
+    )
+
+    def judge(self, truth: Truth) -> Findings:
+        return {}
+
+    def judge_apart(self, truth: Truth) -> Findings:
+        seen = initial_scene(truth)
+        return judge_back(seen.poses, stands(truth.data, seen.blocks).poses)
+
+
 def _ends_at(seen: InitialScene, stood: ObservedScene, name: str) -> Finding:
     return judge_hand(np.array(stood.hand), np.array(seen.place(name)), "ends")
 
@@ -131,3 +149,4 @@ def initial_scene(truth: Truth) -> InitialScene:
 
 PALLET: Final = Pallet()
 BUCKET_TASK: Final = Bucket()
+ARRANGE: Final = Arrange()

@@ -14,7 +14,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.trig import ENTRY
-from handeye.systems.trig.jobs.benches import BlockPose, JobName, TaughtPlan, job_script
+from handeye.systems.trig.jobs.benches import JOBS, BlockPose, JobName, TaughtPlan, job_script
 from handeye.systems.trig.language.program_commands import told_run
 from handeye.systems.trig.language.reports import RunLeg
 from handeye.systems.trig.language.running import RunResult
@@ -61,9 +61,9 @@ def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpo
     return Checkpoint(setup=setup)
 
 
-def program_plan(task: str, name: str, text: str) -> TaughtPlan:
-    """Return the plan with which a user's script does a job."""
-    return TaughtPlan(job="bucket" if task == "bucket" else "palletise", script=text)
+def program_plan(task: str, name: str, text: str, variant: str = "") -> TaughtPlan:
+    """Return the plan with which a user's script does a job, which has no variants."""
+    return TaughtPlan(job=next(job for job in JOBS if job == task), script=text)
 
 
 def job_of(runner: Runner) -> RunningJob:

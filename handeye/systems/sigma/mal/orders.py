@@ -1,0 +1,40 @@
+"""Says what is wrong with a program in some order of its tasks, for referees of exercises and benches."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from handeye.systems.sigma.mal.compiler import MalProgram, program_of
+from handeye.systems.sigma.mal.interleavings import (
+    KINDS,
+    FindingKind,
+    Interleavings,
+    interleavings,
+    schedule_lines,
+    unreached_lines,
+)
+
+_STOPPING: Final[tuple[FindingKind, ...]] = ("deadlock", "stops")
+"""Findings that stop the program. The program notices none of the others."""
+
+
+def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, str, str]]:
+    """Yield what is wrong with a program, the worst first: whether the program itself does not notice it, what
+    happens, and an example.
+    """
+    for each in sorted(found.findings, key=lambda finding: finding.kind in _STOPPING):
+        order = "; ".join(" ".join(line.split()) for line in schedule_lines(each.schedule))
+        yield each.kind not in _STOPPING, KINDS[each.kind], f"{each.told}. Order of the tasks: {order}"
+    if not found.complete:
+        yield False, "too many orders", f"the program has more than {found.states} states; make it simpler"
+    if not found.ends:
+        yield False, "the program never ends", "no order of the tasks leads to the end"
+    if lines := unreached_lines(program, found):
+        yield True, "lines are never executed", f"no order reaches {lines}"
+
+
+def order_problems(name: str, text: str) -> list[tuple[bool, str]]:
+    """Return what is wrong with a program in some order of its tasks, the worst first: whether the program does not
+    notice it, and a sentence. Raises BadFile if the text has errors.
+    """
+    program = program_of(name, text)
+    return [(silent, f"{what}: {told}") for silent, what, told in problems(program, interleavings(program))]
