@@ -11,7 +11,7 @@
 * times. &30, &31 = neighbours along x and y that are as high. &32 = force at which the fingers stop to close. &10 = where they
 * are going. &35 to &37, &39, &40 = of the first try at a place: angle, separation, touches, x, y. &34 = 1 when the hand has
 * turned since it went over a part. &38 = height to which the hand rises. &41 = separation when held. &42 = angle.
-* &43 = last step over a part.
+* &43 = last step over a part. &44 = times that nothing was found on the table.
 * &33 = number of parts that were poured in. The operator loads it; 0 if nobody has counted them.
 * &101 to &130 = ranges of 16 places, 4 by 4, with a border.
 *
@@ -292,7 +292,7 @@
 470 BRANCH 100
 * ONCE, PUT IT DOWN ON THE TABLE, WHERE IT LIES ALONE, AND TAKE IT AGAIN
 471 EQ? &9 100
-472 BRCOMP 460 650
+472 BRCOMP 460 649
 473 EQ? &9 100
 474 BRCOMP 460 394
 *
@@ -398,6 +398,7 @@
 646 BRANCH 306
 *
 * ON THE TABLE BESIDE THE HOPPER: PUT IT DOWN, CLOSE ON ITS ENDS, SO THAT ITS MIDDLE IS IN THE HAND, AND TAKE IT BY ITS SIDES
+649 LOAD 44 0
 650 PUT MT 2 8 40
 651 MOTOR 2 4500
 652 GETPOS 1 11
@@ -437,7 +438,15 @@
 685 BAL 9 780
 686 LOAD 9 100
 687 GT? &1 480
-688 BRCOMP 400 840
+688 BRCOMP 400 689
+* NOTHING: ONCE MORE, WITH THE HAND TURNED BY 90 DEG
+689 ADD 44 1
+690 GT? &44 1
+691 BRCOMP 840 692
+692 LOAD 20 &42
+693 ADD 20 9000
+694 BAL 8 796
+695 BRANCH 677
 *
 * KEEP VARIABLE &13 BETWEEN -&3 AND &3
 700 GT? &&13 &3
