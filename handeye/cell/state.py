@@ -28,6 +28,15 @@ class CellState(Record, frozen=True, kw_only=True):
         """Seconds on the cell's clock."""
         return float(self.physics[0])
 
+    def equals(self, other: "CellState") -> bool:
+        """Return True if this is the same state of the same cell."""
+        return (
+            np.array_equal(self.physics, other.physics)
+            and self.noise == other.noise
+            and self.mechanisms == other.mechanisms
+            and all(np.array_equal(values, other.figures[name]) for name, values in self.figures.items())
+        )
+
 
 _SCRATCH: Final = np.random.Generator(np.random.PCG64(0))  # states are tried on it
 

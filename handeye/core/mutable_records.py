@@ -6,12 +6,14 @@ frozen records and arrays. Arrays in a record must therefore be replaced, not ch
 them read-only.
 """
 
+from copy import copy
 from dataclasses import is_dataclass
 from functools import cache
 from typing import Any, Final, TypeVar
 
 import msgspec
 import numpy as np
+from msgspec.structs import astuple
 
 from handeye.core.brief import Brief
 
@@ -31,12 +33,13 @@ def copied(record: Kept) -> Kept:
     """Take a snapshot of a record, independent of later changes. Raises TypeError if a value is mutable and not of
     one of the types that the module names.
     """
-    return type(record)(
-        **{
-            name: value if type(value := getattr(record, name)) in _PLAIN else _copied(value)
-            for name in record.__struct_fields__
-        }
-    )
+    twin = copy(record)
+    values = astuple(record)
+    if not _PLAIN.issuperset(map(type, values)):
+        for name, value in zip(record.__struct_fields__, values, strict=True):
+            if type(value) not in _PLAIN:
+                setattr(twin, name, _copied(value))
+    return twin
 
 
 def put_back(record: Kept, snapshot: Kept) -> None:
@@ -55,9 +58,11 @@ def _copied(value: Any) -> Any:
     if isinstance(value, MutableRecord):
         return copied(value)
     if isinstance(value, dict):
-        return {key: item if type(item) in _PLAIN else _copied(item) for key, item in value.items()}
+        if _PLAIN.issuperset(map(type, value.values())):
+            return dict(value)
+        return {key: _copied(item) for key, item in value.items()}
     if isinstance(value, list):
-        return [item if type(item) in _PLAIN else _copied(item) for item in value]
+        return [*value] if _PLAIN.issuperset(map(type, value)) else [_copied(item) for item in value]
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
         return value

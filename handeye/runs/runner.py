@@ -383,11 +383,17 @@ class Runner:
     # -- inside ---------------------------------------------------------------------------------------
 
     def _settle(self) -> None:
-        """Capture the cell's state, restore it, and add it to the history."""
+        """Capture the cell's state, restore it, and add it to the history. A state that equals the last one, such as
+        that after a statement which takes no time, is not restored again.
+        """
         cell = self.system.cell
         captured = None if cell is None else cell.capture()
         if cell is not None and captured is not None:
-            cell.restore(captured)
+            last = self.history[-1].cell if self.history else None
+            if last is not None and captured.equals(last):
+                captured = last
+            else:
+                cell.restore(captured)
         self.history.append(
             Snapshot(
                 position=self.position,

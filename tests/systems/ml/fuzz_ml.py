@@ -1,10 +1,16 @@
 """Drawn ML programs: good ones, mangled ones, noise; `python tests/systems/ml/fuzz_ml.py 10000` draws many.
 
+Each text is drawn from a seed of its own. So `--first 4000` continues after the text of seed 3999.
+
 Whatever a text holds, checking it gives diagnostics, typing or running it ends in words, and nothing else is raised.
 """
 
+import argparse
 import random
 import sys
+import traceback
+from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
@@ -129,8 +135,31 @@ def outcome(seed: int) -> str:
     return "goes on" if going else "errors" if refused or has_errors(found) else "ended"
 
 
-if __name__ == "__main__":
-    from collections import Counter
+def counted(seed: int, tell: Callable[[str], object]) -> str:
+    """What comes of a text: its outcome, or `wrong`, and then it is told."""
+    try:
+        return outcome(seed)
+    except Exception:
+        tell(f"seed {seed}:\n{traceback.format_exc()}")
+        return "wrong"
 
-    count = Counter(outcome(seed) for seed in range(int(sys.argv[1])))
-    print(count)  # noqa: T201 - a command
+
+def main() -> int:
+    """Draw texts, and tell of those that go wrong."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("count", type=int, help="texts")
+    parser.add_argument("--first", type=int, default=0, help="seed of the first")
+    wanted = parser.parse_args()
+    outcomes: Counter[str] = Counter()
+    for seed in range(wanted.first, wanted.first + wanted.count):
+        outcomes[counted(seed, sys.stdout.write)] += 1
+        if seed % 100 == 99:
+            sys.stderr.write(f"{outcomes.total()} texts, to seed {seed}: {dict(outcomes)}\n")
+    sys.stdout.write(f"{outcomes.total()} texts: {dict(outcomes)}\n")
+    return 1 if outcomes["wrong"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -184,7 +184,7 @@ def poured(spec: mujoco.MjSpec, world: ArmWorld, parts: int, place: Place = ORIG
         at = np.array([place.x + x * _ASIDE, place.y + y * _ASIDE, z])
         add_bar(
             spec, f"part_{number}", at, turn / np.linalg.norm(turn), world.value(_FRICTION), wide=wide,
-            density=DENSITY * heavy * (LIGHT if quality == "light" else 1.0),
+            density=DENSITY * heavy * (LIGHT if quality == "light" else 1.0), soft=True,
         )  # fmt: skip
     return Pile(Poured(qualities=qualities))
 

@@ -319,18 +319,19 @@ class _Program(_Source):
 
     def __init__(self, segment: Segment, program: StoredProgram) -> None:
         self._segment, self._program, self._view = segment, program, TaskTable(program)
-        self._seen: dict[int, tuple[str, tuple[int, ...]]] = {}
+        self._texts: dict[int, str] = {}
+        self._points: dict[int, tuple[int, ...]] = {}
         self._was: dict[int, list[int]] = {}
 
     def look(self, row: list[int]) -> None:
         memory = self._program.memory
-        now = {line: (text, memory.points.get(line, ())) for line, text in memory.statements.items()}
-        if now == self._seen:
+        texts, points = memory.statements, memory.points
+        if texts == self._texts and points == self._points:
             return
         wide = self._segment.shape.words
-        for line in sorted({*now, *self._seen}):
-            if now.get(line) != self._seen.get(line):
+        for line in sorted({*texts, *self._texts}):
+            if (texts.get(line), points.get(line)) != (self._texts.get(line), self._points.get(line)):
                 was = self._was.get(line, [0] * wide)
                 words = self._was[line] = [self._view.read(line, word) for word in range(1, wide + 1)]
                 _compare(row, self._segment.number(line, 1), was, words)
-        self._seen = now
+        self._texts, self._points = dict(texts), dict(points)
