@@ -21,7 +21,8 @@ HOUR: Final = 3600.0  # s; a controller commands the arm for at most this time a
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Command:
-    """What a controller commands for one servo period. Where a field is None, the device keeps its last command.
+    """What a controller commands for one servo period. Without a torque, the brakes are set. Another device for which
+    the command is None keeps its last command.
 
     >>> handeye.Command(torque=[0.0] * 6, gap=0.02).gap
     0.02
