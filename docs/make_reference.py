@@ -42,6 +42,7 @@ GROUPS: Final = {
         "handeye.begin": "api.begin.begin",
         "handeye.assemble": "api.begin.assemble",
         "handeye.Run": "api.run.Run",
+        "handeye.Command": "api.control.Command",
         "handeye.State": "api.state.State",
         "Memory": "api.state.Memory",
     },
@@ -86,6 +87,14 @@ GROUPS: Final = {
     },
     "A terminal of ML": {
         "handeye.Ml": "systems.ml.ml_api.Ml",
+    },
+    "The arm": {
+        "handeye.arm.forward": "arm.door.forward",
+        "handeye.arm.inverse": "arm.door.inverse",
+        "IKResult": "arm.ik.result.IKResult",
+        "handeye.arm.jacobian": "arm.door.jacobian",
+        "handeye.arm.gravity": "arm.door.gravity",
+        "handeye.arm.mass_matrix": "arm.door.mass_matrix",
     },
     "Vision": {
         "handeye.vision.Scan": "vision.scan.Scan",

@@ -1,5 +1,6 @@
 """Control of the arm by the caller's own code, servo period by servo period."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
@@ -10,7 +11,6 @@ from numpy.typing import ArrayLike
 from handeye.core.errors import BadArgument, Refused
 from handeye.core.plain_text import counted
 from handeye.execution.servo import Halted
-from handeye.execution.state import DriveState
 from handeye.ports.workcell import Sensed
 from handeye.program.events import CommandedPeriod
 from handeye.runs.parts import name_of
@@ -21,7 +21,8 @@ HOUR: Final = 3600.0  # s; a controller commands the arm for at most this time a
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Command:
-    """What a controller commands for one servo period. Where a field is None, the device keeps its last command.
+    """What a controller commands for one servo period. Without a torque, the brakes are set. Another device for which
+    the command is None keeps its last command.
 
     >>> handeye.Command(torque=[0.0] * 6, gap=0.02).gap
     0.02
@@ -92,7 +93,13 @@ def _checked(name: str, controller: Controller, runner: Runner) -> Callable[[Sen
             return None
         if not isinstance(given, Command):
             raise BadArgument(f"the controller {name} must return a handeye.Command or None, not {given!r}")
-        return CommandedPeriod(torque=_torque(name, given, joints), **_devices(name, given, last))
+        return CommandedPeriod(
+            torque=_torque(name, given, joints),
+            gap=_number(name, "gap", given.gap, last.gap),
+            grip=_number(name, "grip", given.grip, last.grip),
+            driver=_number(name, "driver", given.driver, last.tool),
+            magnet=last.magnet if given.magnet is None else bool(given.magnet),
+        )
 
     return command
 
@@ -111,15 +118,12 @@ def _torque(name: str, given: Command, joints: int) -> tuple[float, ...] | None:
     return tuple(torque.tolist())
 
 
-def _devices(name: str, given: Command, last: DriveState) -> dict[str, float | bool]:
-    """Return the commands to fingers and screwdriver, by field of `CommandedPeriod`."""
-    found: dict[str, float | bool] = {}
-    for field, before in (("gap", last.gap), ("grip", last.grip), ("driver", last.tool)):
-        value = getattr(given, field)
-        try:
-            found[field] = float(before if value is None else value)
-        except (TypeError, ValueError):
-            found[field] = float("nan")
-        if not np.isfinite(found[field]):
-            raise BadArgument(f"the controller {name} must give a finite number as `{field}`, not {value!r}")
-    return {**found, "magnet": last.magnet if given.magnet is None else bool(given.magnet)}
+def _number(name: str, field: str, given: object, before: float) -> float:
+    """Return a command to a device, or the one before if None is given. Raises BadArgument if it is not finite."""
+    try:
+        number = float(before if given is None else given)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise BadArgument(f"the controller {name} must give a finite number as `{field}`, not {given!r}")
+    return number

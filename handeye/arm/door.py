@@ -1,7 +1,8 @@
 """Kinematics and dynamics of an arm for Python programs. Arguments are checked.
 
 Joint positions `q` are in rad, and in m for prismatic joints (joint 3 of the Stanford arm). W is the frame of the
-table, T the frame of the hand. The arm is that of the drawing, or one that a run has measured (`handeye.Run.arm`).
+table, T the frame of the hand. `arm` is an arm that a run has measured (`handeye.Run.arm`), by default `STANFORD`, the
+arm of the drawing.
 """
 
 import numpy as np
@@ -19,17 +20,17 @@ _RIGID = 1e-6  # by which the rotation of a pose may deviate from a rotation
 __all__ = ["STANFORD", "forward", "gravity", "inverse", "jacobian", "mass_matrix"]
 
 
-def forward(q: ArrayLike, arm: ArmModel = STANFORD) -> Pose:
+def forward(q: ArrayLike, arm: ArmModel | None = None) -> Pose:
     """Return the pose `X_WT` of the hand at joint positions `q`: origin midway between the finger tips, z along the
     approach direction, y along the finger line. Shape (..., n) gives shape (..., 4, 4), in m.
 
     Raises:
         BadArgument: `q` has another number of joints, or is not finite.
     """
-    return kinematics.forward(_arm(arm), _joints(q, arm))
+    return kinematics.forward(_arm(arm), _joints(q, _arm(arm)))
 
 
-def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel = STANFORD) -> IKResult:
+def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel | None = None) -> IKResult:
     """Return joint positions, within the joint limits, that bring the hand to the pose `X_WT`, shape (4, 4), in m.
 
     Of several solutions, the result is the one that the joints reach soonest from `near`, shape (n,), by default the
@@ -42,7 +43,7 @@ def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel = STAN
     Raises:
         BadArgument: `X_WT` is not a pose, or `near` has another number of joints.
     """
-    pose = _numbers(X_WT, "X_WT")
+    model, pose = _arm(arm), _numbers(X_WT, "X_WT")
     if (
         pose.shape != (4, 4)
         or not np.allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=_RIGID)
@@ -50,13 +51,13 @@ def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel = STAN
         or not np.array_equal(pose[3], (0.0, 0.0, 0.0, 1.0))
     ):
         raise BadArgument("X_WT must be a pose: a rotation and a position in a matrix of shape (4, 4)")
-    start = _arm(arm).middle if near is None else _joints(near, arm, name="near")
+    start = model.middle if near is None else _joints(near, model, name="near")
     if start.ndim != 1:
-        raise BadArgument(f"near must have shape ({len(arm.joints)},), not {start.shape}")
-    return solve(arm, pose, start)
+        raise BadArgument(f"near must have shape ({len(model.joints)},), not {start.shape}")
+    return solve(model, pose, start)
 
 
-def jacobian(q: ArrayLike, arm: ArmModel = STANFORD) -> Array:
+def jacobian(q: ArrayLike, arm: ArmModel | None = None) -> Array:
     """Return the geometric Jacobian of the hand at T in the axes of W: three rows for the velocity of its origin (m/s),
     then three for its angular velocity (rad/s). Shape (..., n) gives shape (..., 6, n).
 
@@ -65,36 +66,38 @@ def jacobian(q: ArrayLike, arm: ArmModel = STANFORD) -> Array:
     Raises:
         BadArgument: `q` has another number of joints, or is not finite.
     """
-    return kinematics.jacobian(_arm(arm), _joints(q, arm))
+    return kinematics.jacobian(_arm(arm), _joints(q, _arm(arm)))
 
 
-def gravity(q: ArrayLike, arm: ArmModel = STANFORD) -> Array:
+def gravity(q: ArrayLike, arm: ArmModel | None = None) -> Array:
     """Return the joint torques that hold the arm up at rest, with an empty hand: shape (..., n), in N m, or in N for
     prismatic joints.
 
     Raises:
         BadArgument: `q` has another number of joints, or is not finite.
     """
-    return dynamics.gravity(_arm(arm), _joints(q, arm))
+    return dynamics.gravity(_arm(arm), _joints(q, _arm(arm)))
 
 
-def mass_matrix(q: ArrayLike, arm: ArmModel = STANFORD) -> Array:
+def mass_matrix(q: ArrayLike, arm: ArmModel | None = None) -> Array:
     """Return the mass matrix of the arm, including the inertia of its drives: shape (..., n) gives shape (..., n, n).
 
     Raises:
         BadArgument: `q` has another number of joints, or is not finite.
     """
-    return dynamics.mass_matrix(_arm(arm), _joints(q, arm))
+    return dynamics.mass_matrix(_arm(arm), _joints(q, _arm(arm)))
 
 
 def _arm(arm: object) -> ArmModel:
+    if arm is None:
+        return STANFORD
     if not isinstance(arm, ArmModel):
         raise BadArgument(f"the arm must be an ArmModel, such as handeye.arm.STANFORD, not {arm!r}")
     return arm
 
 
 def _joints(given: ArrayLike, arm: ArmModel, name: str = "q") -> Array:
-    q, joints = _numbers(given, name), len(_arm(arm).joints)
+    q, joints = _numbers(given, name), len(arm.joints)
     if not q.ndim or q.shape[-1] != joints:
         raise BadArgument(f"{name} must have shape (..., {joints}), not {q.shape}")
     return q

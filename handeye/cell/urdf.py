@@ -40,7 +40,8 @@ def urdf(arm: ArmModel, scene: Path) -> bytes:
     last = model.body(f"link{len(arm.joints)}")
     _joined(root, TOOL, "fixed", last.name, TOOL, _shift((0.0, 0.0, arm.hand.length)))
     ET.indent(root)
-    return ET.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
+    written: bytes = ET.tostring(root, encoding="utf-8", xml_declaration=True)
+    return written + b"\n"
 
 
 def _link(root: ET.Element, model: mujoco.MjModel, body: int) -> None:

@@ -49,7 +49,7 @@ class Frames:
     """
     force_mean: Array  # mean of the estimates, as `force`
     force_share: Array  # fraction of the servo periods in which force was estimated, shape (K,)
-    picture: NDArray[np.int64]  # number of the last television picture, counted from 0, shape (K,)
+    picture: NDArray[np.intp]  # number of the last television picture, counted from 0, shape (K,)
     picture_age: Array  # s since it was taken, shape (K,)
     action: Array  # positions at the end of the next tenth of a second, shape (K, n + 1)
     stage: tuple[str, ...]  # name of the stage to which the action belongs; empty between stages
@@ -92,7 +92,7 @@ def frames_of(trace: Trace) -> Frames:
     )
 
 
-def _windows(times: Array, moments: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _windows(times: Array, moments: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the last reading of each frame, and its first one. A frame without a reading keeps the last one."""
     end = np.searchsorted(times, moments + CLOCKS)
     begin = np.concatenate([[0], end[:-1]])
@@ -100,14 +100,14 @@ def _windows(times: Array, moments: Array) -> tuple[NDArray[np.int64], NDArray[n
     return last, np.minimum(begin, last)
 
 
-def _means(values: Array, first: NDArray[np.int64], last: NDArray[np.int64]) -> Array:
+def _means(values: Array, first: NDArray[np.intp], last: NDArray[np.intp]) -> Array:
     """Return the means of the readings from `first` to `last`, both included, shape (K, ...)."""
     return np.array([values[a : b + 1].mean(axis=0) for a, b in zip(first, last, strict=True)])
 
 
 def _last_felt(
-    estimated: NDArray[np.bool_], first: NDArray[np.int64], last: NDArray[np.int64]
-) -> NDArray[np.int64]:
+    estimated: NDArray[np.bool_], first: NDArray[np.intp], last: NDArray[np.intp]
+) -> NDArray[np.intp]:
     """Return the last reading of each frame in which force was estimated, or any reading if there is none."""
     newest = np.maximum.accumulate(np.where(estimated, np.arange(len(estimated)), 0))
     return np.maximum(newest[last], first)

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.core.errors import MissingExtra, Refused
 from handeye.core.folders import FolderKind, check_folder, fill_folder
@@ -70,7 +71,11 @@ def write_dataset(
     check_folder(path, DATASET, overwrite=overwrite)
     runs, library = runs_in(places), _library()
     written: list[WrittenDataset] = []
-    fill_folder(path, lambda new: written.append(_fill(new, runs, library, path, pictures, progress)))
+
+    def fill(new: Path) -> None:
+        written.append(_fill(new, runs, library, path, pictures, progress))
+
+    fill_folder(path, fill)
     return written[0]
 
 
@@ -95,7 +100,9 @@ def _fill(
     progress: Callable[[int, int], None],
 ) -> WrittenDataset:
     """Make the data set in the folder `new`, which does not exist yet."""
-    dataset, episodes, joints = None, list[Episode](), tuple[str, ...]()
+    dataset: Any = None
+    episodes: list[Episode] = []
+    joints: tuple[str, ...] = ()
     for number, run in enumerate(runs):
         progress(number + 1, len(runs))
         trace, episode = read_episode(run, number)
@@ -145,7 +152,7 @@ def features(joints: Sequence[str], *, pictures: bool) -> dict[str, dict[str, An
     """Return the features of a data set, as LeRobot describes them."""
     names = [name.replace(" ", "_") for name in joints]
     positions = [*names, "gap"]
-    found = {
+    found: dict[str, dict[str, Any]] = {
         "observation.state": _numbers(positions),
         "observation.state_mean": _numbers(positions),
         "observation.rate": _numbers(names),
@@ -183,7 +190,7 @@ def lerobot_frames(
     shots = [*map(shown, (shot.picture for shot in trace.pictures)), black]  # the last for NO_PICTURE, -1
     for k in range(len(frames)):
         last = k == len(frames) - 1
-        frame = {
+        frame: dict[str, Any] = {
             "observation.state": _single(frames.state[k]),
             "observation.state_mean": _single(frames.state_mean[k]),
             "observation.rate": _single(frames.rate[k]),
@@ -202,11 +209,11 @@ def lerobot_frames(
         yield frame | {PICTURE: shots[frames.picture[k]]} if pictures else frame
 
 
-def _single(values: Array | float) -> np.ndarray[tuple[int], np.dtype[np.float32]]:
+def _single(values: Array | float) -> NDArray[np.float32]:
     return np.atleast_1d(np.asarray(values, dtype=np.float32))
 
 
-def shown(picture: Picture) -> np.ndarray[tuple[int, int, int], np.dtype[np.uint8]]:
+def shown(picture: Picture) -> NDArray[np.uint8]:
     """Return a television picture as an image, shape (256, 334, 3): level 15 is 255, the last column is black."""
     wide = np.zeros((ROWS, WIDTH), np.uint8)
     wide[:, :COLUMNS] = picture * LEVEL

@@ -29,7 +29,7 @@ def controlled(run: ExecutionContext, controller: Controller, most: int) -> tupl
     The steps before cannot be undone any more, because a reversal would begin where the last step ended. The
     program assumes no longer that nothing touches the hand.
     """
-    drive, effort, commands = run.drive, constants(run.arm).effort, []
+    drive, effort, commands = run.drive, constants(run.arm).effort, list[CommandedPeriod]()
     while len(commands) < most and (command := controller(drive.sensed)) is not None:
         commands.append(command)
         _command_devices(run, command)

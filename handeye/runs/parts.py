@@ -39,7 +39,7 @@ class Parts:
     @property
     def names(self) -> dict[str, str]:
         """The names of the replaced parts."""
-        found = {"search": self.search, "camera": self.camera, **self.vision}
+        found: dict[str, Any] = {"search": self.search, "camera": self.camera, **self.vision}
         return {part: name_of(code) for part, code in found.items() if code is not None}
 
     def check(self, begun: dict[str, str]) -> None:

@@ -66,9 +66,8 @@ def general_by(name: str, function: Callable[..., Any]) -> General:
         (left, top), (right, bottom) = points.min(axis=0), points.max(axis=0)
         box = BoundingBox(int(left), int(top), int(np.ceil(right)), int(np.ceil(bottom)))
         corners = view.back_project(box.corners(), part.at[2] + part.face / 2)
-        return GeneralLocation(
-            box=box, x=x, y=y, corners=tuple(map(tuple, corners.tolist())), beams=0, points=0
-        )
+        around = tuple((float(x), float(y), float(z)) for x, y, z in corners)
+        return GeneralLocation(box=box, x=x, y=y, corners=around, beams=0, points=0)
 
     return locate
 

@@ -2,7 +2,6 @@
 
 import json
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -63,9 +62,9 @@ class Library:
 
 
 @pytest.fixture
-def library(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Library]]:
+def library(monkeypatch: pytest.MonkeyPatch) -> type[Library]:
     monkeypatch.setattr(lerobot, "_library", lambda: Library)
-    yield Library
+    return Library
 
 
 @pytest.mark.slow

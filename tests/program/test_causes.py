@@ -194,6 +194,10 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.NoHoles(blobs=3),
         "3 dark blobs are found, but no two are the part's largest holes: is the picture in focus?",
     ),
+    (
+        c.CallersVision(by="mine.look"),
+        "the calling program's own vision, mine.look, does not accept what it sees",
+    ),
     (c.NoGasket(), "no gasket: the later picture shows nothing new where the gasket should be"),
     (
         c.GasketWrong(

@@ -104,6 +104,10 @@ def test_only_events_that_there_are_are_logged() -> None:
             "experiment: position T is set to (1.000, 2.000, 0.000) in, angles 0.0 90.0 0.0",
         ),
         (
+            happened.PeriodsCommanded(time=0.0, by="mine.press", periods=()),
+            "the controller mine.press commanded 0 servo periods",
+        ),
+        (
             happened.WentBack(time=0.0, events=12, why="back"),
             "back to event 12: later events are dropped",
         ),
