@@ -12,6 +12,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import settings
+from kept_scenes import keep_scenes
 
 from benchmarks import __main__ as benchmarks
 from handeye import cli
@@ -50,6 +51,7 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+        keep_scenes()
 
 
 @pytest.fixture

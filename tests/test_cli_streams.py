@@ -19,6 +19,7 @@ from handeye import cli
 from handeye.cli import STAND_INS
 from handeye.cli.common import notes, screen
 from handeye.results.page import _MARK
+from handeye.tasks.water_pump.task import WaterPump
 
 SCRIPT = """        STAGE   "insert the aligning pins"
         OPEN    1
@@ -128,7 +129,8 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("streams")
     (folder / "job.al").write_text(SCRIPT, encoding="utf-8")
     (folder / "wrong.al").write_text("OPEN 1.5 in\n→ ✓\n", encoding="utf-8")
-    with chdir(folder):
+    with chdir(folder), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(WaterPump, "photographs", ())  # no line here shows them
         start = partial(cli.app, result_action="return_value", exit_on_error=False)
         assert start(["plan", "job.al"]) == start(["run", "job.plan.json", "--out", "run"]) == 0
     return folder
@@ -162,6 +164,27 @@ def told(started: Start, line: str, folder: Path, encoding: str = "utf-8") -> tu
     return code, out.read_text(encoding), err.read_text(encoding)
 
 
+Told = tuple[int, str, str]
+
+
+@pytest.fixture(scope="module")
+def plainly() -> dict[str, Told]:
+    """What lines say into files of UTF-8, as far as a test has asked."""
+    return {}
+
+
+@pytest.fixture
+def plain(started: Start, tmp_path: Path, plainly: dict[str, Told]) -> Callable[[str], Told]:
+    """What a line says into files of UTF-8: it is the same each time."""
+
+    def say(line: str) -> Told:
+        if line not in plainly:
+            plainly[line] = told(started, line, tmp_path)
+        return plainly[line]
+
+    return say
+
+
 def shown(started: Start, line: str, folder: Path, columns: int, monkeypatch: pytest.MonkeyPatch) -> str:
     """What a line shows on a terminal of so many columns, without its colours."""
     for console in (screen, notes):
@@ -189,8 +212,10 @@ def test_every_command_has_a_line_here() -> None:
 
 
 @pytest.mark.parametrize("line", CHEAP.values())
-def test_no_encoding_is_too_poor(started: Start, tmp_path: Path, line: str) -> None:
-    code, out, err = told(started, line, tmp_path)
+def test_no_encoding_is_too_poor(
+    started: Start, tmp_path: Path, line: str, plain: Callable[[str], Told]
+) -> None:
+    code, out, err = plain(line)
     for encoding in ENCODINGS[1:]:
         poor = told(started, line, tmp_path, encoding)
         assert (poor[0], len(poor[1].split()), len(poor[2].split())) == (
@@ -202,8 +227,10 @@ def test_no_encoding_is_too_poor(started: Start, tmp_path: Path, line: str) -> N
 
 
 @pytest.mark.parametrize("line", CHEAP.values())
-def test_a_reader_that_has_gone_is_told_by_the_code_alone(started: Start, tmp_path: Path, line: str) -> None:
-    code, out, _ = told(started, line, tmp_path)
+def test_a_reader_that_has_gone_is_told_by_the_code_alone(
+    started: Start, tmp_path: Path, line: str, plain: Callable[[str], Told]
+) -> None:
+    code, out, _ = plain(line)
     err = tmp_path / "err"
     assert started(line, nobody(), err.open("w", encoding="utf-8")) == (141 if out else code)
     assert "Traceback" not in err.read_text(encoding="utf-8")
@@ -211,8 +238,10 @@ def test_a_reader_that_has_gone_is_told_by_the_code_alone(started: Start, tmp_pa
 
 
 @pytest.mark.parametrize("line", CHEAP.values())
-def test_a_full_disk_is_told_in_a_sentence(started: Start, tmp_path: Path, line: str) -> None:
-    code, out, _ = told(started, line, tmp_path)
+def test_a_full_disk_is_told_in_a_sentence(
+    started: Start, tmp_path: Path, line: str, plain: Callable[[str], Told]
+) -> None:
+    code, out, _ = plain(line)
     err = tmp_path / "err"
     assert started(line, full(), err.open("w", encoding="utf-8")) == (2 if out else code)
     lines = err.read_text(encoding="utf-8").splitlines()
@@ -264,7 +293,7 @@ def test_trials_that_are_interrupted_end_at_once_with_one_line_and_leave_no_proc
     """
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
-    line = [sys.executable, "-m", "handeye", "trials", "assembly", "--seeds", "0-3"]
+    line = [sys.executable, "-m", "handeye", "trials", "follow", "--n", "4"]
     with subprocess.Popen(line, stderr=subprocess.PIPE, cwd=tmp_path, start_new_session=True) as trials:
         while not Path(f"/proc/{trials.pid}/task/{trials.pid}/children").read_text().split():
             assert trials.poll() is None
