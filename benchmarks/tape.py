@@ -26,7 +26,7 @@ _STATE: Final = (
     "mocap_pos", "mocap_quat", "userdata",
 )  # fmt: skip
 """The arrays of the integration state, by name. Apart from them, the integration state contains only the clock."""
-_FIGURES: Final = ("actuator_trnid", "geom_solimp")
+_FIGURES: Final = ("actuator_trnid", "geom_solimp", "eq_solimp")
 """Fields of the model that a cell changes, in addition to those in the cell's own state. They belong to a mechanism, or
 are changed for a few steps only.
 """
