@@ -8,9 +8,9 @@ of 4e-6 rad/s.
 
 A part that is carried through the air touches only the bodies that hold it. Steps with these contacts may be long
 too, if the task names the pair of bodies. In long steps these contacts are made stiffer, so that a part sinks as
-deep into the fingers as in short steps (`stiffened`). Contacts may neither begin nor end in long steps. If a finger that presses
-with 80 N lost its contact with the part in a long step, the finger would move 1.5 mm into the part before the next
-step detected the contact, and would throw the part away.
+deep into the fingers as in short steps (`stiffened`). Contacts may neither begin nor end in long steps. If a finger
+that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5 mm into the part before
+the next step detected the contact, and would throw the part away.
 
 In middle steps all contacts and couplings are made stiffer in the same way, so a change of step changes no force at
 rest. Contacts may begin and end in middle steps, except those of the hand. The task names the *delicate* contacts,
