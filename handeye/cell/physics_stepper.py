@@ -164,7 +164,7 @@ class PhysicsStepper:
         if touching.carried and not steps % LONGER:
             done = self._smoothly(steps, touching.pairs)
         else:
-            done = not steps % MIDDLE and self._in_middle(touching) and self._midway(steps, touching.of_hand)
+            done = not (steps % MIDDLE or touching.delicate) and self._midway(steps, touching.of_hand)
         if not done:
             self._closely(steps)
 
@@ -189,10 +189,6 @@ class PhysicsStepper:
             )
         return self._contacts
 
-    def _in_middle(self, touching: _Contacts) -> bool:
-        """Return True if middle steps are allowed now."""
-        return not touching.delicate and bool((np.abs(self._data.qvel[self._resting]) < RESTING).all())
-
     def _smoothly(self, steps: int, touching: BodyPairs) -> bool:
         """Make long steps. If a contact begins or ends, undo them and return False."""
 
@@ -210,15 +206,18 @@ class PhysicsStepper:
         return done
 
     def _midway(self, steps: int, of_hand: BodyPairs) -> bool:
-        """Make middle steps. If they are no longer allowed, or if the hand gains or loses a contact, undo them and
-        return False.
+        """Make middle steps. If the hand gains or loses a contact, if a delicate contact begins, or if a joint that
+        must rest moves, undo them and return False.
         """
 
         def allowed() -> bool:
             touching = self._touching()
-            return touching.of_hand == of_hand and self._in_middle(touching)
+            return touching.of_hand == of_hand and not touching.delicate
 
-        return self._longer(steps, MIDDLE, allowed)
+        return self._at_rest() and self._longer(steps, MIDDLE, allowed, self._at_rest)
+
+    def _at_rest(self) -> bool:
+        return not self._resting.size or float(np.abs(self._data.qvel[self._resting]).max()) < RESTING
 
     def _longer(
         self,
@@ -288,6 +287,7 @@ def _pairs(bodies: NDArray[np.int_]) -> BodyPairs:
 
 
 _NUDGE: Final = 1e-12  # in rad/s or m/s: a velocity that is not zero wakes a tree
+_READY: Final = -1  # of a tree that will fall asleep after the next step in which it hardly moves
 _POLICY: Final = {
     True: int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED),
     False: int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER),
@@ -308,6 +308,16 @@ def wake(data: mujoco.MjData, dof: int) -> None:
 def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
     """Wake the trees of bodies to which degrees of freedom belong, if the trees sleep."""
     data.qvel[dofs[data.qvel[dofs] == 0.0]] = _NUDGE
+
+
+def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Let the trees of bodies whose velocities are all zero fall asleep after one step, if they then still rest.
+
+    MuJoCo sets the velocities of a sleeping tree to zero, so these trees slept before.
+    """
+    resting = np.ones(model.ntree, dtype=bool)
+    resting[model.dof_treeid[data.qvel != 0.0]] = False
+    data.tree_asleep[resting] = _READY
 
 
 def asleep(data: mujoco.MjData) -> bool:
