@@ -47,6 +47,7 @@ MIDDLE: Final = 2
 RESTING: Final = 1e-2
 """Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint that friction holds creeps at less than 1e-4."""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
+_KEPT: Final = 1000  # sets of contacts that are remembered
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 
 
@@ -134,7 +135,7 @@ class PhysicsStepper:
         self._resting = np.array([model.joint(name).dofadr[0] for name in resting], dtype=np.intp)
         roots = [(int(body), int(model.body_jntadr[body])) for body in model.tree_bodyadr]
         self._free = [(body, int(model.jnt_qposadr[joint])) for body, joint in roots]  # of each tree
-        self._seen, self._contacts = b"", _Contacts(BodyPairs(), BodyPairs(), True, False)
+        self._known: dict[bytes, _Contacts] = {}
         self._bends = np.zeros((2, 3, model.nv))
         self._impedances = (model.geom_solimp, model.eq_solimp)
         self._soft = [impedance.copy() for impedance in self._impedances]
@@ -175,19 +176,23 @@ class PhysicsStepper:
     def _touching(self) -> _Contacts:
         """Return the contacts that the simulator found last."""
         geoms = self._data.contact.geom
-        seen = geoms.tobytes()
-        if seen != self._seen:  # they seldom change from one step to the next
-            model = self._model
-            bodies = np.sort(model.geom_bodyid[geoms], axis=1)
-            first, second = model.body_treeid[bodies].T
-            self._seen = seen
-            self._contacts = _Contacts(
-                _pairs(bodies),
-                _pairs(bodies[self._handled[first, second]]),
-                bool(self._carried[first, second].all()),
-                bool(self._delicate[first, second].any()),
-            )
-        return self._contacts
+        key = geoms.tobytes()
+        known = self._known.get(key)  # the same contacts come back again and again
+        if known is None:
+            if len(self._known) >= _KEPT:
+                self._known.clear()
+            known = self._known[key] = self._judged(geoms)
+        return known
+
+    def _judged(self, geoms: NDArray[np.int32]) -> _Contacts:
+        bodies = np.sort(self._model.geom_bodyid[geoms], axis=1)
+        first, second = self._model.body_treeid[bodies].T
+        return _Contacts(
+            _pairs(bodies),
+            _pairs(bodies[self._handled[first, second]]),
+            bool(self._carried[first, second].all()),
+            bool(self._delicate[first, second].any()),
+        )
 
     def _smoothly(self, steps: int, touching: BodyPairs) -> bool:
         """Make long steps. If a contact begins or ends, undo them and return False."""
