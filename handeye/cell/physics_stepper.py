@@ -30,7 +30,7 @@ wake its tree.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import mujoco
 import numpy as np
@@ -287,7 +287,7 @@ class PhysicsStepper:
             mujoco.mju_quatIntegrate(data.qpos[start + 3 : start + 7], along, 1.0)
 
 
-def _pairs(bodies: NDArray[np.int_]) -> BodyPairs:
+def _pairs(bodies: NDArray[np.integer[Any]]) -> BodyPairs:
     return frozenset((int(one), int(other)) for one, other in bodies)
 
 
