@@ -9,7 +9,6 @@ import mujoco
 import numpy as np
 
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.physics_stepper import let_rest
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
 from handeye.cell.truth import Truth
 from handeye.core.errors import BadFile, InvalidInput
@@ -71,10 +70,10 @@ class SnapshotCell:
         """Restore the cell to a state. Whatever follows is then identical, byte for byte, no matter what happened
         before.
 
-        Sleep is not part of a state. When a state is restored, all bodies wake; those at rest fall asleep again after
-        one step. If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own state
-        at every point where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of
-        cell or is not valid.
+        Sleep is not part of a state: when a state is restored, all bodies wake, and those at rest fall asleep again.
+        If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own state at every
+        point where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of cell
+        or is not valid.
         """
         try:
             self._check(state)
@@ -93,7 +92,6 @@ class SnapshotCell:
         mujoco.mj_setState(model, data, state.physics, INTEGRATION)
         mujoco.mj_forward(model, data)
         mujoco.mj_setState(model, data, state.physics, INTEGRATION)  # what the solver starts from, too
-        let_rest(model, data)
 
     def _check(self, state: CellState) -> None:
         """Raise ValueError unless every number in a state fits this cell."""
