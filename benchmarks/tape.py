@@ -23,10 +23,12 @@ _CALLS: Final = ("mj_step", "mj_step1", "mj_step2", "mj_forward", "mj_resetData"
 _RESET: Final = "mj_resetData"
 _STATE: Final = (
     "qpos", "qvel", "act", "history", "qacc_warmstart", "ctrl", "qfrc_applied", "xfrc_applied", "eq_active",
-    "mocap_pos", "mocap_quat", "userdata",
+    "mocap_pos", "mocap_quat", "userdata", "tree_asleep",
 )  # fmt: skip
-"""The arrays of the integration state, by name. Apart from them, the integration state contains only the clock."""
-_FIGURES: Final = ("actuator_trnid", "geom_solimp")
+"""The arrays of the integration state, by name, and which bodies sleep. Apart from them, the integration state contains
+only the clock.
+"""
+_FIGURES: Final = ("actuator_trnid", "geom_solimp", "eq_solimp")
 """Fields of the model that a cell changes, in addition to those in the cell's own state. They belong to a mechanism, or
 are changed for a few steps only.
 """

@@ -1,5 +1,5 @@
 """Steps of the physics: none while everything sleeps, long steps while only carried parts touch other bodies, and
-short steps while there are any other contacts.
+short steps while there are any other contacts. If the task allows it, most of these other contacts take middle steps.
 
 Contacts need short steps, because their softness grows with the square of the step. Free motion does not: with long
 steps it has the same speeds, but is early by 1.6 ms, half of the difference between the two steps. Brakes and dry
@@ -8,9 +8,14 @@ of 4e-6 rad/s.
 
 A part that is carried through the air touches only the bodies that hold it. Steps with these contacts may be long
 too, if the task names the pair of bodies. In long steps these contacts are made stiffer, so that a part sinks as
-deep into the fingers as in short steps. Contacts may neither begin nor end in long steps. If a finger that presses
-with 80 N lost its contact with the part in a long step, the finger would move 1.5 mm into the part before the next
-step detected the contact, and would throw the part away.
+deep into the fingers as in short steps (`stiffened`). Contacts may neither begin nor end in long steps. If a finger
+that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5 mm into the part before
+the next step detected the contact, and would throw the part away.
+
+In middle steps all contacts and couplings are made stiffer in the same way, so a change of step changes no force at
+rest. Contacts may begin and end in middle steps, except those of the hand. The task names the *delicate* contacts,
+which need short steps, and the joints that must be at rest, because a screw that is tightened in middle steps clamps
+with less force.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. It leaves
 out the second-order term of the motion: half the acceleration times the square of the step. After long steps this
@@ -23,8 +28,9 @@ wakes the tree when an awake body touches it, but not on a new command to a moto
 wake its tree.
 """
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import mujoco
 import numpy as np
@@ -36,17 +42,47 @@ LONGER: Final = 4
 """Number of short steps in a long step. Chosen so that a servo period is a whole number of long steps, and so that
 friction holds.
 """
-STIFFER: Final = LONGER**2
-"""Factor by which the contacts of carried parts are stiffer in long steps. It makes up for the length of the step."""
+MIDDLE: Final = 2
+"""Number of short steps in a middle step."""
+RESTING: Final = 1e-2
+"""Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint that friction holds creeps at less than 1e-4."""
+_STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
+_KEPT: Final = 1000  # sets of contacts that are remembered
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Carrying:
-    """The contacts that are allowed in long steps, because one body carries the other. Bodies are given by name."""
+    """The contacts that are allowed in longer steps. Bodies are given by name."""
 
     hand: str  # the body that moves everything that is carried
-    pairs: tuple[tuple[str, str], ...]  # the hand and a free body, or two free bodies
+    pairs: tuple[tuple[str, str], ...]  # allowed in long steps: the hand and a free body, or two free bodies
+    delicate: tuple[tuple[str, ...], ...] | None = None
+    """Not allowed in middle steps: two bodies that touch, or one body that touches anything. If this is None, the
+    simulation takes no middle steps.
+    """
+    resting: tuple[str, ...] = ()  # joints that do not move during middle steps
+
+
+def stiffened(
+    impedances: NDArray[np.float64], time_constants: NDArray[np.float64], short: float, times: int
+) -> NDArray[np.float64]:
+    """Return impedances (shape (n, 5)) with which constraints are as stiff in steps of `times` the length as they are
+    in short steps.
+
+    MuJoCo raises the time constant T (s) of a constraint to at least two timesteps. At impedance d, and at the largest
+    impedance D, the stiffness is proportional to d**2 / (D**2 * T**2 * (1 - d)) (MuJoCo's documentation, "Solver
+    parameters"). The result is exact at the surface and at full depth, except where MuJoCo limits the impedance.
+    Constraints whose stiffness is given directly, by a negative number, keep their impedance.
+    """
+    lengths = np.maximum(time_constants, 2 * short * times) / np.maximum(time_constants, 2 * short)
+    factors = np.where(time_constants > 0, lengths**2, 1.0)
+    first, last = impedances[:, :2].T
+    found = impedances.copy()
+    found[:, 1] = np.minimum(1 - (1 - last) / factors, _STIFFEST)
+    aim = factors * (found[:, 1] / last) ** 2 * first**2 / (1 - first)
+    found[:, 0] = np.minimum(2 * aim / (aim + np.sqrt(aim * (aim + 4))), _STIFFEST)
+    return found
 
 
 def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
@@ -65,95 +101,168 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class _Contacts:
+    """What touches, and which steps this allows."""
+
+    pairs: BodyPairs
+    of_hand: BodyPairs  # the pairs with a body that the arm moves
+    carried: bool
+    """True if all pairs are allowed in long steps."""
+    delicate: bool
+    """True if a pair is not allowed in middle steps."""
+
+
 class PhysicsStepper:
     """Advances the physics of a cell.
 
     If a contact begins or ends during a long step, the long steps of this period are undone, and short steps are
-    made from the last moment before it.
+    made from the last moment before it. Middle steps are undone if the hand gains or loses a contact, or if a
+    delicate contact begins.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None) -> None:
-        """`carrying` gives the contacts that are allowed in long steps. By default no contacts are allowed."""
+        """`carrying` gives the contacts that are allowed in longer steps. By default no contacts are allowed."""
         self._model, self._data, self._short = model, data, float(model.opt.timestep)
         self._moves = (data.qpos, data.qvel, data.act, data.qacc_warmstart)
         self._kept = [values.copy() for values in self._moves]
         self._hand = 0 if carrying is None else model.body(carrying.hand).id
-        self._carried = np.zeros(
-            (model.ntree + 1, model.ntree + 1), dtype=bool
-        )  # the last is for bodies fixed in the world
-        for pair in () if carrying is None else carrying.pairs:
-            first, second = (model.body_treeid[model.body(name).id] for name in pair)
-            self._carried[first, second] = self._carried[second, first] = True
+        self._carried = self._marked(() if carrying is None else carrying.pairs)
+        self._handled = self._marked(() if carrying is None else ((carrying.hand,),))
+        delicate = None if carrying is None else carrying.delicate
+        self._delicate = ~self._marked(()) if delicate is None else self._marked(delicate)
+        resting = () if carrying is None else carrying.resting
+        self._resting = np.array([model.joint(name).dofadr[0] for name in resting], dtype=np.intp)
         roots = [(int(body), int(model.body_jntadr[body])) for body in model.tree_bodyadr]
         self._free = [(body, int(model.jnt_qposadr[joint])) for body, joint in roots]  # of each tree
-        self._seen, self._pairs, self._only_carried = b"", BodyPairs(), True
+        self._known: dict[bytes, _Contacts] = {}
         self._bends = np.zeros((2, 3, model.nv))
-        self._soft = model.geom_solimp.copy()
-        self._stiff = self._soft.copy()
-        impedance = self._stiff[:, :2]  # a contact's stiffness is proportional to d / (1 - d)
-        impedance *= STIFFER / (1.0 + (STIFFER - 1.0) * impedance)
+        self._impedances = (model.geom_solimp, model.eq_solimp)
+        self._soft = [impedance.copy() for impedance in self._impedances]
+        self._stiff = {
+            times: [
+                stiffened(impedance, constants[:, 0], self._short, times)
+                for impedance, constants in zip(self._soft, (model.geom_solref, model.eq_solref), strict=True)
+            ]
+            for times in (MIDDLE, LONGER)
+        }
+
+    def _marked(self, pairs: Iterable[tuple[str, ...]]) -> NDArray[np.bool_]:
+        """Return a symmetric table that marks pairs of trees of bodies, or all pairs of one tree if only one body is
+        named. The last row is for bodies fixed in the world.
+        """
+        model = self._model
+        table = np.zeros((model.ntree + 1, model.ntree + 1), dtype=bool)
+        for first, *others in pairs:
+            row = model.body_treeid[model.body(first).id]
+            column = model.body_treeid[model.body(others[0]).id] if others else slice(None)
+            table[row, column] = table[column, row] = True
+        return table
 
     def step(self, steps: int) -> None:
-        """Advance by `steps` short steps, or by long steps that cover the same time."""
-        if steps % LONGER or not self._carrying() or not self._smoothly(steps):
+        """Advance by `steps` short steps, or by longer steps that cover the same time."""
+        touching = self._touching()
+        if touching.carried and not steps % LONGER:
+            done = self._smoothly(steps, touching.pairs)
+        else:
+            done = not (steps % MIDDLE or touching.delicate) and self._midway(steps, touching.of_hand)
+        if not done:
             self._closely(steps)
 
     def _closely(self, steps: int) -> None:
         """Make short steps. A subclass may watch them."""
         mujoco.mj_step(self._model, self._data, steps)
 
-    def _touching(self) -> BodyPairs:
-        """Return the pairs of bodies that touch."""
+    def _touching(self) -> _Contacts:
+        """Return the contacts that the simulator found last."""
         geoms = self._data.contact.geom
-        seen = geoms.tobytes()
-        if seen != self._seen:  # they seldom change from one step to the next
-            model = self._model
-            bodies = np.sort(model.geom_bodyid[geoms], axis=1)
-            first, second = model.body_treeid[bodies].T
-            self._seen, self._only_carried = seen, bool(self._carried[first, second].all())
-            self._pairs = frozenset((int(one), int(other)) for one, other in bodies)
-        return self._pairs
+        key = geoms.tobytes()
+        known = self._known.get(key)  # the same contacts come back again and again
+        if known is None:
+            if len(self._known) >= _KEPT:
+                self._known.clear()
+            known = self._known[key] = self._judged(geoms)
+        return known
 
-    def _carrying(self) -> bool:
-        """Return True if no parts except carried parts have contacts."""
-        self._touching()
-        return self._only_carried
+    def _judged(self, geoms: NDArray[np.int32]) -> _Contacts:
+        bodies = np.sort(self._model.geom_bodyid[geoms], axis=1)
+        first, second = self._model.body_treeid[bodies].T
+        return _Contacts(
+            _pairs(bodies),
+            _pairs(bodies[self._handled[first, second]]),
+            bool(self._carried[first, second].all()),
+            bool(self._delicate[first, second].any()),
+        )
 
-    def _smoothly(self, steps: int) -> bool:
+    def _smoothly(self, steps: int, touching: BodyPairs) -> bool:
         """Make long steps. If a contact begins or ends, undo them and return False."""
-        model, data = self._model, self._data
-        began, touching = data.time, self._touching()
+
+        def same() -> bool:
+            return self._touching().pairs == touching
+
+        def arrived() -> bool:
+            mujoco.mj_kinematics(self._model, self._data)
+            mujoco.mj_collision(self._model, self._data)
+            return same()
+
+        done = self._longer(steps, LONGER, same, arrived)
+        if done and touching:
+            self._add_second_order(steps)
+        return done
+
+    def _midway(self, steps: int, of_hand: BodyPairs) -> bool:
+        """Make middle steps. If the hand gains or loses a contact, if a delicate contact begins, or if a joint that
+        must rest moves, undo them and return False.
+        """
+
+        def allowed() -> bool:
+            touching = self._touching()
+            return touching.of_hand == of_hand and not touching.delicate
+
+        return self._at_rest() and self._longer(steps, MIDDLE, allowed, self._at_rest)
+
+    def _at_rest(self) -> bool:
+        return not self._resting.size or float(np.abs(self._data.qvel[self._resting]).max()) < RESTING
+
+    def _longer(
+        self,
+        steps: int,
+        times: int,
+        allowed: Callable[[], bool],
+        at_the_end: Callable[[], bool] = lambda: True,
+    ) -> bool:
+        """Make steps of `times` the length, in the time of `steps` short steps. If the contacts of a step are not
+        allowed, undo all steps and return False.
+        """
+        model, data, began = self._model, self._data, self._data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
             kept[:] = values
-        model.opt.timestep = self._short * LONGER
-        if touching:
-            model.geom_solimp[:] = self._stiff
-        smooth = True
+        model.opt.timestep = self._short * times
+        self._set_impedances(self._stiff[times])
         try:
-            for _ in range(steps // LONGER):
+            for _ in range(steps // times):
                 mujoco.mj_step(model, data)  # its contacts are those at its beginning
-                smooth = self._touching() == touching
-                if not smooth:
+                if not allowed():
+                    done = False
                     break
             else:
-                mujoco.mj_kinematics(model, data)
-                mujoco.mj_collision(model, data)
-                smooth = self._touching() == touching
+                done = at_the_end()
         finally:
             model.opt.timestep = self._short
-            if touching:
-                model.geom_solimp[:] = self._soft
-        if not smooth:
+            self._set_impedances(self._soft)
+        if not done:
             for kept, values in zip(self._kept, self._moves, strict=True):
                 values[:] = kept
-        elif touching:
-            self._add_second_order(steps)
-        data.time = began + steps * self._short if smooth else began
-        return smooth
+        data.time = began + steps * self._short if done else began
+        return done
+
+    def _set_impedances(self, values: Sequence[NDArray[np.float64]]) -> None:
+        for impedance, value in zip(self._impedances, values, strict=True):
+            impedance[:] = value
 
     def _held(self) -> set[int]:
         """Return the trees of bodies that the hand carries, directly or by way of other carried bodies."""
-        pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in self._touching()]
+        pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in self._touching().pairs]
         reached, before = {int(self._model.body_treeid[self._hand])}, 0
         while len(reached) > before:
             before = len(reached)
@@ -178,7 +287,12 @@ class PhysicsStepper:
             mujoco.mju_quatIntegrate(data.qpos[start + 3 : start + 7], along, 1.0)
 
 
+def _pairs(bodies: NDArray[np.integer[Any]]) -> BodyPairs:
+    return frozenset((int(one), int(other)) for one, other in bodies)
+
+
 _NUDGE: Final = 1e-12  # in rad/s or m/s: a velocity that is not zero wakes a tree
+_READY: Final = -1  # of a tree that will fall asleep after the next step in which it hardly moves
 _POLICY: Final = {
     True: int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED),
     False: int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER),
@@ -199,6 +313,16 @@ def wake(data: mujoco.MjData, dof: int) -> None:
 def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
     """Wake the trees of bodies to which degrees of freedom belong, if the trees sleep."""
     data.qvel[dofs[data.qvel[dofs] == 0.0]] = _NUDGE
+
+
+def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Let the trees of bodies whose velocities are all zero fall asleep after one step, if they then still rest.
+
+    MuJoCo sets the velocities of a sleeping tree to zero, so these trees slept before.
+    """
+    resting = np.ones(model.ntree, dtype=bool)
+    resting[model.dof_treeid[data.qvel != 0.0]] = False
+    data.tree_asleep[resting] = _READY
 
 
 def asleep(data: mujoco.MjData) -> bool:

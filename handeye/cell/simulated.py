@@ -11,9 +11,10 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand, SimulatedLamp, SimulatedScrewdriver
 from handeye.cell.mechanism import Mechanism
-from handeye.cell.physics_stepper import PhysicsStepper, asleep, check_physics
+from handeye.cell.physics_stepper import PhysicsStepper, asleep, check_physics, let_rest
 from handeye.cell.signal_lines import SOUND, SignalLines
 from handeye.cell.snapshot_cell import SnapshotCell
+from handeye.cell.state import CellState
 from handeye.core.record import Vector3
 from handeye.ports.camera import Renderer
 from handeye.ports.clock import Clock, whole_steps
@@ -87,6 +88,13 @@ class SimulatedCell(Clock, SnapshotCell):
         """Begin a stage of the program, given by its number from 1. Faults may begin with a stage."""
         for part in self._mechanisms:
             part.begin_stage(number)
+
+    def restore(self, state: CellState) -> None:
+        """Restore the cell to a state; see `SnapshotCell.restore`. Bodies that slept need only one step to fall asleep
+        again.
+        """
+        super().restore(state)
+        let_rest(self._model, self._data)
 
     def advance(self, seconds: float) -> None:
         """Let time pass. Raises BadArgument unless `seconds` is a whole number of physics steps, and PhysicsFailed

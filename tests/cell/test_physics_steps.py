@@ -1,10 +1,10 @@
-"""Long steps of physics while nothing touches but what is carried, and short ones for contact."""
+"""Long steps of physics while nothing touches but what is carried, and middle or short ones for contact."""
 
 import mujoco
 import numpy as np
 import pytest
 
-from handeye.cell.physics_stepper import LONGER, Carrying, PhysicsStepper
+from handeye.cell.physics_stepper import LONGER, MIDDLE, Carrying, PhysicsStepper, stiffened
 from handeye.core.pose import Array
 
 SHORT = 1 / 960
@@ -102,12 +102,16 @@ SOFT = f'solref="{2 * SHORT} 1" solimp=".99 .99 .001"'  # the stiffest that shor
 class Lift:
     """A tray that rises with a ball on it, beneath a bar."""
 
-    def __init__(self, *, carries: bool = True, bar: float = 1.0) -> None:
+    def __init__(
+        self, *, carries: bool = True, bar: float = 1.0, delicate: tuple[tuple[str, ...], ...] | None = None
+    ) -> None:
         self.model = mujoco.MjModel.from_xml_string(TRAY.format(short=SHORT, bar=bar, soft=SOFT))
         self.data = mujoco.MjData(self.model)
         self.data.ctrl[0], self.data.qvel[[0, 3]] = RISING, RISING
-        carrying = Carrying(hand="tray", pairs=(("tray", "ball"),)) if carries else None
-        self.stepper = PhysicsStepper(self.model, self.data, carrying)
+        pairs = (("tray", "ball"),) if carries else ()
+        self.stepper = PhysicsStepper(
+            self.model, self.data, Carrying(hand="tray", pairs=pairs, delicate=delicate)
+        )
         mujoco.mj_forward(self.model, self.data)
 
     def rise(self, periods: int) -> "Lift":
@@ -131,11 +135,61 @@ def test_what_is_carried_through_the_air_takes_long_steps_and_what_is_not_carrie
     assert steps == [SHORT] * (4 * PERIOD)
 
 
-def test_a_load_sinks_as_deep_in_long_steps_as_in_short_ones() -> None:
+def test_a_load_sinks_as_deep_in_steps_of_every_length(steps: list[float]) -> None:
     """Over a step four times as long a contact would be sixteen times as soft."""
-    long, short = Lift().rise(60), Lift(carries=False).rise(60)
-    assert long.sunk == pytest.approx(short.sunk, rel=0.02)
-    assert long.model.geom_solimp.tobytes() == short.model.geom_solimp.tobytes()
+    short = Lift(carries=False).rise(60)
+    for lift, times in ((Lift(delicate=()), LONGER), (Lift(carries=False, delicate=()), MIDDLE)):
+        steps.clear()
+        lift.rise(60)
+        assert set(steps) == {times * SHORT}
+        assert lift.sunk == pytest.approx(short.sunk, rel=0.002)
+        assert lift.model.geom_solimp.tobytes() == short.model.geom_solimp.tobytes()
+
+
+def test_a_contact_has_the_same_force_on_either_side_of_a_change_of_step() -> None:
+    lift = Lift(carries=False, delicate=()).rise(60)
+    force, forces = np.zeros(6), []
+    for _ in range(3):
+        mujoco.mj_step(lift.model, lift.data, PERIOD)
+        mujoco.mj_contactForce(lift.model, lift.data, 0, force)
+        forces.append(force[0])
+        lift.rise(1)
+        mujoco.mj_contactForce(lift.model, lift.data, 0, force)
+        forces.append(force[0])
+    assert forces == pytest.approx([0.5 * 9.81] * 6, rel=0.002)
+
+
+def test_a_weld_gives_way_as_far_in_middle_steps_as_in_short_ones() -> None:
+    deep = []
+    for delicate in ((), None):
+        model = mujoco.MjModel.from_xml_string(HUNG.format(short=SHORT, soft=SOFT))
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        stepper = PhysicsStepper(model, data, Carrying(hand="tray", pairs=(), delicate=delicate))
+        for _ in range(60):
+            stepper.step(PERIOD)
+        deep.append(data.qpos[2] - 0.5)
+    assert deep[1] < -1e-6
+    assert deep[0] == pytest.approx(deep[1], rel=0.01)
+
+
+def test_stiffness_is_kept_exactly_at_the_surface_and_at_full_depth() -> None:
+    """Stiffness: d**2 / (D**2 * T**2 * (1 - d)), of a time constant T of at least two steps."""
+    soft = np.array([[0.95, 0.99, 0.0005, 0.5, 2.0]])
+    for constant in (2 * SHORT, 0.003, 0.02):
+        stiff = stiffened(soft, np.array([constant]), SHORT, LONGER)
+        for d, e in zip(soft[0, :2], stiff[0, :2], strict=True):
+            short, long = (
+                x**2 / (most**2 * max(constant, 2 * step) ** 2 * (1 - x))
+                for x, most, step in ((d, soft[0, 1], SHORT), (e, stiff[0, 1], LONGER * SHORT))
+            )
+            assert long == pytest.approx(short, rel=1e-9)
+        assert stiff[0, 2:].tolist() == soft[0, 2:].tolist()
+
+
+def test_a_stiffness_that_does_not_depend_on_the_step_is_left_alone() -> None:
+    soft = np.array([[0.95, 0.99, 0.0005, 0.5, 2.0]])
+    assert stiffened(soft, np.array([-1000.0]), SHORT, LONGER).tolist() == pytest.approx(soft)
 
 
 def test_a_load_that_loses_its_contact_does_so_in_short_steps(steps: list[float]) -> None:
@@ -161,6 +215,41 @@ def test_a_load_that_meets_something_else_does_so_in_short_steps(steps: list[flo
     assert lift.data.time == pytest.approx(clear / RISING, abs=2 * PERIOD * SHORT)
     mujoco.mj_step(like.model, like.data, PERIOD)
     assert lift.data.qpos.tobytes() == like.data.qpos.tobytes()
+
+
+HUNG = """<mujoco><option timestep="{short}" integrator="implicitfast"/><worldbody>
+<body name="hung" pos="0 0 .5"><freejoint/><geom size=".05" mass="5"/></body>
+<body name="tray"><joint type="slide" axis="1 0 0"/><geom type="box" size=".1 .1 .01" {soft}/></body>
+<body pos="0 0 .059"><freejoint/><geom size=".05" mass=".5" {soft}/></body>
+</worldbody><equality><weld body1="hung" solref=".004 1" solimp=".99 .999 .0001"/></equality></mujoco>"""
+
+
+@pytest.mark.parametrize("delicate", [(("ball",),), (("tray", "ball"),)])
+def test_a_delicate_contact_takes_short_steps(
+    delicate: tuple[tuple[str, ...], ...], steps: list[float]
+) -> None:
+    Lift(carries=False, delicate=delicate).rise(2)
+    assert steps == [SHORT] * (2 * PERIOD)
+
+
+def test_the_hand_gains_and_loses_contacts_in_short_steps_only(steps: list[float]) -> None:
+    """The tray is drawn away from beneath the ball, which falls back on it."""
+    lift, like = (Lift(carries=False, delicate=()).rise(4) for _ in range(2))
+    for each in (lift, like):
+        each.data.ctrl[0] = -2.0 * RISING
+    steps.clear()
+    lift.rise(1)
+    assert steps[-PERIOD:] == [SHORT] * PERIOD
+    mujoco.mj_step(like.model, like.data, PERIOD)
+    assert lift.data.qpos.tobytes() == like.data.qpos.tobytes()
+
+
+def test_contacts_of_other_bodies_begin_in_middle_steps(steps: list[float]) -> None:
+    """The ball meets the bar; the tray holds both of its contacts as they are."""
+    lift = Lift(carries=False, bar=0.06 + 0.05 + 0.01 + 0.002, delicate=())
+    while lift.data.ncon < 2:
+        lift.rise(1)
+    assert set(steps) == {MIDDLE * SHORT}
 
 
 CAROUSEL = """<mujoco><option timestep="{short}" integrator="implicitfast" cone="elliptic" impratio="50"/><worldbody>

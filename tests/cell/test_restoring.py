@@ -5,6 +5,7 @@ from collections.abc import Callable
 from functools import cache
 
 import msgspec
+import mujoco
 import numpy as np
 import pytest
 from driving import Drive, tick
@@ -100,3 +101,19 @@ def test_a_state_that_is_not_finite_is_refused_and_changes_nothing(strange: floa
     with pytest.raises(InvalidInput, match=r"work cell: some of its values are not finite numbers$"):
         cell.restore(msgspec.structs.replace(state, physics=physics))
     assert written(cell.capture()) == written(state)
+
+
+def test_what_slept_sleeps_again_after_one_step_and_what_moves_does_not() -> None:
+    cell, data = drawn(), drawn().truth.data
+    cell.restore(cell.capture())
+    while data.ntree_awake > 1:  # the arm is not still
+        tick(cell.devices, Drive(torque=np.zeros(6)))
+    slept = data.tree_asleep >= 0
+    data.qvel[cell.truth.model.joint("pin0").dofadr[0]] = 0.2
+    cell.restore(cell.capture())
+    mujoco.mj_step(cell.truth.model, data)
+    pin = cell.truth.model.body_treeid[cell.truth.model.body("pin0").id]
+    assert data.tree_asleep[pin] < 0
+    slept[pin] = False
+    assert (data.tree_asleep[slept] >= 0).all()
+    assert slept.sum() >= 10

@@ -75,9 +75,15 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
 
 def carrying(screws: int) -> Carrying:
     """List the pairs of bodies that may touch while the simulator takes long steps: the hand and a loose part that
-    it holds, and the screwdriver and its screw.
+    it holds, and the screwdriver and its screw. In middle steps all bodies may touch, except the screwdriver, and the
+    hand and the base, but no screw may turn in its thread.
     """
     hand, driver, fastened = f"{ARM}link6", "driver", [f"screw{k}" for k in range(screws)]
     loose = ("base", "gasket", "top", "pin0", "pin1", driver, *fastened)
     held = [(hand, part) for part in loose]
-    return Carrying(hand=hand, pairs=(*held, *((driver, screw) for screw in fastened)))
+    return Carrying(
+        hand=hand,
+        pairs=(*held, *((driver, screw) for screw in fastened)),
+        delicate=((driver,), (hand, "base")),
+        resting=tuple(f"thread_turn{k}" for k in range(screws)),
+    )

@@ -20,7 +20,7 @@ MARGIN: Final = 1e-4
 
 
 class ClampedStepper(PhysicsStepper):
-    """Advances the physics of the pump's cell. In short steps it leaves out the shanks that touch no hole."""
+    """Advances the physics of the pump's cell. In a clamped stack, it leaves out the shanks that touch no hole."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying, clamping: Clamping, screws: int
@@ -35,15 +35,15 @@ class ClampedStepper(PhysicsStepper):
         depths = model.site_pos[self._mouths, 2]  # m; the origin of a layer is in its underside
         self._ends = np.stack([np.zeros_like(depths), -depths])  # of the holes, above their mouths
 
-    def _closely(self, steps: int) -> None:
+    def step(self, steps: int) -> None:
         if not (self._clamping.clamped and self._data.body_awake[self._base]):
-            super()._closely(steps)
+            super().step(steps)
             return
         affinity, clear = self._model.geom_conaffinity, self._clear()
         kept = affinity[clear]
         affinity[clear] = 0
         try:
-            super()._closely(steps)
+            super().step(steps)
         finally:
             affinity[clear] = kept
 

@@ -60,7 +60,7 @@ def test_a_shank_is_left_out_only_while_it_is_clear(
 @pytest.mark.slow
 def test_leaving_shanks_out_changes_no_number(monkeypatch: pytest.MonkeyPatch) -> None:
     _, left_out = after(6, 0.0)
-    monkeypatch.setattr(ClampedStepper, "_closely", PhysicsStepper._closely)
+    monkeypatch.setattr(ClampedStepper, "step", PhysicsStepper.step)
     _, searched = after(6, 0.0)
     assert left_out == searched
     assert np.isfinite(np.frombuffer(left_out)).all()
