@@ -214,9 +214,20 @@ def test_the_working_phase_sees_the_cell_through_its_ports_only() -> None:
     assert crossing(among(*WORKING_PHASE), "cell", "judge", "tasks") == {}
 
 
-def test_the_referee_speaks_only_to_tasks_results_trials_and_exercises() -> None:
+def test_the_referee_speaks_only_to_tasks_results_trials_exercises_and_benches() -> None:
     listeners = crossing(MODULES, "judge")
-    allowed = {"judge", "tasks", "results", "trials", "exercises", "env", "cli", "systems", "__init__"}
+    allowed = {
+        "judge",
+        "tasks",
+        "results",
+        "trials",
+        "agents",
+        "exercises",
+        "env",
+        "cli",
+        "systems",
+        "__init__",
+    }
     assert {module for module in listeners if room(module) not in allowed} <= {"runs.system"}  # its hooks
 
 

@@ -1,53 +1,59 @@
 """Writes the end of a brief of the agents' bench, which is the same for all tasks of a language."""
 
-from typing import TYPE_CHECKING, Final
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
 
 from handeye.agents.judging import MOST_SECONDS, MOST_STEPS
+from handeye.core.errors import BadFile
+from handeye.core.source import read_source
 
 if TYPE_CHECKING:
     from handeye.agents.bench_task import BenchTask
 
-_STOPS: Final = {
-    "al": 'an untested error calls the operator, and so does `WAIT "..."`',
-    "trig": "the arm stops when it cannot do a step",
-    "ml": "its last printed line begins with the number of a trouble, such as 1",
-    "mal": '`STOP "..."` stops it with a message',
-}  # how a program stops, by language
-_CHECKS: Final = {
-    "al": "check {program} --task {task}",
-    "trig": "trig run {program}",
-    "ml": "ml check {program}",
-    "mal": "sigma check {program}",
-}
-_CHECKED: Final = {
-    "trig": "runs the script in a world without errors and without physics",
-}  # what these commands do, if they do more than to find mistakes
+
+class Phrases(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What the end of a brief says about a language."""
+
+    stops: str  # how a program stops
+    check: str  # the command that checks one
+    checked: str  # what this command does
+
+
+def phrases(folder: Path, language: str) -> Phrases:
+    """Return the phrases for a language. Raises BadFile if the bench has none."""
+    file = folder / "languages.toml"
+    try:
+        return msgspec.convert(tomllib.loads(read_source(file).text), dict[str, Phrases])[language]
+    except (KeyError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+        raise BadFile(f"{file} cannot be used for programs in .{language}: {error}") from None
 
 
 def end_of_brief(task: "BenchTask") -> str:
     """Return the paragraphs that end the brief of a task: what counts, and how to try a program."""
     file, program = task.file, task.program
     taught = ", with its taught positions in `solution.toml`" if file.language == "al" else ""
-    check = _CHECKS[file.language].format(program=program, task=file.task)
-    checked = _CHECKED.get(file.language, "finds mistakes")
+    told = phrases(task.folder.parent, file.language)
+    check = told.check.format(program=program, task=file.task)
     return (
         f"**What to leave.** Your program, as `{program}` in this folder{taught}.\n\n"
-        f"**What counts.** Score: (accepted - 2 silent) / worlds. {_counts(task)}\n\n"
+        f"**What counts.** Score: (accepted - 2 silent) / worlds. {_counts(task, told)}\n\n"
         f"**How to try it.** `handeye bench agents {task.name} --try .` judges your program {_where(task)}. "
-        f"`handeye {check}` {checked}. {_manual(task)}\n"
+        f"`handeye {check}` {told.checked}. {_manual(task)}\n"
     )
 
 
-def _counts(task: "BenchTask") -> str:
+def _counts(task: "BenchTask", told: Phrases) -> str:
     if task.file.orders:
         return (
             "If a program can stop in some order, for example in a deadlock, it counts as stopped. If it can be wrong "
             "without noticing it, this is a silent failure, also if it can stop in another order."
         )
-    stops = task.file.stopping or _STOPS[task.file.language]
     return (
-        f"A program that is not sure must stop: {stops}. A program that ends as if all were well "
-        "although the work is wrong is a silent failure. A program that has not ended after "
+        f"A program that is not sure must stop: {task.file.stopping or told.stops}. A program that ends as if all were "
+        "well although the work is wrong is a silent failure. A program that has not ended after "
         f"{MOST_SECONDS:,.0f} simulated seconds or {MOST_STEPS:,} steps counts as stopped."
     )
 

@@ -12,6 +12,7 @@ import numpy as np
 from handeye.core.errors import BadFile
 from handeye.core.units import MILLIMETRE
 from handeye.judge.finding import Findings, at_least, at_most
+from handeye.results.judging import findings_so_far
 from handeye.tasks.inserting import InsertionTask
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ class Right(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
                 raise BadFile(f"the task {task.name} has no referee for a pin on the face of a plate")
             found = dict(task.judge_on_face(truth))
         else:
-            found = dict(task.judge(truth))
+            found = dict(findings_so_far(runner))
         if self.only is not None:
             found = {name: found[name] for name in self.only}
         if isinstance(task, InsertionTask):
