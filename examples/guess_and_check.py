@@ -3,9 +3,8 @@
     handeye bench agents blind_retry --command "python /path/to/guess_and_check.py" --rounds 5
 
 The bench runs this program in the folder of a task. It understands no brief: it knows one way to put a pin into a hole,
-and each time it finds `feedback.md`, it widens the search by one ring. It passes the tasks in which a wider search is
-all that is missing. For a task in another language, it leaves no program, which counts as
-stopped.
+and each time it finds `feedback.md`, it widens the search by one ring. This solves only tasks that lack a wider search.
+In another language, it leaves no program, which counts as stopped.
 """
 
 import re

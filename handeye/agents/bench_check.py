@@ -9,8 +9,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from handeye.agents.bench_entrant import Entrant, solved, verdicts
+from handeye.agents.bench_files import REFERENCE, TRIVIAL
 from handeye.agents.bench_result import score_of
-from handeye.agents.bench_task import PASSED, REFERENCE, TRIVIAL, BenchTask
+from handeye.agents.bench_task import PASSED, BenchTask
 from handeye.agents.call import Call
 from handeye.agents.judging import Verdict
 from handeye.core.record import Record

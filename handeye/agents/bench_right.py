@@ -110,7 +110,8 @@ class Right(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     def findings(self, runner: Runner, truth: Truth) -> Findings:
         """Return the referee's findings on a program that has ended."""
         found = dict(self._of_task(runner, truth))
-        for each in (*self.bodies, *self.measured):
+        parts: tuple[Body | Measured, ...] = (*self.bodies, *self.measured)
+        for each in parts:
             found |= each.findings(truth)
         if self.prints:
             last = (_lines(truth) or ("",))[-1]

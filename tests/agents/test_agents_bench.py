@@ -91,13 +91,10 @@ JUDGED = [
     ("stand_gently", "trivial", 0, "silent"),  # the pin must stand on the face
     ("touch_and_return", "trivial", 0, "silent"),  # the pin must be back
     ("stack_elsewhere", "trivial", 0, "stopped"),
-    ("swap_blocks", "trivial", 0, "silent"),  # places of bodies
     ("reversible", "trivial", 0, "stopped"),  # the arm must undo its work
-    ("sort_by_width", "trivial", 0, "accepted"),
     ("sort_by_width", "trivial", 1, "silent"),  # printed lines
     ("find_the_stop", "trivial", 1, "silent"),  # measured values
     ("find_the_stop", "trivial", 2, "silent"),  # impossible work
-    ("count_pieces", "trivial", 1, "silent"),
 ]
 
 

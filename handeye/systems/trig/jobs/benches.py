@@ -1,6 +1,7 @@
 """Finds benches and jobs by name. The physics is loaded only when a bench or job is opened."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Literal
 
 import msgspec
@@ -156,6 +157,9 @@ def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob
     from handeye.systems.trig.jobs.jobs import ArrangeJob, BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 
-    return {"palletise": PalletJob, "bucket": BucketJob, "arrange": ArrangeJob}[name](
-        script, BlocksWorld(world)
-    )
+    jobs: dict[JobName, Callable[[str, BlocksWorld], TaughtJob]] = {
+        "palletise": PalletJob,
+        "bucket": BucketJob,
+        "arrange": ArrangeJob,
+    }
+    return jobs[name](script, BlocksWorld(world))
