@@ -72,11 +72,10 @@ def record(
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
-    """Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports. The same
-    command continues an interrupted recording.
+    """Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
 
-    Runs that have ended are not repeated, so a greater --n adds runs. `handeye export lerobot` writes the runs as a
-    data set.
+    The same command continues an interrupted recording. Runs that have ended are not repeated, so a greater --n adds
+    runs. `handeye export lerobot` writes the runs as a data set.
 
     Exit code 0: recorded, whatever the results of the runs; 2: bad input; 130: interrupted.
     """

@@ -26,7 +26,7 @@ OUTCOMES: Final[dict[EpisodeOutcome, str]] = {
 
 
 class Episode(Record, frozen=True, kw_only=True):
-    """What is known of a recorded run besides its frames. A line of `meta/handeye.jsonl` holds one episode."""
+    """A recorded run without its frames. A line of `meta/handeye.jsonl` holds one episode."""
 
     episode: int  # its index in the data set
     task: str

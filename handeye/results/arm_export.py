@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final, Literal
 
+from handeye.arm.door import STANFORD
 from handeye.arm.model import ArmModel
-from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.urdf import urdf
 from handeye.core.files import Kind, check_place, write_over
 from handeye.core.record import Record

@@ -1,7 +1,7 @@
 """The vision functions that a calling program can replace, and wrappers for its own functions.
 
-A wrapper checks the result of the caller's function, and completes it with what pictures for people show: where the
-part would appear if it were at the place that the function returned.
+A wrapper checks the result of the caller's function. It adds where the part would appear in the picture if it were at
+the place that the function returned; reports mark this place.
 """
 
 from collections.abc import Callable, Mapping
@@ -123,7 +123,7 @@ def _outline(view: View, part: Part, place: tuple[float, float]) -> Array:
     if part.outline is None:
         raise BadArgument("vision needs the outline of a part, but the program gives none")
     (points,) = silhouettes(view, part, place, np.zeros(1))
-    return np.clip(points, 0, (COLUMNS - 1, ROWS - 1))
+    return np.asarray(np.clip(points, 0, (COLUMNS - 1, ROWS - 1)))
 
 
 def _holes(view: View, part: Part, pose: Pose2D) -> tuple[SeenHole, SeenHole]:
