@@ -89,6 +89,8 @@ CHEAP = {
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials mutants": "trials mutants --most ✓",
     "trials record": "trials record ✓ --n 0",
+    "trials rare": "trials rare --n ✓",
+    "trials worst": "trials worst --rounds ✓",
     "exercise": "exercise ✓",
     "bench agents": "bench agents ✓ --command true",
     "env list": "env list",

@@ -61,7 +61,7 @@ def test_another_plan_meets_the_same_world(
 def test_a_world_of_ones_own_does_not_go_with_that_of_a_run(
     command: Command, recorded: str, words: tuple[str, ...]
 ) -> None:
-    others = "--seed, --level, --without, --set, --scale, --fault and --camera"
+    others = "--seed, --world, --level, --without, --set, --scale, --fault and --camera"
     assert refused(command, recorded, "--world-of", "run", *words) == (
         f"run brings its own world; {others} cannot be given with --world-of"
     )

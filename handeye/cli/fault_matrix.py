@@ -79,8 +79,9 @@ def faults(
     from handeye.trials.folder import head_of
     from handeye.trials.sweep import Case
 
-    chosen_seeds = seeds_of(n, world.seed, seeds, usual=1)
-    spec = world.errors.spec(chosen_seeds[0])
+    first = world.seed if world.file is None else world.spec.seed
+    chosen_seeds = seeds_of(n, first, seeds, usual=1)
+    spec = (world.errors.spec if world.file is None else world.noisy)(chosen_seeds[0])
     own = _own_trials(world.work.name)
     catalogue = world.work.faults(spec) if own else with_panic(world.work.faults(spec))
     if every and only:

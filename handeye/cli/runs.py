@@ -201,7 +201,7 @@ def run(
         spec = broken(world.spec, fault, world.work, plan.program)
         setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=spared)
     elif wanted.chosen or fault or camera != "auto":
-        others = "--seed, --level, --without, --set, --scale, --fault and --camera"
+        others = "--seed, --world, --level, --without, --set, --scale, --fault and --camera"
         raise BadArgument(f"{world_of} brings its own world; {others} cannot be given with --world-of")
     else:
         setup = in_world_of(world_of, plan, judged=judge)

@@ -2,14 +2,17 @@
 
 from collections.abc import Set
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal, Self
 
 import msgspec
 from cyclopts import Group, Parameter
 
 from handeye.cli.common import TaskWords, whole
-from handeye.core.errors import BadArgument
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import BadArgument, BadFile, InvalidInput
 from handeye.core.variation import WorldSpec, checked_seed
+from handeye.core.world_file import read_world
 from handeye.core.world_options import StageNumber, faults, from_start_only, overrides
 from handeye.program.senses import SENSES
 from handeye.tasks import DEFAULT, any_task, named, option
@@ -155,16 +158,26 @@ class WorldOptions:
         ),
     ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
+    file: Annotated[
+        Path | None,
+        Parameter(
+            name="--world",
+            help="Take the world from this file, such as a file that `handeye trials rare` wrote, instead of from a "
+            "seed.",
+        ),
+    ] = None
 
     @property
     def task(self) -> str | None:
-        """The task as given; None if the option was left out."""
+        """The task as given, or that of the file; None if both were left out."""
+        if self.errors.task is None and self.file is not None:
+            return read_world(self.file).task
         return self.errors.task
 
     @property
     def work(self) -> "AnyTask":
         """The task; raises InvalidInput if there is none."""
-        return self.errors.work
+        return replace(self.errors, task=self.task).work
 
     @property
     def chosen(self) -> bool:
@@ -178,11 +191,37 @@ class WorldOptions:
     @property
     def spec(self) -> WorldSpec:
         """The world; raises InvalidInput if a seed, name, unit or value is invalid."""
-        return self.errors.spec(self.seed or 0)
+        return self.errors.spec(self.seed or 0) if self.file is None else self._spec_of(self.file)
+
+    def noisy(self, seed: int) -> WorldSpec:
+        """The world with the noise of another seed; raises InvalidInput if the world or the seed is invalid."""
+        return msgspec.structs.replace(self.spec, seed=checked_seed(seed))
 
     def check(self) -> None:
         """Check the options, except --without, before the program is planned. Raises InvalidInput."""
-        self.errors.check(self.seed or 0)
+        if self.file is None:
+            self.errors.check(self.seed or 0)
+        else:
+            replace(self, errors=replace(self.errors, without=None))._spec_of(self.file)
+
+    def _spec_of(self, path: Path) -> WorldSpec:
+        """The world in a file; raises InvalidInput if it does not fit the task, or if other options choose a world."""
+        given, errors = read_world(path), self.errors
+        if self.seed is not None or replace(errors, task=None) != ErrorOptions():
+            raise BadArgument(
+                f"--world {path} gives the whole world; leave out --seed, --level, --set, --scale, and errors in "
+                "--without"
+            )
+        work = self.work
+        if given.task != work.name:
+            raise BadArgument(
+                f"the world in {path} belongs to the task {quoted(given.task)}, not to {quoted(work.name)}"
+            )
+        try:
+            work.variation().check(given.world)
+        except InvalidInput as error:
+            raise BadFile(f"{path}: {error}") from None
+        return given.world
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
         """Split `--without`: the options with only the errors of the world, and the senses and macros that the program
@@ -193,6 +232,8 @@ class WorldOptions:
 
     def words(self) -> list[str]:
         """The options as they are typed."""
+        if self.file is not None:
+            return [*self.errors.words(), "--world", str(self.file)]
         return ["--seed", str(self.seed or 0), *self.errors.words()]
 
 

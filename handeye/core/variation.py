@@ -22,6 +22,7 @@ from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.distributions import Choice, Distribution, random_numbers
 from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.faults import Fault
+from handeye.core.plain_text import counted
 from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
 
@@ -34,6 +35,8 @@ Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
 """Number from which a world is generated. Neighbouring numbers give unrelated worlds."""
 
 _LONG: Final = 10**40  # a number with more digits is not quoted in a message
+
+_NAMED: Final = 8  # more quantities that are set are not named but counted
 
 UNSOURCED: Final = "unsourced"
 """In a scale, this name stands for all quantities whose size has no source."""
@@ -108,7 +111,9 @@ class WorldSpec(Record, frozen=True, kw_only=True):
     def __str__(self) -> str:
         level = "" if self.level == "nominal" else f"level {self.level}"
         without = f"without {', '.join(self.overrides.without)}" if self.overrides.without else ""
-        changed = f"{', '.join(self.overrides.set)} set" if self.overrides.set else ""
+        several = counted(len(self.overrides.set), "quantity")
+        named = ", ".join(self.overrides.set) if len(self.overrides.set) <= _NAMED else several
+        changed = f"{named} set" if named else ""
         scaled = ", ".join(f"{name} scaled by {factor:g}" for name, factor in self.overrides.scale.items())
         broken = ", ".join(map(str, self.faults))
         return ", ".join(filter(None, (f"seed {self.seed}", level, without, changed, scaled, broken)))

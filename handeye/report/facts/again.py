@@ -12,6 +12,7 @@ from handeye.report.recorded import RecordedRun
 from handeye.tasks import DEFAULT, known, option
 
 _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
+_TYPED: Final = 20  # the settings of a world that can be typed; more are taken from the folder of the run
 
 
 def command(run: RecordedRun) -> str | None:
@@ -21,11 +22,10 @@ def command(run: RecordedRun) -> str | None:
     head = run.trace.head
     if known(head.task) is None or head.own_parts:
         return None
-    if is_shipped(head.plan):
-        words = ["assemble"]
-    else:
-        judged = run.result is not None and run.result.assembled is not None
-        words = ["run", "plan.json", *option(head.task), *(["--judge"] if judged else [])]
+    judged = ["--judge"] if run.result is not None and run.result.assembled is not None else []
+    if len(head.world.overrides.set) > _TYPED and not head.lacking:
+        return shlex.join(["handeye", "run", "plan.json", *option(head.task), "--world-of", ".", *judged])
+    words = ["assemble"] if is_shipped(head.plan) else ["run", "plan.json", *option(head.task), *judged]
     kind = _CAMERAS.get(run.trace.head.camera.method)
     return shlex.join(
         [
