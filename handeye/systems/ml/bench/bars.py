@@ -36,7 +36,7 @@ def add_bar(
         friction=[friction, 0.003, 0.0001], rgba=[0.72, 0.73, 0.75, 1], group=1,
     )  # fmt: skip
     if soft:
-        geom.solimp = SOFT
+        geom.solimp[:] = SOFT
 
 
 def turned(axis: str, angle: float) -> Array:
