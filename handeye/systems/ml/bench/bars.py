@@ -31,11 +31,12 @@ def add_bar(
     """
     body = spec.worldbody.add_body(name=name, pos=at.tolist(), quat=quat.tolist())
     body.add_freejoint(name=name)
-    body.add_geom(
+    geom = body.add_geom(
         name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=[wide / 2, long / 2, wide / 2], density=density,
         friction=[friction, 0.003, 0.0001], rgba=[0.72, 0.73, 0.75, 1], group=1,
-        **({"solimp": SOFT} if soft else {}),
     )  # fmt: skip
+    if soft:
+        geom.solimp[:] = SOFT
 
 
 def turned(axis: str, angle: float) -> Array:
