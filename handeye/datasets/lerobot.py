@@ -122,7 +122,7 @@ def _fill(
             raise Refused(f"the run in {run} has another arm than the runs before it")
         goal = any_task(trace.head.task).words.done
         for frame in lerobot_frames(frames, trace, episode, pictures=pictures):
-            dataset.add_frame(frame | {"task": goal})
+            dataset.add_frame({**frame, "task": goal})
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Converting input from bool", RuntimeWarning)
             dataset.save_episode()

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Final, cast
 
 import numpy as np
 from msgspec.structs import replace
@@ -28,7 +28,7 @@ from handeye.trials.rare.row import (
     world_digest,
 )
 from handeye.trials.rare.subset import Estimate, Level, estimate, subset_simulation
-from handeye.trials.sweep import Engine, carry_out
+from handeye.trials.sweep import Engine, Work, carry_out
 
 FIRST: Final = "level 0"  # condition of the runs in independent worlds, which all kinds of failures share
 WORLDS: Final = "worlds"  # folder of the worlds in which the program fails
@@ -119,7 +119,9 @@ class Campaign:
             )
             for (condition, number), point in zip(places, points, strict=True)
         ]
-        rows = carry_out(RARE, self.trial, cases, self.engine, folder=self.folder, told=self.told)
+        rows = carry_out(
+            RARE, cast("Work[RareRow]", self.trial), cases, self.engine, folder=self.folder, told=self.told
+        )
         for case, row, point in zip(cases, rows, points, strict=True):
             _check(row, case)
             self.rows.append(row)

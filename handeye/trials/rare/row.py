@@ -43,7 +43,7 @@ class RareRow(Row, frozen=True, kw_only=True):
     @property
     def failure(self) -> FailureKind | None:
         """How the program failed; None if it did not. A run that was broken off has stopped."""
-        return {"silent": "silent", "assembled": None}.get(self.verdict, "stopped")  # type: ignore[return-value]
+        return {"silent": "silent", "assembled": None}.get(self.verdict, "stopped")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
