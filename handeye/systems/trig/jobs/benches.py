@@ -1,7 +1,6 @@
 """Finds benches and jobs by name. The physics is loaded only when a bench or job is opened."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Literal
 
 import msgspec
@@ -157,7 +156,7 @@ def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob
     from handeye.systems.trig.jobs.jobs import ArrangeJob, BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 
-    jobs: dict[JobName, Callable[[str, BlocksWorld], TaughtJob]] = {
+    jobs: dict[JobName, type[PalletJob] | type[BucketJob] | type[ArrangeJob]] = {
         "palletise": PalletJob,
         "bucket": BucketJob,
         "arrange": ArrangeJob,
