@@ -157,7 +157,6 @@ NEEDED = {
     "report": ("-o", "it.html"), "compare": ("absent",), "view": (), "trace photograph": ("--at", "1", "-o", "it.png"),
     "trace thin": ("-o", "it.mcap"), "trace plot": ("-o", "it.png"), "trace export csv": ("-o", "tables"),
     "trace export parquet": ("-o", "tables"), "export mjcf": ("-o", "scene"), "export glb": ("-o", "it.glb"),
-    "export urdf": ("-o", "it.urdf"),
 }  # fmt: skip
 """Words that a command needs besides the run."""
 
