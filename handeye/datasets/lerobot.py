@@ -5,7 +5,7 @@ https://github.com/huggingface/lerobot
 
 import os
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -184,7 +184,7 @@ def _text() -> dict[str, Any]:
 
 def lerobot_frames(
     frames: Frames, trace: Trace, episode: Episode, *, pictures: bool
-) -> Iterator[Mapping[str, Any]]:
+) -> Iterator[dict[str, Any]]:
     """Yield the frames of a run by feature."""
     black = np.zeros((ROWS, WIDTH, 3), np.uint8)
     shots = [*map(shown, (shot.picture for shot in trace.pictures)), black]  # the last for NO_PICTURE, -1

@@ -96,8 +96,8 @@ class Executor:
         elif self.state.unwound.get(here, 0) < step.operation.undoes:
             self.state.unwound[here] = self.state.unwound.get(here, 0) + 1
             done = self.state.done
-            entered = (index for index in reversed(range(len(done))) if done[index].enters)
-            began = next(entered, 0)  # 0 if the calling program has moved the arm in this stage
+            begins = (index for index in reversed(range(len(done))) if done[index].enters)
+            began = next(begins, 0)  # 0 if the calling program has moved the arm in this stage
             self.undo(ReversalOrder(left=began, asked_by="program"))
         elif self.state.pending is not None and not self._tests(self.state.at):
             self._stop(error=self.state.pending.number, cause=self.state.pending.cause)
