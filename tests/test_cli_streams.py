@@ -85,6 +85,8 @@ CHEAP = {
     "trials bin": "trials bin --n ✓",
     "trials gasket": "trials gasket --n 1 --set ✓",
     "trials mutants": "trials mutants --most ✓",
+    "trials rare": "trials rare --n ✓",
+    "trials worst": "trials worst --rounds ✓",
     "exercise": "exercise ✓",
     "bench agents": "bench agents ✓ --command true",
     "env list": "env list",

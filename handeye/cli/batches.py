@@ -143,11 +143,11 @@ def assembly_trials(
             command + _task_words(record.task, plan),
             [] if on_stop == "abort" else ["--on-stop", on_stop],
         ),
-        engine=_engine(engine, options.jobs, scheduler, cpu_limit),
+        engine=trial_engine(engine, options.jobs, scheduler, cpu_limit),
     )
 
 
-def _engine(name: str, jobs: int, scheduler: str | None, cpu_limit_s: float) -> "Engine":
+def trial_engine(name: str, jobs: int, scheduler: str | None, cpu_limit_s: float | None = None) -> "Engine":
     """The engine that runs trials."""
     from handeye.trials.sweep import processes
 

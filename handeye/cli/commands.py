@@ -62,6 +62,8 @@ trials base = trials:base_vision_trials: Find the base of the pump on the belt, 
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
 trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch what the missing one was for?
+trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
+trials worst = rare:worst_trials: Find the nearest worlds in which a program fails, and the quantities that push it to fail.
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
 env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, steps of the work reached, peak force and time.

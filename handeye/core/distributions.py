@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from math import inf
+from statistics import NormalDist
 from typing import ClassVar, Final
 from zlib import crc32
 
 import numpy as np
 
 FULL_TURN_DEG: Final = 360.0
+_NORMAL: Final = NormalDist()
+_RAREST: Final = 1e-15  # Probabilities are kept this far from 0 and 1, whose normal numbers are infinite
 
 
 class Distribution(ABC):
@@ -18,10 +22,23 @@ class Distribution(ABC):
     __slots__ = ()
     name: ClassVar[str]
     is_error: ClassVar[bool] = True  # scaled by the level of errors; False for the task's own range
+    widest: ClassVar[float] = inf  # Beyond this standard normal number, the value does not change any more
 
     @abstractmethod
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
         """Draw a value; `nominal` is the value without error."""
+
+    def standard(self, rng: np.random.Generator) -> float | None:
+        """Draw the standard normal number from which `at` makes the value that `draw` would give. None: the value
+        is the same in every world.
+        """
+        return None
+
+    def at(self, number: float, nominal: float) -> float:
+        """Return the value that belongs to a standard normal number. Numbers that are normally distributed give
+        values of this distribution; 0 gives the middle.
+        """
+        raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,10 +46,17 @@ class Normal(Distribution):
     """Normal distribution about the nominal value, clipped at two sigma; `spread` is sigma."""
 
     name = "normal"
+    widest = 2.0
     spread: float
 
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        return nominal + self.spread * min(max(rng.standard_normal(), -2.0), 2.0)
+        return self.at(rng.standard_normal(), nominal)
+
+    def standard(self, rng: np.random.Generator) -> float:
+        return float(rng.standard_normal())
+
+    def at(self, number: float, nominal: float) -> float:
+        return nominal + self.spread * min(max(number, -self.widest), self.widest)
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +68,12 @@ class Uniform(Distribution):
 
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
         return nominal + self.spread * float(rng.uniform(-1.0, 1.0))
+
+    def standard(self, rng: np.random.Generator) -> float:
+        return _standard((float(rng.uniform(-1.0, 1.0)) + 1.0) / 2.0)
+
+    def at(self, number: float, nominal: float) -> float:
+        return nominal + self.spread * (2.0 * _NORMAL.cdf(number) - 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +122,12 @@ class Range(Distribution):
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
         return float(rng.uniform(self.low, self.high))
 
+    def standard(self, rng: np.random.Generator) -> float | None:
+        return None if self.low == self.high else _standard(float(rng.uniform(0.0, 1.0)))
+
+    def at(self, number: float, nominal: float) -> float:
+        return self.low + (self.high - self.low) * _NORMAL.cdf(number)
+
 
 @dataclass(frozen=True, slots=True)
 class Phase(Distribution):
@@ -102,6 +138,12 @@ class Phase(Distribution):
 
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
         return float(rng.uniform(0.0, FULL_TURN_DEG))
+
+    def standard(self, rng: np.random.Generator) -> float:
+        return _standard(float(rng.uniform(0.0, 1.0)))
+
+    def at(self, number: float, nominal: float) -> float:
+        return FULL_TURN_DEG * _NORMAL.cdf(number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +158,11 @@ class Choice(Distribution):
 
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
         return nominal
+
+
+def _standard(probability: float) -> float:
+    """Return the number that a standard normal number does not exceed with this probability."""
+    return _NORMAL.inv_cdf(min(max(probability, _RAREST), 1.0 - _RAREST))
 
 
 def random_numbers(seed: int, name: str) -> np.random.Generator:

@@ -28,6 +28,7 @@ _OURS: Final = {
     "disturbed": "handeye.trials.disturbing:DISTURBED",
     "chaos": "handeye.trials.chaos.trials:CHAOS",
     "insertion": "handeye.trials.insertion:INSERTION",
+    "rare": "handeye.trials.rare.row:RARE",
     "eye": "handeye.trials.eye:EYE",
     "episodes": "handeye.env.evaluation:EPISODES",
 }

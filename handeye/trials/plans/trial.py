@@ -3,7 +3,7 @@
 import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Final
+from typing import ClassVar, Final
 
 import msgspec
 
@@ -37,6 +37,8 @@ CPU_LIMIT_S: Final = 1800.0  # Seconds of CPU time: thirty times what a whole pu
 class Trial:
     """Executes trials of one plan."""
 
+    row: ClassVar[type[Row]] = Row
+
     plan: Plan
     world: WorldSpec  # The worlds without their seeds
     camera: str = "auto"
@@ -64,14 +66,18 @@ class Trial:
     def __call__(self, case: Case) -> list[Row]:
         """Execute one trial."""
         timer, watch = HostTimer(), Watch(simulated_s=self.simulated_limit_s, cpu_s=self.cpu_limit_s)
-        (number,), world = case.trials, msgspec.structs.replace(self.world, seed=case.seed)
+        (number,) = case.trials
         try:
-            found = self._facts(world, timer, watch)
+            found = self._facts(self._world(case), timer, watch)
         except Exception:
             if watch.ended == "ended":
                 raise
             found = {"ended": watch.ended}
-        return [Row(trial=number, seed=case.seed, condition=case.condition, **found)]  # type: ignore[arg-type]
+        return [self.row(trial=number, seed=case.seed, condition=case.condition, **found)]  # type: ignore[arg-type]
+
+    def _world(self, case: Case) -> WorldSpec:
+        """Return the world of a trial."""
+        return msgspec.structs.replace(self.world, seed=case.seed)
 
     def _facts(self, world: WorldSpec, timer: HostTimer, watch: "Watch") -> dict[str, object]:
         """Return the fields of a trial's row, if the trial raised no exception."""

@@ -1,0 +1,152 @@
+"""One run in a sample of worlds, and its margin: how far it was from failing."""
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import inf
+from statistics import median
+from typing import ClassVar, Final, Literal, get_args
+
+import msgspec
+
+from handeye.core.host_time import HostTimer
+from handeye.core.variation import WorldSpec
+from handeye.results.result import Check
+from handeye.runs.host_seconds import Meter
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
+from handeye.trials.assembly import run_plan
+from handeye.trials.plans.row import OUTCOMES, Row
+from handeye.trials.plans.trial import Trial, Watch, facts
+from handeye.trials.rare.reserves import Reserves
+from handeye.trials.sweep import Case, Sweep
+
+FailureKind = Literal["stopped", "silent"]
+KINDS: Final[tuple[FailureKind, ...]] = get_args(FailureKind)
+_ALMOST: Final = 1e-6  # least margin of a run that did not fail
+_USUAL: Final = 1.0  # margin of a run in which nothing limits the program
+
+
+class RareCase(Case, frozen=True, kw_only=True):
+    """A run in a world of its own."""
+
+    world: WorldSpec
+
+
+class RareRow(Row, frozen=True, kw_only=True):
+    """A run, with what the program had left."""
+
+    left: Mapping[str, float] = {}
+    """The least that the program had left of each search, counted loop and check; see `Reserves`."""
+    world: str = ""  # digest of the world; empty if the run was lost
+
+    @property
+    def failure(self) -> FailureKind | None:
+        """How the program failed; None if it did not. A run that was broken off has stopped."""
+        return {"silent": "silent", "assembled": None}.get(self.verdict, "stopped")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Margin:
+    """The margin of a run, and the part that determines it."""
+
+    value: float
+    """1: as much as usual; 0 or less: the run failed in the way in question; inf: the run says nothing about it."""
+    part: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Usual:
+    """What runs usually have left: the medians over the first level. They make the parts of a margin comparable."""
+
+    program: Mapping[str, float]
+    referee: Mapping[str, float]
+
+    def margin(self, row: RareRow, kind: FailureKind) -> Margin:
+        """Return the margin of a run from one kind of failure."""
+        return self._from_stop(row) if kind == "stopped" else self._from_silence(row)
+
+    def _from_stop(self, row: RareRow) -> Margin:
+        if row.failure == "stopped":
+            return Margin(value=0.0, part=row.cause)
+        least = _least(row.left, self.program)
+        return Margin(value=max(least.value, _ALMOST), part=least.part)
+
+    def _from_silence(self, row: RareRow) -> Margin:
+        if row.failure == "stopped" or row.result is None:
+            return Margin(value=inf, part="")
+        checks = row.result.referee
+        if row.failure is None:
+            least = _least(limits_left(checks), self.referee)
+            return Margin(value=max(least.value, _ALMOST), part=least.part)
+        wrong = {name: -check_left(check) for name, check in checks.items() if check.refuses}
+        worst = max(wrong, key=lambda name: wrong[name] / self.referee.get(name, 1.0), default="")
+        return Margin(value=-wrong.get(worst, 0.0) / self.referee.get(worst, 1.0), part=worst)
+
+
+def usual(rows: Sequence[RareRow]) -> Usual:
+    """Return what the runs of a first level usually have left. Parts of which half of the runs have nothing left
+    are left out: they say nothing about how close a run was to failing.
+    """
+    judged = [limits_left(row.result.referee) for row in rows if row.result is not None]
+    return Usual(program=_medians([row.left for row in rows]), referee=_medians(judged))
+
+
+def limits_left(checks: Mapping[str, Check]) -> dict[str, float]:
+    """Return how far each finding is within its limit, in its unit. A finding that is exactly at its limit is a
+    count that is right, and is left out.
+    """
+    found = {name: check_left(check) for name, check in checks.items() if not check.caution}
+    return {name: left for name, left in found.items() if left or not checks[name].ok}
+
+
+def check_left(check: Check) -> float:
+    """Return how far a finding is within its limit, in its unit; negative if it is beyond the limit."""
+    left = check.limit - check.value
+    return left if check.relation == "at most" else -left
+
+
+def _medians(each: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    names = dict.fromkeys(name for left in each for name in left)
+    found = {name: median(left[name] for left in each if name in left) for name in names}
+    return {name: value for name, value in found.items() if value > 0}
+
+
+def _least(left: Mapping[str, float], known: Mapping[str, float]) -> Margin:
+    shares = {name: left[name] / known[name] for name in left if name in known}
+    part = min(shares, key=lambda name: shares[name], default="")
+    return Margin(value=shares.get(part, _USUAL), part=part)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RareTrial(Trial):
+    """Runs a plan in the world of a case, and records what the program had left."""
+
+    row: ClassVar[type[Row]] = RareRow
+
+    def _world(self, case: Case) -> WorldSpec:
+        return case.world if isinstance(case, RareCase) else Trial._world(self, case)
+
+    def _facts(self, world: WorldSpec, timer: HostTimer, watch: Watch) -> dict[str, object]:
+        noted: list[Reserves] = []
+
+        def observers(runner: Runner) -> tuple[Observer, ...]:
+            noted.append(Reserves(runner))
+            return (*watch.looking_on(runner), noted[-1])
+
+        done = run_plan(
+            self.plan, world=world, camera=self.camera, meter=Meter(timer=timer), observers=observers,
+            halt=watch.over, without=self.without,
+        )  # fmt: skip
+        return facts(done, watch.ended) | {"left": noted[-1].left, "world": world_digest(world)}
+
+
+def world_digest(world: WorldSpec) -> str:
+    """Return sixteen hexadecimal digits that identify a world."""
+    return hashlib.sha256(msgspec.json.encode(world)).hexdigest()[:16]
+
+
+RARE: Final = Sweep(
+    kind="rare", row=RareRow, outcomes=OUTCOMES, success="assembled", noun="run", shared_worlds=True
+)
+"""Runs in worlds that a search for rare failures chooses. Their rate of success means nothing."""
