@@ -104,6 +104,10 @@ def test_the_nearest_worlds_need_only_what_makes_the_program_fail(command: Comma
     pushes = msgspec.json.decode(out)["pushes"]["stopped"]
     assert {push["quantity"] for push in pushes[:2]} == {"plate.x", "plate.y"}
     assert Path("rare/worst.html").read_bytes().startswith(b"<!doctype html>")
+    done = len(runs)
+    _, text, _ = command("trials", "worst", *WORDS, "--out", "rare", "--nearest", "3", "--rounds", "40")
+    assert len(runs) == done
+    assert "handeye assemble --world rare/worlds/nearest-stopped-1.json --camera ray" in text
 
 
 def test_a_row_of_another_world_is_refused(command: Command, runs: list[str]) -> None:

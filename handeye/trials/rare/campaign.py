@@ -119,9 +119,8 @@ class Campaign:
             )
             for (condition, number), point in zip(places, points, strict=True)
         ]
-        rows = carry_out(
-            RARE, cast("Work[RareRow]", self.trial), cases, self.engine, folder=self.folder, told=self.told
-        )
+        work = cast("Work[RareRow]", self.trial)  # `Trial` makes rows of the class that `row` names
+        rows = carry_out(RARE, work, cases, self.engine, folder=self.folder, told=self.told)
         for case, row, point in zip(cases, rows, points, strict=True):
             _check(row, case)
             self.rows.append(row)
