@@ -181,8 +181,8 @@ def test_no_part_that_slips_out_of_the_fingers_flies_over_the_wall() -> None:
 @pytest.mark.slow
 def test_a_part_counts_only_when_it_has_left_the_hand() -> None:
     text = job_plan("bin").text
-    assert "550 HAND 1200" in text
-    result = done(begun("bin", 2, text.replace("550 HAND 1200", "550 DELAY 1"), variant="1"))
+    assert "550 HAND 800" in text
+    result = done(begun("bin", 2, text.replace("550 HAND 800", "550 DELAY 1"), variant="1"))
     assert result.message == "a part stays in the open hand (in the boxes: 0 good and 0 bad)"
 
 
