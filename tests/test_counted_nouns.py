@@ -20,6 +20,9 @@ NOUNS = (
 ADJECTIVES = "tapped|dark|planned|guarded|servo|physics|pending|more|other|different|whole|new"
 PLURAL = re.compile(rf"^ (?:(?:{ADJECTIVES}) )?(?:(?:{NOUNS})e?s|entries|tries|axes|quantities)\b")
 NEVER_ONE = {
+    ("handeye/results/arm_export.py", "len(self.joints)"),  # of an arm: six
+    ("handeye/agents/bench_page.py", "result.seeds"),  # a word
+    ("handeye/cli/rare.py", "self.n"),  # at least 20
     ("handeye/al/macros.py", "len(line.text)"),  # beyond a limit, as the next
     ("handeye/al/parser.py", "line.end - line.start"),
     ("handeye/agents/bench_result.py", "result.seeds"),  # a word, as the next

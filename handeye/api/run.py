@@ -287,7 +287,7 @@ class Run:
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> wait = lambda seen: handeye.Command() if seen.time < 0.5 else None
         >>> round(run.control(wait).time, 2)
-        0.6
+        0.62
         """
         self._check_open()
         return self._stand(take_control(self._runner, controller, seconds))

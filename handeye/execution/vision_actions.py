@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Final, TypeVar
 
 from handeye.core import errors
@@ -23,7 +24,7 @@ from handeye.program.events import (
 from handeye.program.operation import Operation
 from handeye.program.program import Part
 from handeye.program.vision_operations import Aim, Comparison, General, Inspect, Lens, Look, Match, Specific
-from handeye.vision.base import Failure, PartMatch
+from handeye.vision.base import Failure, GeneralLocation, PartMatch, SpecificLocation
 from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.live import MAX_NOISE, blank, noise, repeated
@@ -135,7 +136,7 @@ def general(run: ExecutionContext, operation: General) -> Fault | None:
     if shot is None:
         return _no_picture(errors.PART_NOT_SEEN, operation.picture)
     with run.vision.running():
-        found = run.seeing.general(shot.picture, shot.view, part)
+        found = locate_general(run, shot, part)
     if isinstance(found, Failure):
         return Fault(number=errors.PART_NOT_SEEN, cause=found.cause)
     run.state.general[operation.part] = found
@@ -143,6 +144,10 @@ def general(run: ExecutionContext, operation: General) -> Fault | None:
     run.world.measure(operation.part, planar(found.x, found.y, part.at[2], part.at[3]))
     run.emit(PartSeen(time=run.time, part=operation.part, x=round(found.x, 6), y=round(found.y, 6), yaw=None))
     return None
+
+
+def locate_general(run: ExecutionContext, shot: Shot, part: Part) -> GeneralLocation | Failure:
+    return run.seeing.general(shot.picture, shot.view, part)
 
 
 def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
@@ -157,7 +162,7 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
     if general is None:
         return Fault(number=errors.FEATURES_NOT_SEEN, cause=NoGeneral())
     with run.vision.running():
-        found = run.seeing.specific(shot.picture, shot.view, part, general)
+        found = locate_specific(run, shot, part, general)
     if isinstance(found, Failure):
         return Fault(number=errors.FEATURES_NOT_SEEN, cause=found.cause)
     x, y, angle = (round(value, 9) for value in found.pose)
@@ -172,14 +177,31 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
     return None
 
 
+def locate_specific(
+    run: ExecutionContext, shot: Shot, part: Part, general: GeneralLocation
+) -> SpecificLocation | Failure:
+    return run.seeing.specific(shot.picture, shot.view, part, general)
+
+
 def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     """Inspect a gasket by the difference between two pictures."""
-    seen = _compared(run, operation, errors.GASKET_WRONG, run.seeing.inspect)
+    seen = _compared(run, operation, errors.GASKET_WRONG, partial(inspect_gasket, run))
     if not isinstance(seen, GasketInspection):
         return seen
     run.state.found[operation.after] = VisionResult(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, cause=seen.cause))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, cause=seen.cause)
+
+
+def inspect_gasket(
+    run: ExecutionContext,
+    before: Picture,
+    after: Picture,
+    view: View,
+    part: Part,
+    pose: tuple[float, float, float],
+) -> GasketInspection:
+    return run.seeing.inspect(before, after, view, part, pose)
 
 
 def match(run: ExecutionContext, operation: Match) -> Fault | None:

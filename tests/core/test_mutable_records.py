@@ -19,6 +19,8 @@ class Outer(MutableRecord, kw_only=True):
     inner: Inner = msgspec.field(default_factory=Inner)
     spare: Inner | None = None
     table: dict[str, list[int]] = msgspec.field(default_factory=dict)
+    plain: dict[str, int] = msgspec.field(default_factory=dict)
+    numbers: list[int] = msgspec.field(default_factory=list)
     place: Array = msgspec.field(default_factory=lambda: np.zeros(3))
     anything: object = None
 
@@ -34,7 +36,14 @@ class Fixed:
 
 
 def full() -> Outer:
-    return Outer(table={"a": [1, 2]}, spare=Inner(count=5), place=np.ones(3), anything=Fixed())
+    return Outer(
+        table={"a": [1, 2]},
+        plain={"b": 1},
+        numbers=[1],
+        spare=Inner(count=5),
+        place=np.ones(3),
+        anything=Fixed(),
+    )
 
 
 def test_nothing_that_happens_to_a_record_changes_its_snapshot() -> None:
@@ -43,6 +52,8 @@ def test_nothing_that_happens_to_a_record_changes_its_snapshot() -> None:
     before = str(msgspec.structs.asdict(snapshot))
     record.name, record.inner.count, record.spare, record.place = "other", 1, None, np.zeros(3)
     record.table["a"].append(3)
+    record.plain["b"] = 2
+    record.numbers.append(2)
     assert str(msgspec.structs.asdict(snapshot)) == before
 
 

@@ -21,6 +21,7 @@ GIVEN = {
         "camera",
         "emit",
         "search",
+        "seeing",
         "arithmetic",
         "vision",
         "drive",

@@ -33,8 +33,8 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
         ("water_pmup", "there is no task `water_pmup`; did you mean `water_pump`?"),
         (
             "clock",
-            "there is no task `clock`; the tasks are `bin`, `blocks`, `bucket`, `chess`, `follow`, `gantries`, "
-            "`handover`, `insert`, `insertion`, `line`, `mal`, `ml`, `orient`, `palletise`, `prco`, "
+            "there is no task `clock`; the tasks are `arrange`, `bin`, `blocks`, `bucket`, `chess`, `follow`, "
+            "`gantries`, `handover`, `insert`, `insertion`, `line`, `mal`, `ml`, `orient`, `palletise`, `prco`, "
             "`rectilinear`, `support`, `train`, `typewriter`, `water_pump`",
         ),
     ],

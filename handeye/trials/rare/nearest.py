@@ -14,6 +14,7 @@ from typing import Final
 
 import numpy as np
 
+from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.trials.rare.campaign import WORLDS, Campaign, Failing, file_of
@@ -65,7 +66,7 @@ def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> l
         points = [
             Point(each.candidate, each.begun.point.noise) for each in active if each.candidate is not None
         ]
-        places = [(f"from {file_of(each.begun.row)}, {rounds} rounds", number) for each in active]
+        places = [(f"from {file_of(each.begun.row)}, {counted(rounds, 'round')}", number) for each in active]
         rows = campaign.run(places, points, kept=False)
         for each, point, row in zip(active, points, rows, strict=True):
             fails = row.failure == kind
