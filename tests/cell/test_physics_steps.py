@@ -192,9 +192,8 @@ def test_a_stiffness_that_does_not_depend_on_the_step_is_left_alone() -> None:
     assert stiffened(soft, np.array([-1000.0]), SHORT, LONGER).tolist() == pytest.approx(soft)
 
 
-def test_a_load_that_loses_its_contact_does_so_in_short_steps(steps: list[float]) -> None:
-    """The tray is drawn away from beneath the ball."""
-    lift, like = Lift().rise(4), Lift().rise(4)
+def loses_its_contact_in_short_steps(lift: Lift, like: Lift, steps: list[float]) -> None:
+    """Draw the tray away: the period in which the ball loses it is as if all its steps had been short."""
     for each in (lift, like):
         each.data.ctrl[0] = -2.0 * RISING
     steps.clear()
@@ -202,6 +201,11 @@ def test_a_load_that_loses_its_contact_does_so_in_short_steps(steps: list[float]
     assert steps[-PERIOD:] == [SHORT] * PERIOD
     mujoco.mj_step(like.model, like.data, PERIOD)
     assert lift.data.qpos.tobytes() == like.data.qpos.tobytes()
+
+
+def test_a_load_that_loses_its_contact_does_so_in_short_steps(steps: list[float]) -> None:
+    """The tray is drawn away from beneath the ball."""
+    loses_its_contact_in_short_steps(Lift().rise(4), Lift().rise(4), steps)
 
 
 def test_a_load_that_meets_something_else_does_so_in_short_steps(steps: list[float]) -> None:
@@ -235,13 +239,7 @@ def test_a_delicate_contact_takes_short_steps(
 def test_the_hand_gains_and_loses_contacts_in_short_steps_only(steps: list[float]) -> None:
     """The tray is drawn away from beneath the ball, which falls back on it."""
     lift, like = (Lift(carries=False, delicate=()).rise(4) for _ in range(2))
-    for each in (lift, like):
-        each.data.ctrl[0] = -2.0 * RISING
-    steps.clear()
-    lift.rise(1)
-    assert steps[-PERIOD:] == [SHORT] * PERIOD
-    mujoco.mj_step(like.model, like.data, PERIOD)
-    assert lift.data.qpos.tobytes() == like.data.qpos.tobytes()
+    loses_its_contact_in_short_steps(lift, like, steps)
 
 
 def test_contacts_of_other_bodies_begin_in_middle_steps(steps: list[float]) -> None:
