@@ -5,9 +5,9 @@ import pytest
 from synthetic import FINE, Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
-from handeye.program.diagnosis.causes import OutsidePicture, PartAstray
+from handeye.program.diagnosis.causes import FaintPicture, OutsidePicture, PartAstray
 from handeye.vision.base import Failure, PartMatch
-from handeye.vision.matching import MOVED, match
+from handeye.vision.matching import FAINT, MOVED, match
 
 PART = part(180 * DEGREE)
 POSE = (PART.at[0], PART.at[1], PART.at[3])
@@ -94,6 +94,15 @@ def test_a_part_that_is_turned_where_it_stands_does_not_match() -> None:
 
 def test_a_light_that_has_gone_out_does_not_match() -> None:
     assert matched(picture(6, dark=True)).unlike > 0.3
+
+
+def test_an_earlier_picture_too_faint_to_show_a_missing_head_is_no_match() -> None:
+    before = picture(1, head=4, dark=True)
+    for after in picture(7, dark=True), picture(7):
+        found = match(before, after, WHERE, PART, POSE)
+        assert isinstance(found, Failure)
+        assert isinstance(found.cause, FaintPicture)
+        assert found.cause.contrast < found.cause.least == FAINT
 
 
 def test_a_part_that_is_not_wholly_in_the_picture_cannot_be_matched() -> None:

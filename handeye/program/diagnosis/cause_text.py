@@ -68,7 +68,7 @@ def cause_sentence(cause: Cause) -> str:
             return f"no picture {cause.picture} was taken"
         case c.NoGeneral():
             return "no earlier GENERAL found the part"
-        case c.NoOutline() | c.OutsidePicture() | c.NoHoles() | c.CallersVision():
+        case c.NoOutline() | c.OutsidePicture() | c.FaintPicture() | c.NoHoles() | c.CallersVision():
             return _not_found(cause)
         case c.NoGasket() | c.GasketWrong():
             return inspection_sentence(cause)
@@ -160,6 +160,11 @@ def _not_found(cause: c.SightCause) -> str:
             return "nothing of the part's size stands out from the background where the part should be"
         case c.OutsidePicture():
             return "the part is not in the field of the close picture: is the camera aimed at it?"
+        case c.FaintPicture():
+            return (
+                f"the earlier picture is too faint to compare: its contrast on the part is {cause.contrast:.1f} grey "
+                f"levels, at least {cause.least:.1f} are needed; check camera and light"
+            )
         case c.NoHoles(blobs=0):
             return "found no hole: is the picture in focus, and is the part in it?"
         case c.NoHoles(blobs=1):

@@ -149,6 +149,13 @@ class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
     """The part is outside the close-up picture."""
 
 
+class FaintPicture(CauseRecord, frozen=True, kw_only=True):
+    """The earlier picture has too little contrast, in grey levels, to show whether the part has changed."""
+
+    contrast: float
+    least: float
+
+
 class NoHoles(CauseRecord, frozen=True, kw_only=True):
     """The two largest holes of the part are not among the dark blobs of the picture."""
 
@@ -279,7 +286,7 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 SightCause = (
-    NoOutline | OutsidePicture | NoHoles | CallersVision
+    NoOutline | OutsidePicture | FaintPicture | NoHoles | CallersVision
 )  # causes for which vision does not find a part
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong | CallersVision

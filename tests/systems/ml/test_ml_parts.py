@@ -180,7 +180,9 @@ def test_the_fingers_hold_a_part_with_twice_the_force_that_it_needs() -> None:
     finger, drive = model.joint("left_x").stiffness[0], model.actuator("separation").gainprm[0]
     left = 1 / (1 + finger / 2 / drive)  # share of the force that is left after a freeze
     gain, drift, noise = (2 * sigma[name] for name in GAUGE_ERRORS)
-    hidden = noise * (1 + 1 / np.sqrt(8)) + RESOLVED + drift / 6  # N: the zero is the mean of 8 readings, 10 s ago
+    hidden = (
+        noise * (1 + 1 / np.sqrt(8)) + RESOLVED + drift / 6
+    )  # N: the zero is the mean of 8 readings, 10 s ago
     (grams,) = numbers_of(text, "730")
     assert left == pytest.approx(2 / 3)
     assert grams * GRAM_FORCE / (force / left * (1 + gain) + hidden) == pytest.approx(2, abs=0.02)
@@ -188,7 +190,9 @@ def test_the_fingers_hold_a_part_with_twice_the_force_that_it_needs() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("impedance", "least", "most"), [(PADS, 0.95, 1), ([0.95, 0.99, 0.0005, 0.5, 2], 0, 0.5)])
+@pytest.mark.parametrize(
+    ("impedance", "least", "most"), [(PADS, 0.95, 1), ([0.95, 0.99, 0.0005, 0.5, 2], 0, 0.5)]
+)
 def test_a_part_that_is_held_aslant_does_not_creep_out_of_the_fingers(
     impedance: list[float], least: float, most: float
 ) -> None:

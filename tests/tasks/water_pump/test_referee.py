@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import msgspec
+import mujoco
 import numpy as np
 import pytest
 from finished import finished, finished_cell, put
@@ -14,8 +15,11 @@ from handeye.core.pose import planar, pose, rotation_x, translated
 from handeye.judge.finding import all_right
 from handeye.judge.measured import SettledState
 from handeye.tasks.stanford_cell.dimensions import dimensions
+from handeye.tasks.water_pump import cell
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.findings import judge
+from handeye.tasks.water_pump.scene import specification
+from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def X(truth: Truth, part: str) -> np.ndarray:
@@ -143,3 +147,24 @@ def test_judging_twice_gives_the_same() -> None:
 def test_every_finding_says_what_was_measured_and_its_limit() -> None:
     findings = judge(finished()).values()
     assert all(f.subject and f.unit and f.relation in ("at most", "at least") for f in findings)
+
+
+@pytest.mark.parametrize(("place", "right"), [((0.33, -0.24, -0.9), True), ((0.0, 0.0, 0.3), False)])
+def test_an_object_that_is_no_part_of_the_pump_must_be_where_the_drawing_puts_it(
+    place: tuple[float, float, float], right: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def with_nut(world: PumpWorld) -> mujoco.MjModel:
+        spec = specification(world)
+        nut = spec.worldbody.add_body(name="nut", pos=(0.33, -0.24, -0.9), gravcomp=1.0)
+        nut.add_freejoint()
+        nut.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(0.008, 0, 0), mass=0.01, contype=0, conaffinity=0
+        )
+        return spec.compile()
+
+    monkeypatch.setattr(cell, "build", with_nut)
+    truth = cell.build_cell(PumpWorld.nominal(), camera="ray", rest=False).truth
+    put(truth, "nut", pose(np.eye(3), place))
+    tray = judge(truth)["tray"]
+    assert tray.ok == right
+    assert ("nut" in tray.subject) != right

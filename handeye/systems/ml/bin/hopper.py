@@ -27,9 +27,9 @@ THICK: Final = (
 PADS: Final = [0.999, 0.999, 0.0005, 0.5, 2.0]
 """Impedance of the contacts of the fingers.
 
-In MuJoCo, a contact that friction holds creeps. With the arm's usual impedance of .95 to .99, a part that is held aslant
-turns, and the fingers, which a freeze has stopped, lose a quarter to a third of their force each half second. With this
-impedance they lose 1 percent. With .9999, the contact is unstable at a step of 1 ms.
+In MuJoCo, a contact that friction holds creeps. With the arm's usual impedance of .95 to .99, a part that is held
+aslant turns, and the fingers, which a freeze has stopped, lose a quarter to a third of their force each half second.
+With this impedance they lose 1 percent. With .9999, the contact is unstable at a step of 1 ms.
 """
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}

@@ -44,10 +44,7 @@ def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
         "pins_tilt": _upright(measured, PINS, limits.PIN_TILT, "greatest tilt of a pin in its holder"),
         "rack_tilt": _upright(measured, ("driver",), limits.RACK_TILT, "tilt of the screwdriver in its rack"),
         "floor": at_least(lowest * 1e3, limits.FLOOR, "mm", "height of the lowest part above the table top"),
-        "tray": mm(
-            max((measured.from_site(f"screw{k}", f"park{k}") for k in in_threads), default=0.0), limits.TRAY,
-            "greatest distance of a hidden screw body from its place on the tray",
-        ),
+        "tray": _put_away(measured, in_threads),
         "hand": _hand(measured, parts),
         "still": _speed(measured, np.flatnonzero(there), "part"),
         "arm_still": _speed(measured, np.flatnonzero(arm), "link of the arm"),
@@ -189,6 +186,24 @@ def _parts(measured: SettledState) -> Mask:
 
 def _upright(measured: SettledState, bodies: Sequence[str], limit_deg: float, subject: str) -> Finding:
     return deg(max(tilt(measured.pose(body)) for body in bodies), limit_deg, subject)
+
+
+def _put_away(measured: SettledState, hidden: Sequence[int]) -> Finding:
+    """Judge whether the hidden bodies of screws in threads are on the tray, and whether any loose body that is no part
+    of the pump, such as a nut in a scene of the user's own, is where the drawing puts it.
+    """
+    drawn, joints = measured.drawn, measured.drawn.jnt_type == mujoco.mjtJoint.mjJNT_FREE
+    loose = {drawn.body(body).name for body in drawn.jnt_bodyid[joints]}
+    strangers = [name for name in loose - {*PARTS, *PINS, "driver"} if not name.startswith("screw")]
+    strayed = {name: measured.strayed([name], [name]) for name in strangers}
+    farthest = max(strayed, key=strayed.__getitem__, default="")
+    if strayed and strayed[farthest] * 1e3 > limits.TRAY:
+        subject = "distance of an object that is no part of the pump from its place in the drawing"
+        return mm(strayed[farthest], limits.TRAY, f"{subject}: {farthest}")
+    return mm(
+        max((measured.from_site(f"screw{k}", f"park{k}") for k in hidden), default=0.0), limits.TRAY,
+        "greatest distance of a hidden screw body from its place on the tray",
+    )  # fmt: skip
 
 
 def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Finding:
