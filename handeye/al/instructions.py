@@ -96,8 +96,8 @@ _MEANINGS: Final = {
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
     "SEARCH": "start a search with this step (inches): in a square spiral, three steps to each side; or, with ALONG, "
-    "on a line in this direction (degrees from the x axis of the table), four steps to each side; STEPS sets another "
-    "number of steps",
+    "on a line in this direction (degrees from the x axis of the table), four steps to each side; STEPS sets a "
+    "different number of steps",
     "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
     "SOJG": "subtract one from a counter, and jump to the label if the counter is still positive",
