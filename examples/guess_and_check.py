@@ -3,8 +3,8 @@
     handeye bench agents blind_retry --command "python /path/to/guess_and_check.py" --rounds 5
 
 The bench runs this program in the folder of a task. It understands no brief: it knows one way to put a pin into a hole,
-and each time it finds `feedback.md`, it widens the search by one ring. This solves only tasks that lack a wider search.
-In another language, it leaves no program, which counts as stopped.
+and each time it finds `feedback.md`, it widens the search by one ring. This solves only the tasks in which nothing is
+missing but a wider search. In a task of another language, it leaves no program, and so counts as stopped.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""A policy of your own for `handeye/Pin-v0`: it moves the set-point of the hand, and feels contact as lag behind it."""
+"""A policy of your own for `handeye/Pin-v0`: it moves the hand's set-point, and feels contact when the hand lags."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ MOVES = ("move.x", "move.y", "move.z")  # 2 mm at 1
 
 
 class SpiralPin(Policy):
-    """Comes down at one place of a spiral after another until the pin goes in, and says done on its shoulder."""
+    """Comes down at one place of a spiral after another until the pin stands on its shoulder, and then says done."""
 
     actions = ("hand",)
 

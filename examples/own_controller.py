@@ -22,7 +22,7 @@ X_start = forward(start.joints, arm)
 
 
 def press(seen):
-    """Takes the readings of a servo period (1/60 s), and returns the command for the next one; None ends."""
+    """Takes the readings of a servo period (1/60 s), and returns the command for the next one, or None to end."""
     X, J = forward(seen.q, arm), jacobian(seen.q, arm)
     turn = sum(np.cross(X[:3, k], X_start[:3, k]) for k in range(3)) / 2
     error = np.concatenate([X_start[:3, 3] - X[:3, 3], turn]) + DOWN * (seen.time - start.time)

@@ -7,7 +7,7 @@ import handeye
 script = (handeye.scripts / "water_pump.al").read_text()
 taught = (handeye.scripts / "water_pump.toml").read_text()
 
-# Taught as in the exercise: 1.028 in to the right of hole 3 and .374 in behind it; the seventh place of the dispenser.
+# Taught as in the exercise: hole 7, 1.028 in to the right of hole 3 and .374 in behind it; place 7 of the dispenser.
 taught = taught.replace(
     "[positions]\n", "[positions]\nH6 = { at = [0.004, -1.598, 6.874, -90, 89.98, 0], of = 'PUMP' }\n"
 )

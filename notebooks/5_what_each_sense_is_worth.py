@@ -51,8 +51,8 @@ far = [
 print("the base lies within {:.1f} by {:.1f} in".format(*far))
 
 # %% [markdown]
-# To calibrate the camera, the same arm carries a lamp through the picture. So the camera learns the wrong
-# coordinates of the arm, and an error that arm and camera share cancels out.
+# To calibrate the camera, the same arm carries a lamp through the picture. So the calibration contains the errors of
+# the arm, and an error that arm and camera share cancels out.
 #
 # ## Touch
 #

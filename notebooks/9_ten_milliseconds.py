@@ -62,8 +62,8 @@ slow.position(3), slow.read("ST", 5, 11)
 # ## The same in a physics simulation
 #
 # Real motors are not perfect, and a real finger presses on what it touches. `Ml.touch` lets the hand of the simulated
-# arm descend on a block until a gauge feels 300 grams. It returns when the limit was noticed (ms after the contact),
-# how far the slide went on (mm), and the greatest force of both fingers (N).
+# arm descend on a block until a gauge feels 300 grams. It returns three values: the time from the contact until the
+# limit was noticed (ms), the distance by which the slide went on (mm), and the greatest force of both fingers (N).
 
 # %%
 found = handeye.Ml.touch(period=10, bandwidth=50, speed=50)
@@ -114,5 +114,5 @@ starts = [handeye.Ml.touch(period=10, bandwidth=bandwidth, speed=200) for bandwi
 
 # %% [markdown]
 # Which speed would you choose for a touch of at most 20 N? [What ten milliseconds are](../docs/ten_milliseconds.md)
-# has the answer for five periods, and `handeye ml touch --page touch.html` writes a page on which you can move the
+# has the answer for five periods, and `handeye ml touch --page touch.html` writes a page on which you can change the
 # period, the bandwidth and the speed yourself.

@@ -74,9 +74,9 @@ _MEANINGS: Final = {
     "TURN": "move on a circle about the vertical line through a position, by this angle (degrees; a positive angle is "
     "counter-clockwise)",
     "STOP": "end the next motion when the hand presses along this vector with more force than the vector's length "
-    "(oz). With a moment (oz-in): when the hand exerts more than that moment. With a single number (an extension of "
-    "handeye): when more than this force opposes the motion, whatever its direction. Error 23 if nothing stops the "
-    "motion",
+    "(oz); if a moment is given, also when the hand exerts more than this moment (oz-in). A single number is an "
+    "extension of handeye: the motion ends when more than this force opposes it, in whatever direction the hand moves. "
+    "Error 23 if nothing stops the motion",
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
     "stiff) for each axis, or the number of axes that yield and their names, such as `2 X Y`",
@@ -96,8 +96,8 @@ _MEANINGS: Final = {
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
     "SEARCH": "start a search with this step (inches): in a square spiral, three steps to each side; or, with ALONG, "
-    "on a line in this direction (degrees from the x axis of the table), four steps to each side; STEPS sets another "
-    "number of steps",
+    "on a line in this direction (degrees from the x axis of the table), four steps to each side; STEPS sets a "
+    "different number of steps",
     "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
     "SOJG": "subtract one from a counter, and jump to the label if the counter is still positive",

@@ -44,7 +44,7 @@ CODES: Final[dict[str, Code]] = {
         "an AOJ has no SEARCH before it on any path through the program", "L: MOVE T\nAOJ L"
     ),
     "axis-count": _error(
-        "the number in a FREE or SPIN is not the number of axes named after it", "FREE 2 X\nCHANGE X 1"
+        "the number in a FREE or SPIN differs from the number of axes named after it", "FREE 2 X\nCHANGE X 1"
     ),
     "carries-through-fixture": _planning(
         "the part in the hand would go through a fixture",
@@ -59,7 +59,7 @@ CODES: Final[dict[str, Code]] = {
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(
-        "an ASSIGN is inside the loop that counts its counter down, so every round sets the counter again",
+        "an ASSIGN is inside the loop that counts down the same counter, so every round sets the counter again",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
@@ -72,12 +72,12 @@ CODES: Final[dict[str, Code]] = {
     ),
     "extension-used": Code(
         severity="error",
-        meaning="a word or an operand was added by handeye, but only the language of the 1970s is allowed",
+        meaning="a word or an operand is an extension by handeye, but only the language of the 1970s is allowed",
         example="LOAD 4",
         phase="strict",
     ),
     "finding-undecided": _proof(
-        "it cannot be decided whether the program may end without noticing that a finding of the referee does not hold",
+        "the prover cannot decide whether the program always notices if a finding of the referee does not hold",
         "HERE A\nPARK\nMOVE A",
     ),
     "finding-unnoticed": _proof(
@@ -111,25 +111,25 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _planning(
-        "the force of a STOP is so small that in free air joint friction may feel like this force",
+        "the force of a STOP is so small that joint friction may feel like this force, even in free air",
         "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
         "warning",
     ),
     "faint-moment": _planning(
-        "the moment of a STOP is so small that in free air joint friction may feel like this moment",
+        "the moment of a STOP is so small that joint friction may feel like this moment, even in free air",
         "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
         "warning",
     ),
     "malformed-number": _error("a number is malformed", "OPEN 1.2.3"),
     "misplaced-comma": _error("a comma is not between two operands", "CLOSE .1,"),
-    "missing-operand": _error("an instruction needs another operand", "OPEN"),
+    "missing-operand": _error("an operand of an instruction is missing", "OPEN"),
     "modifier-misplaced": _error(
         "a modifier is before a motion that it cannot modify", "FORCE [0 0 -9]\nMOVE T"
     ),
     "modifier-twice": _error("a motion has two modifiers of the same kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
     "never-saved": _warning(
-        "a RESTORE or HEIGHT has no SAVE of its difference before it on any path through the program",
+        "a RESTORE or HEIGHT has no SAVE of the same name before it on any path through the program",
         "MOVE T\nRESTORE H",
     ),
     "number-out-of-range": _error("a number is too small or too large for its operand", "OPEN 5"),
@@ -196,7 +196,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
-        "a motion moves away from the surface on which its STOP should end it", "STOP [0 0 -50]\nCHANGE Z 1"
+        "a motion moves away from the surface that should trip its STOP", "STOP [0 0 -50]\nCHANGE Z 1"
     ),
     "stop-beyond-arm": _planning(
         "the force or moment of a STOP is greater than the arm can exert",
@@ -271,6 +271,6 @@ CODES: Final[dict[str, Code]] = {
         "a straight motion passes a point where the axes of two joints line up and the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
-    "wrong-operand": _error("an operand has the wrong kind", "OPEN T"),
+    "wrong-operand": _error("an operand is of the wrong kind", "OPEN T"),
     "zero-vector": _error("a direction vector has length 0", "CHANGE [0 0 0] 1"),
 }

@@ -27,7 +27,7 @@ MOST: Final = {
 }  # fmt: skip
 """Greatest value to which a quantity can be set, by unit. It is beyond any plausible value."""
 _READING: Final = (
-    "The offsets of the potentiometers of all joints together displace the hand by .060 in (median) or .112 in "
+    "The errors of the potentiometers of all joints together displace the hand by .060 in (median) or .112 in "
     "(95th percentile); layout study, section 4."
 )
 
@@ -83,11 +83,11 @@ def arm() -> Iterator[Quantity]:
             "Amplitude of the periodic error of the position reading. It limits the distance over which a saved "
             "correction is valid.",
             unsourced="no data sheet of 1974 gives this amplitude. Today's data sheets give the greatest deviation "
-                      "from a line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for conductive "
-                      "plastic: Bourns 3400 to 3590, 6537 to 6639), but not whether it is periodic. Bound: .18 deg "
-                      "for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg for joint 4, .57 deg for joint 5; "
-                      "each of these alone would explain the error of .1 in of the whole arm (layout study, section "
-                      "4)."),
+                      "from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for "
+                      "conductive plastic: Bourns 3400 to 3590, 6537 to 6639). They do not say whether this deviation "
+                      "is periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg "
+                      "for joint 4, .57 deg for joint 5; each of these alone would explain the error of .1 in of the "
+                      "whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",

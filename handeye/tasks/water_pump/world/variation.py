@@ -97,8 +97,9 @@ def _camera() -> Iterator[Quantity]:
         *(group(f"camera.lens.{lens}", aside, "in", middle, unsourced=turret) for lens in lenses),
         group("camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
             "Shape of the raster. `pincushion`: inward shift of a corner, as a fraction of its distance from the "
-            "centre. `lines`: shift of the middle of each line along the line, as a fraction of half its length. "
-            "`field`: shift of the middle line down the picture, as a fraction of half the picture's height.",
+            "centre. `lines`: sideways shift of the middle of each line, as a fraction of half the line's length. "
+            "`field`: downward shift of the line in the middle of the picture, as a fraction of half the picture's "
+            "height.",
             unsourced=f"the papers do not mention the shape of the raster, and the camera is lost. {DOUBLED}"),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
             "Shift of each picture from the previous one, as a fraction of half the picture's width and height. Sigma "
