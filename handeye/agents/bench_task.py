@@ -199,15 +199,13 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
             return
         kept = re.compile(self.file.kept, re.MULTILINE)
         if kept.findall(text) != kept.findall(self.files.text(f"{GIVEN}/{self.program}")):
-            raise BadFile(
-                f"the lines of {self.program} that the brief says to keep are not those of the given program"
-            )
+            raise BadFile(f"{self.program} lacks lines that the brief says to keep, or has more of them")
 
     def check_hidden(self, salt: str, seeds: Sequence[int]) -> None:
-        """Raise BadFile unless these are the hidden seeds to which the repository is committed."""
+        """Raise BadFile unless these hidden seeds match the SHA-256 in the repository."""
         if commitment(salt, self.name, seeds) != self.file.hidden:
             raise BadFile(
-                f"the hidden seeds of the task {self.name} are not those to which handeye is committed"
+                f"the hidden seeds of the task {self.name} do not match the SHA-256 in its task.toml"
             )
 
 

@@ -109,7 +109,11 @@ class WorldOf(Request, frozen=True, kw_only=True):
 
     task: TaskName | None = None
     group: Annotated[
-        str, Meta(max_length=200, description="Only the quantities whose names begin so, such as arm.offset.")
+        str,
+        Meta(
+            max_length=200,
+            description="List only the quantities whose names begin with this text, such as arm.offset.",
+        ),
     ] = ""
     level: Level = "nominal"
 
@@ -169,7 +173,10 @@ class Back(Request, frozen=True, kw_only=True):
     steps: Count = 1
     stage: Annotated[
         str,
-        Meta(max_length=200, description="Go back to the beginning of this stage, instead of some steps."),
+        Meta(
+            max_length=200,
+            description="Go back to the beginning of this stage, instead of by a number of steps.",
+        ),
     ] = ""
 
 

@@ -86,7 +86,7 @@ def mutant_trials(
 
 
 def _chosen(made: "list[Mutant]", only: list[str] | None) -> "list[Mutant]":
-    """The mutants with one of these texts in their names; all mutants without texts."""
+    """The mutants with one of these texts in their names; all mutants if no texts are given."""
     for text in only or ():
         if not any(text in each.name for each in made):
             raise NoSuchName(f"no mutant has {quoted(text)} in its name; --list lists them")

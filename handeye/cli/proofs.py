@@ -1,4 +1,4 @@
-"""`handeye check --prove`: what the end of a program rests on."""
+"""`handeye check --prove`: proves that a program ends only if its steps have shown that the work is right."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -146,7 +146,8 @@ class ToolLeg(RunningLeg):
 
     def begin(self) -> Sequence[AnyEvent]:
         raise Refused(
-            "the first leg of a relay must be one of the system of 1973, which measures the joints of the arm"
+            "the first leg of a relay must be a program of the system of 1973, because only this system measures "
+            "the joints of the arm"
         )
 
     def stand_at(self, stage: str) -> None:

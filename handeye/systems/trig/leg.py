@@ -279,7 +279,7 @@ class TaughtLegs(ToolLegs):
     def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
         found = [*super().lacks(plan, stage, earlier)]
         if FINISH not in {step.label for step in listing(plan).steps}:
-            found.append(Lack(1, f"no step is called {FINISH}, so the leg could never end well"))
+            found.append(Lack(1, f"no step is called {FINISH}, so the leg could never end successfully"))
         return found
 
     def writes(self, plan: Any, stage: str) -> Sequence[Use]:

@@ -163,7 +163,8 @@ def _check(row: RareRow, case: RareCase) -> None:
     """Raise InvalidInput if a row is of another world, or if its run must be repeated."""
     if row.seed != case.seed or row.world not in ("", world_digest(case.world)):
         raise BadFile(
-            f"run {row.trial} of {quoted(row.condition)} is in another world than this command would try"
+            f"run {row.trial} of {quoted(row.condition)} is in a different world from the one that this command "
+            "would try"
         )
     if row.to_be_tried_again:
         raise Refused(

@@ -154,8 +154,8 @@ def _screws() -> Iterator[MishapFault]:
             calls=(detect.high_head(number),),
         )
         meaning = (
-            f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began. "
-            "In the last stage, the program has then already driven the screw again."
+            f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began. In "
+            "the last stage, the program has by then already driven the screw again."
         )
         yield declared(
             f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE

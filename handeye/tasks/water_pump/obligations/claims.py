@@ -256,7 +256,7 @@ class PumpClaims:
         limits = Limits(high - 0.16 * INCH, high + 0.12 * INCH)
         by = HeightWithin(of=self.places.touched(end), over=self.places.table, limits=limits)
         return Claim(
-            says="after they have let go of the pin, the fingers feel its end in the holder, 3.5 in over the table to "
+            says="after letting go of the pin, the fingers feel its end in the holder, 3.5 in over the table to "
             "within .12 in",
             where=f"pin {number + 1}",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
@@ -271,8 +271,8 @@ class PumpClaims:
             of=self.places.touched(end), over=self.places.table, limits=Limits(7.95 * INCH, 8.25 * INCH)
         )
         return Claim(
-            says="after they have let go of the screwdriver, the fingers feel its end in the rack, 8.1 in over the "
-            "table to within .15 in",
+            says="after letting go of the screwdriver, the fingers feel its end in the rack, 8.1 in over the table "
+            "to within .15 in",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )
 
