@@ -79,8 +79,8 @@ class Check(Request, frozen=True, kw_only=True):
         str,
         Meta(
             max_length=20,
-            description="Language of a script that is given as text: the ending of its files, such as al or ml. A file "
-            "has its language in its name.",
+            description="Language of a script that is given as text: the ending of its files, such as al or ml. If "
+            "the script is a file, its name gives the language.",
         ),
     ] = "al"
 

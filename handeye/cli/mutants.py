@@ -46,7 +46,7 @@ def mutant_trials(
     options: SweepOptions = ANY,
 ) -> int:
     """Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does
-    another check catch what the missing one was for?
+    another check catch the faults for which the missing one was meant?
 
     A mutant that `handeye check --prove` does not refuse runs from the beginning of its stage, once with each fault for
     which the missing check exists. It is `caught` if it stops, `silent` if it reports success with wrong work, and

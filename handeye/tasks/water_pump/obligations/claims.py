@@ -236,7 +236,7 @@ class PumpClaims:
         pump = Region(at=self.places.on_pump(0.0, 0.0), radius=0.5 * INCH, height=Limits(-0.01, 0.01))
         lifted = (Gripped(where=laid), before)
         return Claim(
-            says="a picture from before the gasket was laid on the base and one from after show it in its place",
+            says="two pictures, taken before and after the gasket was laid on the base, show it in its place",
             phases=(
                 Phase(by=(before,)),
                 Phase(by=(Released(where=laid, least=1.0 * INCH),), undone=lifted),

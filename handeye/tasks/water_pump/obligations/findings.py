@@ -118,13 +118,16 @@ _UNSENSED: Final = {
     "screws_hold": "A test of whether a screw holds would loosen the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
-    "tray": "It is a property of the simulation: a screw in its thread exists once.",
+    "tray": (
+        "It is a property of the simulation: while a carrier represents a screw in its thread, the screw's own "
+        "body stays on its tray."
+    ),
     "still": "No step waits to see whether a part comes to rest.",
     "arm_still": "The program does not measure this; the servo ends each motion at rest, or raises an error.",
     "overlap_bores": "It is a property of the simulation: solids do not pass through each other.",
     "overlap": "It is a property of the simulation: solids do not pass through each other.",
     "as_drawn": "It is a property of the simulation: no part changes during a run.",
-    "bonds": "It is a property of the simulation: its constraints are those of the work.",
+    "bonds": "It is a property of the simulation: it opens and closes each bond as the work requires.",
     "held": "It is a property of the simulation: nothing but the arm acts on the parts.",
     "numbers": "It is a property of the simulation: its numbers are finite.",
 }
