@@ -72,13 +72,12 @@ CODES: Final[dict[str, Code]] = {
     ),
     "extension-used": Code(
         severity="error",
-        meaning="a word or an operand is an extension of handeye, but only the language of the 1970s is allowed",
+        meaning="a word or an operand was added by handeye, but only the language of the 1970s is allowed",
         example="LOAD 4",
         phase="strict",
     ),
     "finding-undecided": _proof(
-        "it cannot be decided whether the program can end without noticing that a finding of the referee does not "
-        "hold",
+        "it cannot be decided whether the program may end without noticing that a finding of the referee does not hold",
         "HERE A\nPARK\nMOVE A",
     ),
     "finding-unnoticed": _proof(
@@ -112,12 +111,12 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _planning(
-        "the force of a STOP is so small that joint friction may feel like this force in free air",
+        "the force of a STOP is so small that in free air joint friction may feel like this force",
         "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
         "warning",
     ),
     "faint-moment": _planning(
-        "the moment of a STOP is so small that joint friction may feel like this moment in free air",
+        "the moment of a STOP is so small that in free air joint friction may feel like this moment",
         "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
         "warning",
     ),
