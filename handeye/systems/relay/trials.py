@@ -116,7 +116,7 @@ class LegLine(Record, frozen=True, kw_only=True):
     stage: str
     system: str
     reached: int
-    ended: int  # as the leg should
+    ended: int  # number of legs that ended as they should
     mean_s: float | None  # of the legs that ended as they should
     median_n: float | None
     most_n: float | None

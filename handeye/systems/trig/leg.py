@@ -125,7 +125,7 @@ def on_platter(axes: "Sequence[float] | Array") -> Place:
 
 
 class _Job:
-    """What a running job of TRIG has around it, on the Stanford arm."""
+    """What a TRIG job needs while it runs, on the Stanford arm."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

@@ -76,7 +76,7 @@ class Touch(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """A touch, each millisecond."""
+    """A touch, millisecond by millisecond."""
 
     z: list[float]
     goal: list[float]

@@ -28,9 +28,9 @@ _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
 def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, rim: float = DEEP) -> None:
-    """Add the hopper at a place of the scene (m), by default under the hand when the x and y slides are at 0. A part
-    that slides in the hopper has the friction of the hopper, not its own. The pile in it is solved with dense matrices.
-    A part that falls off the table comes to rest on the floor.
+    """Add the hopper at a place of the scene (m). By default, this place is under the hand when the x and y slides are
+    at 0. A part that slides in the hopper has the friction of the hopper, not its own. The pile in it is solved with
+    dense matrices. A part that falls off the table comes to rest on the floor.
 
     Args:
         rim: height of its walls over the table, m.

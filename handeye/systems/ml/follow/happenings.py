@@ -5,7 +5,7 @@ from handeye.program.events import SystemEvent
 
 
 class CircuitClosed(SystemEvent, frozen=True, kw_only=True):
-    """A follower has come around the object once."""
+    """A follower has gone around the object once."""
 
     text: str
 

@@ -94,7 +94,7 @@ class WiredBus(MicrobusPort):
         self.wires = Wires(layout, self.timing, defects)
         self.tell: list[
             Callable[[AnyBusEvent], None]
-        ] = []  # called with each event, which none can change; some are known ahead of their time
+        ] = []  # called with each event, which they cannot change; some events come ahead of their time
         self._defects = tuple(defects)
         self._nodes = {place.number: self._switched_on(place, seed, clock_spread) for place in layout.places}
         self._memory = BusMemory(plant=self.plant.memory)

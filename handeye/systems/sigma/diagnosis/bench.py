@@ -141,7 +141,7 @@ class Machine(IdealMachine):
         share = HALF if self.fault("phase", number) else 1.0
         share *= SAG if self.fault("supply") and most >= MANY else 1.0
         load, least = self.pulls.get(number, 0.0), _START_N * share
-        if load > least:  # the balance gives way as far as the motor does
+        if load > least:  # the rotor falls back until the balance pulls no more than the motor holds
             return math.ceil((load - least) / _SPRING / STEP / POLE) * POLE
         if share == 1.0 or not complete:
             return 0

@@ -172,7 +172,7 @@ class Motor(Device):
     def _release(self, at: int) -> None:
         self._start("releasing", constant(LONGEST_MOVE, RELEASE, self.shape), 1, at)
 
-    # -- what comes of itself ------------------------------------------------------------------------------
+    # -- what happens without a command ------------------------------------------------------------------
 
     @property
     def due(self) -> int | None:

@@ -169,7 +169,7 @@ MAL_DEVICES: Final[dict[str, tuple[int, str]]] = {
     "LAMP": (1, "LAMP"),
     "BELL": (1, "BELL"),
 }
-"""The arm whose hand microcomputer drives a device, and the device's name there."""
+"""For each device: the arm whose hand microcomputer drives it, and the name that this microcomputer has for it."""
 assert {device for _, device in MAL_DEVICES.values()} == {*DEVICES}
 RESERVED: Final = {*WORDS, *LINE_AXES, "DIM"}
 """Words that cannot be names of variables, flags or tasks."""

@@ -49,8 +49,8 @@ class Elbow:
 
 @dataclass(slots=True)
 class _Chain:
-    """A chain of steps, with the chains to its right. Each of these chains is listed under the row of its guarded step;
-    `shift` has its column offset.
+    """A chain of steps, with the chains to its right. For the row of each guarded step, `hung` has the chain that
+    begins there, and `shift` has the column offset of this chain.
     """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)

@@ -9,8 +9,8 @@ BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
 LAYER_HEIGHT: Final = 0.3
-"""Greatest deviation from the nominal height at each screw hole (mm). Half of it would already show a lost chip
-under the layer; assembly study.
+"""Greatest deviation from the nominal height at each screw hole (mm). A deviation of half this limit would already
+reveal a lost chip under the layer; assembly study.
 """
 
 SCREW_GAP: Final = 0.2
@@ -91,7 +91,7 @@ its stand draw it along before they lift it: by 3.3 mm in the world of seed 0. T
 lifted; at 6.4 mm its holes would not let the fingers of the next run in.
 """
 APART_TURN: Final = 3.0
-"""Turn (degrees) that moves the end of a part as long as the base by half of the fingers' clearance."""
+"""Turn (degrees) of a part. If the part is as long as the base, its end moves by half of the fingers' clearance."""
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0

@@ -172,9 +172,7 @@ def rotor_torque(measured: SettledState) -> float:
 
 
 def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return a copy of the cell in which only the rotor has contacts with solid shapes, friction and
-    constraints.
-    """
+    """Return a copy of the cell in which only the rotor has friction, constraints, and contacts with solid shapes."""
     model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
     crank = model.geom_bodyid == rotor
     solid = (model.geom_contype | model.geom_conaffinity) != 0
