@@ -14,7 +14,7 @@ from handeye.systems.relay.state import RelayCore
 
 @dataclass(frozen=True, slots=True)
 class LegStep:
-    """An executed step of a leg that has not been undone."""
+    """An executed step of a leg. The step has not been undone."""
 
     step: int
     enters: bool
@@ -42,7 +42,7 @@ def last_leg(state: RelayCore) -> int:
 
 
 def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
-    """Return the executed steps of all legs that have not been undone, in the order of the legs."""
+    """Return the executed steps of all legs, in the order of the legs. Steps that were undone are left out."""
     found = []
     for leg in legs(plan)[: state.leg + 1]:
         own = leg.system.executed(leg.plan, memories(plan, state)[leg.file])

@@ -18,7 +18,7 @@ BOXES: Final = {"good": -6500, "bad": 6500}  # x of the slides
 BOX: Final = 0.050  # m: half the inner side of a box
 TRAY: Final = (0.060, 0.090)  # m: half the inner sides of a large box, along x and y
 HIGH: Final = 0.030  # m: height of low walls over the table, those of a small box or hopper
-DEEP: Final = 0.080  # m: height of walls that a part which is let go between them cannot leave
+DEEP: Final = 0.080  # m: height of walls that no part leaves if it is let go between them
 THIN: Final = 0.002  # m: half the thickness of the walls of a box
 THICK: Final = (
     0.005  # m: half the thickness of the hopper's walls and slopes, between which the fingers close

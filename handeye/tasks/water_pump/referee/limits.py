@@ -18,9 +18,9 @@ SCREW_GAP: Final = 0.2
 SCREW_CLAMP: Final = 40.0
 """Least clamping force of a screw (N), more than the 19 N with which a hand pulls. Seated screws end at 56 to 298 N."""
 SCREW_TURNED: Final = 400.0
-"""Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most
-250 N. The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world;
-twice the clutch's torque gives 530 to 560 N.
+"""Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most 250 N.
+With the least friction of thread and head in any world, the torque of the driver's clutch, .32 N m, makes this force
+at most 357 N; twice the torque makes it 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
 """Greatest force under a head at the end (N). It may exceed SCREW_TURNED, because screws that are tightened later

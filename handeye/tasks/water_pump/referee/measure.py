@@ -30,7 +30,7 @@ Mask = NDArray[np.bool_]
 
 
 def head_force(measured: SettledState, hole: int) -> float:
-    """Return the force of the screw head at a hole on the part beneath it (N)."""
+    """Return the force that the screw head at a hole exerts on the part beneath the head (N)."""
     model, data = measured.model, measured.data
     contact, head = data.contact, model.geom(f"head{hole}").id
     tree = model.body_rootid[model.geom_bodyid[contact.geom]]
