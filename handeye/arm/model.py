@@ -20,7 +20,7 @@ class GraspModel:
 
     speed: float  # m/s of the opening, free
     centring: float  # m/s of the opening while centring
-    settle: int  # servo periods pressed before the gap is read; half of them after centring
+    settle: int  # servo periods pressed before the gap is read; half as many after centring
     give: float = 0.004  # m that the set-point leads fingers that press with all the force allowed; chosen
 
     def lag(self, force: float, grip: float) -> float:

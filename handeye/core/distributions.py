@@ -13,7 +13,7 @@ import numpy as np
 
 FULL_TURN_DEG: Final = 360.0
 _NORMAL: Final = NormalDist()
-_RAREST: Final = 1e-15  # Probabilities are kept this far from 0 and 1, whose normal numbers are infinite
+_RAREST: Final = 1e-15  # Least distance of a probability from 0 and 1, whose normal numbers are infinite
 
 
 class Distribution(ABC):

@@ -109,9 +109,9 @@ class Campaign:
     def run(
         self, places: Sequence[tuple[str, int]], points: Sequence[Point], *, kept: bool = True
     ) -> tuple[RareRow, ...]:
-        """Run the worlds of some points. The place of each is its condition, and its number within the condition.
-        With `kept`, worlds in which the program fails are kept. Raises InvalidInput if a run ended because this
-        computer failed, so that its margin is unknown.
+        """Run the worlds of some points. `places` gives the condition of each point, and its number within this
+        condition. With `kept`, worlds in which the program fails are kept. Raises InvalidInput if a run ended because
+        this computer failed, so that its margin is unknown.
         """
         cases = [
             RareCase(
