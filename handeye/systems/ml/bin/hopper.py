@@ -66,9 +66,9 @@ def _solve_densely(spec: mujoco.MjSpec) -> None:
     """Let MuJoCo solve for the contact forces with dense matrices. By default it takes sparse ones from 60 degrees of
     freedom on.
 
-    MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, such as fingers that touch parts
-    of a pile which touch each other. Newton's method then ends after 100 iterations without a solution, and a part
-    leaves the pile at 1000 rad/s.
+    MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, for example if fingers touch
+    parts of a pile, and these parts touch each other. Newton's method then ends after 100 iterations without a
+    solution, and a part leaves the pile at 1000 rad/s.
     """
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
 

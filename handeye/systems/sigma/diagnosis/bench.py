@@ -1,5 +1,5 @@
-"""The machine on the test bench, which is ideal except for a planted fault, and what a technician can do to it
-by hand.
+"""The machine on the test bench, and what a technician can do to it by hand. The machine is ideal except for a planted
+fault.
 
 Rotors follow each pulse, unless the fault weakens their motors. A balance of forces then decides whether they
 follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers when they
