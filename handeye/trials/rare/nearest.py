@@ -101,8 +101,7 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return how the quantities push the program to fail. Quantities that more of the nearest worlds need come first.
-    """
+    """Return how the quantities push the program to fail. Those that more of the nearest worlds need come first."""
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:
         return []
