@@ -136,7 +136,7 @@ def proof(
     sound: Annotated[WholeNumber, Parameter(name="--variants", help="Number of sound variants to try.")] = 20,
     seed: Annotated[WholeNumber, Parameter(help="Seed of the sample.")] = 0,
 ) -> int:
-    """Plant holes in the pump's program by rule, make sound variants of it by rule, and try whether `handeye check
+    """Plant holes in the pump's program by rule, make sound variants of it by rule, and check that `handeye check
     --prove` finds every hole and accepts every variant. A number greater than the number of holes or variants means
     all of them.
 

@@ -42,7 +42,7 @@ class MissingMark(Record, frozen=True):
     mark: str
 
 
-Meant = SimilarName | KnownNames | MissingMark  # what was probably meant, for tools that correct it
+Meant = SimilarName | KnownNames | MissingMark  # what was probably meant; tools can insert it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

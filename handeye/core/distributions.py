@@ -21,8 +21,8 @@ class Distribution(ABC):
 
     __slots__ = ()
     name: ClassVar[str]
-    is_error: ClassVar[bool] = True  # scaled by the level of errors; False for the task's own range
-    widest: ClassVar[float] = inf  # Beyond this standard normal number, the value does not change any more
+    is_error: ClassVar[bool] = True  # True: the level of errors scales it. False: it is a range of the task.
+    widest: ClassVar[float] = inf  # Beyond this standard normal number, the value no longer changes
 
     @abstractmethod
     def draw(self, rng: np.random.Generator, nominal: float) -> float:

@@ -25,7 +25,7 @@ OWN: Final = (
     "handeye.systems.sigma:ENTRY",
     "handeye.systems.ml:ENTRY",
     "handeye.systems.relay:ENTRY",
-)  # need no installed metadata
+)  # entries that need no installed metadata
 PLANNED: Final = "program"  # the system that executes plans of motions; the default
 
 Capability = Literal[
@@ -66,7 +66,7 @@ class Entry(Record, frozen=True, kw_only=True):
     help: str  # a one-line description
     system: str  # `module:NAME` of its `handeye.runs.system.System`
     can: tuple[Capability, ...] = ()
-    reasons: dict[Capability, str] = field(default_factory=dict)  # why it cannot, where that helps
+    reasons: dict[Capability, str] = field(default_factory=dict)  # why the system cannot do it
     commands: str = ""  # a line each: `NAME = MODULE:FUNCTION: SENTENCE`, as in `handeye/cli/commands.py`
     tasks: dict[str, str] = field(default_factory=dict)  # `module:NAME` of each of its tasks
     machines: dict[str, str] = field(default_factory=dict)  # `module:NAME` of an `ArmMachine`, by name

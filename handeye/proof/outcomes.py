@@ -14,7 +14,7 @@ from handeye.program.flow_operations import Assign, Countdown, Test, Undo
 from handeye.program.operation import Operation
 from handeye.program.program import Step
 
-END: Final = -1  # the node behind the last step
+END: Final = -1  # the node after the last step
 SUCCESS: Final = 0  # the outcome of an action that raises no error
 ALWAYS: Final = frozenset({errors.WATCHDOG, errors.GAP_WRONG})
 """Errors that any action may raise, because the servo or the hand can raise them during the action."""

@@ -41,7 +41,7 @@ class RunningLeg(RunningSystem):
 
     @abstractmethod
     def stand_at(self, stage: str) -> None:
-        """Stand at the first step of a stage, unless the program already stands in this stage."""
+        """Go to the first step of a stage, unless the program is already in this stage."""
 
     @abstractmethod
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:

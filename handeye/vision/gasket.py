@@ -173,7 +173,7 @@ class _Steps(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Check:
-    """Result for one hole; `fault` is None if the gasket lies right at this hole."""
+    """Result for one hole; `fault` is None if the gasket is in its place at this hole."""
 
     fault: BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | None = None
     base: Array | None = None  # centre of the hole of the base, m, shape (3,)

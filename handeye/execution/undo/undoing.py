@@ -75,7 +75,7 @@ def order(state: ExecutionState, undoing: ReversalOrder) -> None:
 
 
 def end(state: ExecutionState) -> None:
-    """End a reversal. The magnet is switched on again, because programs always have it on."""
+    """End a reversal. The magnet is switched on again, because it is always on while a program runs."""
     state.undoing, state.drive.magnet = None, True
 
 

@@ -95,8 +95,8 @@ def subset_simulation(
 
 
 def estimate(levels: Sequence[Level]) -> Estimate:
-    """Return the product of the shares of all levels, with its variation. The variation leaves out how the levels
-    depend on each other, as Au and Beck do.
+    """Return the product of the shares of all levels, with its variation. Like Au and Beck, this function computes the
+    variation as if the levels were independent.
     """
     probability = math.prod(level.share for level in levels)
     variation = math.sqrt(sum(level.variation**2 for level in levels))
