@@ -133,7 +133,7 @@ class _Job:
         self.axes: Any = None
 
     def turn(self) -> None:
-        """A leg is not reversed by a job."""
+        """Do nothing, because no job reverses a leg."""
 
 
 class TaughtLeg(ToolLeg, RunningJob):

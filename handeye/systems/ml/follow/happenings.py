@@ -1,4 +1,4 @@
-"""Defines the event that a follower has done its work."""
+"""Defines the event that reports that a follower has done its work."""
 
 from handeye.core.units import Measures
 from handeye.program.events import SystemEvent

@@ -369,7 +369,7 @@ class Gantries(Plant[GantryMemory]):
             self.bench.end_early()
 
     def _strain(self, places: Array) -> None:
-        """Reduce the force of each pole with the distance of its rotor. Beyond half a pole, the next pole
+        """Reduce the force of each pole as its rotor moves away from the pole. Beyond half a pole, the next pole
         catches the rotor."""
         most, least = np.split(self._limits[self._row, self._levels :], 2)
         lags, begins = (places - (most - least) / 2) / STEP, (most + least) / 2 / STEP

@@ -17,7 +17,9 @@ from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee.limits import ROTOR_TORQUE
 
 _SWING: Final = 8.0
-"""Time (s) for a full turn one way, back through the start to a full turn the other way, and back."""
+"""Time (s) of the whole swing: a full turn one way, then back through the start to a full turn the other way, then
+back to the start.
+"""
 _BEHIND: Final = radians(2.0)  # lag behind the set-point at which the greatest permitted torque is applied
 _GAIN: Final = ROTOR_TORQUE / _BEHIND  # N m/rad
 _DAMPING: Final = 0.04  # N m s/rad: with the rotor's inertia, there is no overshoot
