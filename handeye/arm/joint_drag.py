@@ -45,8 +45,8 @@ errors of masses, mass centres and drives up to three times their spreads at the
 stated spreads.
 """
 AT_HAND: Final = 0.15
-"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Chosen: beyond
-the palm, but short of the wrist centre.
+"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Our choice: it
+reaches beyond the palm, but not to the wrist centre.
 """
 ALONE: Final = 0.9  # share of the squares of all unexplained torques that one joint must have; chosen
 

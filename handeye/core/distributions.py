@@ -29,8 +29,8 @@ class Distribution(ABC):
         """Draw a value; `nominal` is the value without error."""
 
     def standard(self, rng: np.random.Generator) -> float | None:
-        """Draw the standard normal number from which `at` makes the value that `draw` would give. None: the value
-        is the same in every world.
+        """Draw the standard normal number for which `at` returns the value that `draw` would return. Returns None if
+        the value is the same in every world.
         """
         return None
 
@@ -161,7 +161,7 @@ class Choice(Distribution):
 
 
 def _standard(probability: float) -> float:
-    """Return the number that a standard normal number does not exceed with this probability."""
+    """Return the quantile of the standard normal distribution at this probability."""
     return _NORMAL.inv_cdf(min(max(probability, _RAREST), 1.0 - _RAREST))
 
 
