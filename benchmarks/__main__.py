@@ -136,10 +136,12 @@ def proof(
     sound: Annotated[WholeNumber, Parameter(name="--variants", help="Number of sound variants to try.")] = 20,
     seed: Annotated[WholeNumber, Parameter(help="Seed of the sample.")] = 0,
 ) -> int:
-    """Plant holes in the pump's program by rule, make sound variants of it by rule, and try whether `handeye check
-    --prove` finds every hole and accepts every variant. Numbers above the numbers of all holes and variants mean all.
+    """Plant holes in the pump's program by rule, make sound variants of it by rule, and check that `handeye check
+    --prove` finds every hole and accepts every variant. A number greater than the number of holes or variants means
+    all of them.
 
-    Exit code 0: every hole was found, and at most one variant in 20 was refused; 1: one was not, or more were.
+    Exit code 0: every hole was found, and at most one variant in 20 was refused; 1: a hole was not found, or more
+    variants were refused.
     """
     from benchmarks.planted import holes, sample, script, variants, verdict
     from handeye.core.variation import WorldSpec
@@ -397,7 +399,7 @@ def turns(
 ) -> int:
     """Run the same stages in two checkouts in turn, from a kept checkpoint, and compare cost and bytes.
 
-    For each stage: CPU seconds in both, and the ratios of CPU seconds a simulated second (work, physics, rest).
+    For each stage: CPU seconds in both, and the ratios of CPU seconds per simulated second (work, physics, rest).
 
     Exit code 0: the same bytes; 1: other bytes.
     """

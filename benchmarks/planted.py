@@ -1,8 +1,8 @@
 """Checks `handeye check --prove` with programs whose verdict is known: holes planted in the pump's program by rule, and
 variants of it that are as sound as the program itself.
 
-The rules know the text of the program, and nothing of the prover. What a hole takes away is a check that docs/care.md
-names as the last one of a part: `CHECKS` and `CALLS` are that table.
+The rules know the text of the program, and nothing of the prover. A hole is a check that is missing: one that
+docs/care.md names as the last check of a part. `CHECKS` and `CALLS` are that table.
 """
 
 import random
@@ -324,7 +324,7 @@ def _narrowed(of: Script) -> Iterator[Planted]:
 
 
 def _turned_round(of: Script) -> Iterator[Planted]:
-    """Write `SKIPN e, WAIT` as `SKIPE e, JUMP on, WAIT`, backwards."""
+    """Write `SKIPN e, WAIT` as `SKIPE e, JUMP on, WAIT`, which has the same effect."""
     for number in range(len(of.lines) - 2):
         if re.match(r"SKIPN\s", of.body(number)) and of.body(number + 1).startswith("WAIT"):
             if of.label(number + 1) or not of.body(number + 2):

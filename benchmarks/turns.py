@@ -77,8 +77,8 @@ def _next(worker: "subprocess.Popen[str]") -> StageCost | None:
 
 
 def lines(costs: Sequence[tuple[StageCost, StageCost]]) -> Iterator[str]:
-    """Yield a line for each stage, and one for all: CPU s a simulated second in the second checkout over those in
-    the first, of the work and of its physics and the rest.
+    """Yield a line for each stage, and one for all: the CPU seconds per simulated second in the second checkout,
+    divided by those in the first. There is one ratio each for the work, its physics, and the rest.
     """
     yield f"{'stage':36} {'before':>7} {'after':>7}  {'work':>5} {'physics':>7} {'rest':>5}  bytes"
     for first, second in costs:

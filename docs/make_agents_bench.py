@@ -1,4 +1,4 @@
-"""Write the tables of docs/agents_bench.md: the tasks, and with FILE how their own solutions were judged.
+"""Write the tables of docs/agents_bench.md: the tasks and, with FILE, how their own solutions were judged.
 
 python docs/make_agents_bench.py [FILE]
 

@@ -22,9 +22,9 @@ from PIL import Image
 ROOT = Path(__file__).parent.parent
 NOTEBOOKS = ROOT / "notebooks"
 PATIENCE = 600
-"""s for a cell."""
+"""Greatest time for a cell (s)."""
 COLOURS = 256
-"""Of a stored picture."""
+"""Number of colours of a stored picture."""
 
 
 def scripts() -> list[Path]:
@@ -52,7 +52,7 @@ def carried_out(made: NotebookNode, folder: Path) -> NotebookNode:
         made, timeout=PATIENCE, record_timing=False, resources={"metadata": {"path": str(folder)}}
     )
     client.execute(env={**os.environ, "PYTHONPATH": path})
-    made.metadata["language_info"] = {"name": "python"}  # and not of which version
+    made.metadata["language_info"] = {"name": "python"}  # without its version, which would change the file
     return made
 
 

@@ -23,19 +23,19 @@ PAGE = ROOT / "docs" / "photographs.md"
 WIDTH, HEIGHT = 800, 600
 QUALITY = 90
 SECOND, AFTER = 2, 0.8
-"""Number of the TOOL that drives the second screw, from 0, and s from its beginning on."""
+"""Number (from 0) of the TOOL that drives the second screw, and the time (s) from its beginning to the photograph."""
 DRIVING: Final[dict[str, tuple[str, dict[str, Any]]]] = {
     "studio_plain": ("studio", {}),
     "studio_fine": ("studio", {"fine": True}),
     "work_fine": ("work", {"fine": True}),
     "work_1973": ("work", {"film": "1973"}),
 }
-"""Names of those while a screw is driven: by which camera, and how."""
+"""Photographs taken while a screw is driven: for each name, the camera and the settings."""
 DONE: Final[dict[str, tuple[str, dict[str, Any]]]] = {
     "pump_plain": ("pump", {}),
     "pump_fine": ("pump", {"fine": True}),
 }
-"""Names of those of the end."""
+"""Photographs taken at the end, likewise."""
 
 
 def make(trace: "handeye.Trace") -> None:

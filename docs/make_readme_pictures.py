@@ -58,13 +58,13 @@ SHELF = { at = [25, 60, 22, 90, 90, 0] }
 HOLE = { at = [25, 38, 3, 90, 90, 0] }
 """
 LETTER, LINE, LEFT, TOP = 8.13, 22, 44, 34
-"""Of the program's letters and lines: width, height, where they begin."""
+"""Width of a letter of the program, height of a line, and where the lines begin: from the left and from the top."""
 SENSES: Final = (
     ("all senses", "nominal-890000"), ("without touch", "without-touch"), ("without search", "without-search"),
     ("without vision", "without-vision"), ("without force", "without-force"),
 )  # fmt: skip
 REPLAY: Final = (72, 555, 1094, 1285)
-"""What is cut out of the report: left, top, right, bottom."""
+"""The part of the report that becomes the picture: left, top, right, bottom."""
 
 
 def program() -> str:

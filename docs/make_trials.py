@@ -37,7 +37,7 @@ FOLDER: Final = ROOT / "docs" / "trials"
 BEGIN, END = "<!-- Below: docs/make_trials.py -->\n", "<!-- Above: docs/make_trials.py -->\n"
 COLUMNS: Final = ("seed", "verdict", "stage", "cause", "arm_s", "cpu_s", "events")
 PROGRAM: Final = "water_pump"
-"""Whose plan `handeye trials assembly` takes where it is given none."""
+"""The program whose plan `handeye trials assembly` runs if no plan is given."""
 PAIRED: Final = """\
 In the next table, each batch of the first column was run without a sense or with another program. The
 second column names the batch of the full program in the same worlds:

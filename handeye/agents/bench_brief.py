@@ -48,8 +48,8 @@ def end_of_brief(task: "BenchTask") -> str:
 def _counts(task: "BenchTask", told: Phrases) -> str:
     if task.file.orders:
         return (
-            "If a program can stop in some order, for example in a deadlock, it counts as stopped. If it can be wrong "
-            "without noticing it, this is a silent failure, also if it can stop in another order."
+            "If a program can stop in some order, for example in a deadlock, it counts as stopped. If it can end "
+            "with wrong work without noticing, this is a silent failure, even if it would stop in another order."
         )
     return (
         f"A program that is not sure must stop: {task.file.stopping or told.stops}. A program that ends as if all were "
@@ -71,7 +71,7 @@ def _where(task: "BenchTask") -> str:
 
 def _manual(task: "BenchTask") -> str:
     if task.file.tier == "bare":
-        return "This task is without the manual: do not use `handeye docs` or `handeye explain`."
+        return "The manual is not allowed in this task: do not use `handeye docs` or `handeye explain`."
     pages = [f"`handeye docs {page}`" for page in task.file.manual]
     return (
         f"The manual: {', '.join(pages[:-1])} and {pages[-1]}."

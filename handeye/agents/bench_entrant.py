@@ -102,7 +102,7 @@ def verdicts(
 def lost(
     task: BenchTask, seeds: Sequence[int], why: str, tell: Callable[[Verdict], None] = lambda _: None
 ) -> list[Verdict]:
-    """Return the verdicts on an entrant without a solution that can be judged, which counts as stopped everywhere."""
+    """Return the verdicts on an entrant whose solution cannot be judged: it counts as stopped in every world."""
     judged_in = task.file.public[:1] if task.file.orders else seeds
     found = [Verdict(seed=seed, outcome="stopped", message=why) for seed in judged_in]
     tell(found[0])

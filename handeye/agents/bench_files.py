@@ -60,7 +60,7 @@ class TaskFiles:
         text = self._source(one.source, without | {place})
         for old, new in one.changes:
             if text.count(old) != 1:
-                raise BadFile(f"{place}: {quoted(old)} does not occur once in {one.source}")
+                raise BadFile(f"{place}: {quoted(old)} must occur exactly once in {one.source}")
             text = text.replace(old, new)
         return text
 

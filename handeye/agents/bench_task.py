@@ -98,7 +98,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return f"{_SHARED.sub(self._shared, own)}\n\n{end_of_brief(self)}"
 
     def _shared(self, found: re.Match[str]) -> str:
-        """Return the text that a line of the brief names, which several briefs share."""
+        """Return a text that several briefs share, and that a line of this brief names."""
         return read_source(self.folder.parent / f"{found[1]}.md").text.rstrip()
 
     @property
@@ -168,8 +168,9 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return found
 
     def problems(self, folder: Path) -> list[tuple[bool, str]]:
-        """Return what is wrong with the solution in a folder in some order of its tasks, the worst first: whether the
-        program does not notice it, and a sentence. Raises InvalidInput if there is no solution, or if it has errors.
+        """Try the solution in a folder in every order of its tasks, and return its problems, the worst first. For
+        each: True if the program does not notice the problem, and a sentence. Raises InvalidInput if there is no
+        solution, or if it has errors.
         """
         text = self._checked(AgentFolder(folder.resolve()))
         entry, _ = entry_of_file(self.program)
@@ -199,15 +200,13 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
             return
         kept = re.compile(self.file.kept, re.MULTILINE)
         if kept.findall(text) != kept.findall(self.files.text(f"{GIVEN}/{self.program}")):
-            raise BadFile(
-                f"the lines of {self.program} that the brief says to keep are not those of the given program"
-            )
+            raise BadFile(f"{self.program} lacks lines that the brief says to keep, or has more of them")
 
     def check_hidden(self, salt: str, seeds: Sequence[int]) -> None:
-        """Raise BadFile unless these are the hidden seeds to which the repository is committed."""
+        """Raise BadFile unless these hidden seeds match the SHA-256 in the repository."""
         if commitment(salt, self.name, seeds) != self.file.hidden:
             raise BadFile(
-                f"the hidden seeds of the task {self.name} are not those to which handeye is committed"
+                f"the hidden seeds of the task {self.name} do not match the SHA-256 in its task.toml"
             )
 
 

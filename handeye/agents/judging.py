@@ -103,9 +103,9 @@ def _judged(runner: Runner, call: Call, right: Right) -> Verdict:
 def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]:
     """Return the outcome in a world in which the work is impossible, and why."""
     if outcome != "stopped":
-        return "silent", "it reported success, but the work is impossible in this world"
+        return "silent", "the program reported success, but the work is impossible in this world"
     if re.search(wanted, message):
-        return "accepted", f"it stopped, as it must in this world ({message})"
+        return "accepted", f"the program stopped, as it must in this world ({message})"
     return "stopped", message
 
 

@@ -79,8 +79,8 @@ class Check(Request, frozen=True, kw_only=True):
         str,
         Meta(
             max_length=20,
-            description="Language of a script that is given as text: the ending of its files, such as al or ml. A file "
-            "has its language in its name.",
+            description="Language of a script that is given as text: the ending of its files, such as al or ml. If "
+            "the script is a file, its name gives the language.",
         ),
     ] = "al"
 
@@ -109,7 +109,11 @@ class WorldOf(Request, frozen=True, kw_only=True):
 
     task: TaskName | None = None
     group: Annotated[
-        str, Meta(max_length=200, description="Only the quantities whose names begin so, such as arm.offset.")
+        str,
+        Meta(
+            max_length=200,
+            description="List only the quantities whose names begin with this text, such as arm.offset.",
+        ),
     ] = ""
     level: Level = "nominal"
 
@@ -169,7 +173,10 @@ class Back(Request, frozen=True, kw_only=True):
     steps: Count = 1
     stage: Annotated[
         str,
-        Meta(max_length=200, description="Go back to the beginning of this stage, instead of some steps."),
+        Meta(
+            max_length=200,
+            description="Go back to the beginning of this stage, instead of by a number of steps.",
+        ),
     ] = ""
 
 

@@ -71,8 +71,8 @@ _ESCAPED: Final = re.compile(
 
 
 def decodable(line: str) -> str:
-    """Return a message that the decoder of the SDK accepts. It drops a message with half of a surrogate pair without
-    an answer; here the half becomes a replacement character, as a byte that is not UTF-8 does.
+    """Return a message that the decoder of the SDK accepts. The decoder drops a message with half of a surrogate pair,
+    and sends no answer. Here, the half becomes a replacement character, as does a byte that is not UTF-8.
     """
     return _ESCAPED.sub(lambda found: r"\ufffd" if found[1] else found[0], line)
 

@@ -70,7 +70,8 @@ TOOLS: Final = (
     ),
     Tool(
         name="fork", takes=requests.Fork, act=Toolbox.fork, changes=True, queues=True,
-        about="Begin a second run with the state of a run, as it is now or before a stage. The first run stays.",
+        about="Begin a new run from a state of an existing run: its present state, or the state before a stage. The "
+        "existing run is kept.",
     ),
     Tool(
         name="result", takes=requests.ResultOf, act=Toolbox.result, queues=True,

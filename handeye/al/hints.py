@@ -87,7 +87,7 @@ def strange(text: str) -> str | None:
     """Return a hint for characters outside the language, or None if there are none."""
     first = text[0]
     if first == ":":
-        return "only a label ends with a colon, and a label stands at the beginning of a line"
+        return "only a label ends with a colon, and a label must be the first word of its line"
     if first in "#/'":
         return _COMMENT
     if first in "({<" or text[-1] in ")}>":

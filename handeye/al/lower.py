@@ -133,8 +133,8 @@ class _Lowerer:
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
         role = STEP if definition is None else definition.role
         if statement.broken or definition is None:
-            # The statement may have been anything, like a call of a macro in a file that is not read, so nothing
-            # that depends on it is reported.
+            # The meaning of this statement is unknown, as is that of a call of a macro in a file that is not read.
+            # Nothing that depends on the statement is reported.
             if role not in (MODIFIER, DECLARATION, SHIFT):
                 self.pending.clear()
                 self.draft(item, None)

@@ -65,7 +65,7 @@ def begin(
             or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
             renderer's method `render(data, view)` returns the light that falls on the camera's light-sensitive
             plate: an array of shape (256, 333), in which 1 is a white surface in full light.
-        search: a function that gives the places of a search, in place of the square spiral of `SEARCH`. It takes
+        search: a function that gives the places of a search, instead of the square spiral of `SEARCH`. It takes
             the number of a place, counted from 0, and returns the x and y of that place in table coordinates, as
             multiples of the search step. The function is called once for each number. A resumed run calls it again,
             and it must then return the same values. The search ends with error 6 when the function returns None or

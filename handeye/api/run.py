@@ -264,14 +264,14 @@ class Run:
     def control(self, controller: Controller, seconds: float = 60.0) -> State:
         """Let a controller command the arm, once in every servo period (1/60 s), before the program continues.
 
-        The controller knows the cell by its sensors only. It takes the readings at the end of a servo period: `time`
-        (s), `q` and `qd` (joint positions and rates, shape (n,), rad and m), `gap` (m), `touch` (the two switches of
-        the fingers), `tool_torque` (of the screwdriver, N m), and `braked`. It returns a `handeye.Command` for the
-        next period, or None to end. Then the brakes are set for .1 s, until the arm stands. Fingers and screwdriver
-        keep their last commands. `run.arm` gives the model of the arm, for `handeye.arm`.
+        The controller knows the cell only through the sensors. It takes the readings at the end of a servo period:
+        `time` (s), `q` and `qd` (joint positions and rates, shape (n,), rad and m), `gap` (m), `touch` (the two
+        switches of the fingers), `tool_torque` (of the screwdriver, N m), and `braked`. It returns a `handeye.Command`
+        for the next period, or None to end. Then the brakes are set for .1 s, in which the arm comes to rest. Fingers
+        and screwdriver keep their last commands. `run.arm` gives the model of the arm, for `handeye.arm`.
 
-        The commands are recorded as an event of the run, so `handeye trace verify` and `back` repeat them. The arm
-        cannot undo the steps that it did before.
+        The commands are recorded as an event of the run, so `handeye trace verify` and `back` repeat them. Afterwards,
+        the arm cannot undo the steps that it executed before the control.
 
         Args:
             controller: a function that takes the readings, and returns the command or None.

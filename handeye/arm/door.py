@@ -25,7 +25,7 @@ def forward(q: ArrayLike, arm: ArmModel | None = None) -> Pose:
     approach direction, y along the finger line. Shape (..., n) gives shape (..., 4, 4), in m.
 
     Raises:
-        BadArgument: `q` has another number of joints, or is not finite.
+        BadArgument: `q` has the wrong number of joints, or is not finite.
     """
     return kinematics.forward(_arm(arm), _joints(q, _arm(arm)))
 
@@ -41,7 +41,7 @@ def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel | None
         the reason as a sentence.
 
     Raises:
-        BadArgument: `X_WT` is not a pose, or `near` has another number of joints.
+        BadArgument: `X_WT` is not a pose, or `near` has the wrong number of joints.
     """
     model, pose = _arm(arm), _numbers(X_WT, "X_WT")
     if (
@@ -64,7 +64,7 @@ def jacobian(q: ArrayLike, arm: ArmModel | None = None) -> Array:
     Its transpose turns a force (N) and moment (N m) on the hand into joint torques.
 
     Raises:
-        BadArgument: `q` has another number of joints, or is not finite.
+        BadArgument: `q` has the wrong number of joints, or is not finite.
     """
     return kinematics.jacobian(_arm(arm), _joints(q, _arm(arm)))
 
@@ -74,7 +74,7 @@ def gravity(q: ArrayLike, arm: ArmModel | None = None) -> Array:
     prismatic joints.
 
     Raises:
-        BadArgument: `q` has another number of joints, or is not finite.
+        BadArgument: `q` has the wrong number of joints, or is not finite.
     """
     return dynamics.gravity(_arm(arm), _joints(q, _arm(arm)))
 
@@ -83,7 +83,7 @@ def mass_matrix(q: ArrayLike, arm: ArmModel | None = None) -> Array:
     """Return the mass matrix of the arm, including the inertia of its drives: shape (..., n) gives shape (..., n, n).
 
     Raises:
-        BadArgument: `q` has another number of joints, or is not finite.
+        BadArgument: `q` has the wrong number of joints, or is not finite.
     """
     return dynamics.mass_matrix(_arm(arm), _joints(q, _arm(arm)))
 

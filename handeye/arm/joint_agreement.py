@@ -31,13 +31,13 @@ One step for rounding, and five standard deviations of the noise (.2 steps per r
 """
 STRUCK: Final = 3.0
 """If a joint is struck, its path in one servo period is uncertain by half the change of its rate, times the period,
-times this factor. Chosen.
+times this factor. The factor is our choice.
 """
 
 
 SINGULAR: Final = 0.05
 """Directions in which the joints hardly move the hand, by less than this fraction of the largest movement, are left
-out when a blow is estimated from the joints. Chosen.
+out when a blow is estimated from the joints. The fraction is our choice.
 """
 REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
@@ -49,7 +49,7 @@ Two steps allow for the noise at the high level, the others for an arm that cree
 
 UNEVEN: Final = 0.25
 """If a swing of a joint differs from the next by more than this fraction of the swing, the tachometer of the joint
-is examined more closely. Chosen: of 278 measurements in three runs without faults, two were above it.
+is examined more closely. Our choice: of 278 measurements in three runs without faults, two were above this fraction.
 """
 STILL_STEPS: Final = 2.0
 """Tolerance, in converter steps, for the median deviation of the rate readings of a joint that is held still.

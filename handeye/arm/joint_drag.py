@@ -6,10 +6,10 @@ difference between its torques in the two directions, even if the model of its w
 `execution.friction_measurement`).
 
 A force on the hand acts on several joints at once, as J^T F. At the hand, a torque in one joint alone looks like a
-couple, or like a force at the wrist centre, whose lever arm about the tool centre point is longer than any finger.
-The decision therefore has two limits. A force on the arm at its wrist centre looks like a fault of a joint. If the
-hand points down under a level boom, an upward push looks the same as a shoulder that does not lift; this case
-counts as a push.
+couple, or like a force at the wrist centre, whose lever arm about the tool centre point is longer than any finger. The
+decision is therefore wrong in two cases. A force on the arm at its wrist centre looks like a fault of a joint. If the
+hand points down under a level boom, an upward push looks the same as a shoulder that does not lift; this case counts
+as a push.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,9 @@ from handeye.core.pose import Array
 
 SLIDING_STEPS: Final = 4.0  # rate, in tachometer steps, at which a joint certainly slides; chosen
 LEAST_PERIODS: Final = 15
-"""Servo periods of sliding in an average. Chosen: torque rounding averages out to a quarter."""
+"""Least number of servo periods of sliding for an average torque. Our choice: the average has a quarter of the
+rounding error of one torque.
+"""
 MAX_DRAG_RATIO: Final = 2.0
 """Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in
 addition.
@@ -43,8 +45,8 @@ errors of masses, mass centres and drives up to three times their spreads at the
 stated spreads.
 """
 AT_HAND: Final = 0.15
-"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Chosen: beyond
-the palm, but short of the wrist centre.
+"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Our choice: it
+reaches beyond the palm, but not to the wrist centre.
 """
 ALONE: Final = 0.9  # share of the squares of all unexplained torques that one joint must have; chosen
 

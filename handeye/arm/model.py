@@ -20,7 +20,7 @@ class GraspModel:
 
     speed: float  # m/s of the opening, free
     centring: float  # m/s of the opening while centring
-    settle: int  # servo periods pressed before the gap is read; half of them after centring
+    settle: int  # servo periods pressed before the gap is read; half as many after centring
     give: float = 0.004  # m that the set-point leads fingers that press with all the force allowed; chosen
 
     def lag(self, force: float, grip: float) -> float:
@@ -96,7 +96,7 @@ class ServoModel:
     period: float  # s between torque updates
     frequency: tuple[float, ...]  # of each joint's error, in rad/s, critically damped
     lag: tuple[float, ...]  # following error that means collision, in rad or m
-    short: float  # m from the set-point that means contact, after a free motion
+    short: float  # m; a distance from the set-point that means contact, after a free motion
     settle: int  # periods held after a motion, and averaged for the tare
     drag: float  # s for the floating arm to come to rest
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from handeye.core.pose import Array
 
-PEAK_SPEED = 1.875  # of the quintic 10 s3 - 15 s4 + 6 s5, over its mean
-PEAK_ACCELERATION = 5.774  # over distance / duration2
+PEAK_SPEED = 1.875  # of the quintic 10 s3 - 15 s4 + 6 s5, as a multiple of its mean
+PEAK_ACCELERATION = 5.774  # as a multiple of distance / duration2
 
 
 def quintic(start: Array, goal: Array, speed: Array, acceleration: Array, period: float) -> Iterator[Array]:

@@ -27,7 +27,7 @@ DIRECT_KNOT: Final = 1 / 9
 In the worked example of Paul (1972), the fraction is 5 degrees of 45 degrees.
 """
 _HEIGHT_SHARES: Final = (1.0, 0.75, 0.5, 0.25)  # of departure and approach, tried in turn
-_END_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)  # durations of the end segments over the middle one's
+_END_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)  # durations of the end segments; the middle one: 1
 _PLACES: Final = np.linspace(0.0, 1.0, 33)  # of a segment; peaks between are at most .1 % higher
 
 

@@ -18,7 +18,9 @@ from handeye.core.errors import BadArgument
 from handeye.core.pose import Array, Pose, inverse, pose
 
 STRAIGHTENING: Final = 1.33
-"""Turn (rad) in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen."""
+"""Turn (rad) in which the lean of a screw falls to 1/e. Our choice: after a whole turn, a hundredth of the lean is
+left.
+"""
 _STRAIGHT: Final = 1e-6  # in rad or m: a lean smaller than this is set to zero
 
 

@@ -26,7 +26,7 @@ class ArmErrors:
     tachometer_noise: Array  # sigma before the converter, in rad/s or m/s
     tachometer_step: Array  # step of the tachometer's converter, in rad/s or m/s; 0 if it has none
     torque_step: Array  # step of the drive's torque converter, in N m or N; 0 if it has none
-    drive_gain: Array  # true torque over the torque that is put out
+    drive_gain: Array  # true torque, divided by the commanded torque
 
     @classmethod
     def none(cls, joints: int) -> Self:
@@ -87,4 +87,4 @@ class CameraErrors:
     """Error of the position of each lens, in m: forwards, to the right and upwards in its picture."""
     pot_noise: float  # sigma of the pan and tilt readings, in rad
     raster: Raster
-    drift: float  # sigma of the shift of a picture, along and across its lines, over half its width or height
+    drift: float  # sigma of the shift of a picture, along its lines (in half widths) and across them (in half heights)

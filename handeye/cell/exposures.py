@@ -60,7 +60,7 @@ class Lens:
     up: Array
     slopes: tuple[float, float]  # half the width and half the height of what it sees, over the distance
     size: tuple[int, int]  # points of the picture, width and height
-    focus: float = 1.0  # distance at which things are sharp, in m
+    focus: float = 1.0  # distance at which the picture is sharp, in m
 
     @classmethod
     def of(cls, scene: mujoco.MjvScene, size: tuple[int, int]) -> Self:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from handeye.core.pose import Array
 
 Colour = tuple[float, float, float]
-_AWAY: Final = 2.0  # distance of the sky from the middle of the scene, over its size
-_GRAZING: Final = 0.2  # least height of a point of the sky, over its distance
+_AWAY: Final = 2.0  # distance of the sky from the middle of the scene, divided by the size of the scene
+_GRAZING: Final = 0.2  # least height of a point of the sky, divided by its distance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +25,7 @@ class Lighting:
     gloss: float  # share of the lamp that shiny shapes mirror
     sky: Colour
     everywhere: Colour  # light that throws no shadow
-    stand: tuple[float, float, float]  # where the lamp stands, from the middle of the scene over its size
+    stand: tuple[float, float, float]  # place of the lamp from the middle of the scene, in sizes of the scene
     radius: float  # radius of the lamp's disc, in m
     cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
 
@@ -110,7 +110,7 @@ def _black_and_white(light: Array) -> Array:
 _PANCHROMATIC: Final = np.array([0.30, 0.55, 0.15])
 """Sensitivity of a black-and-white film to red, green and blue."""
 _PAPER: Final = np.array([1.0, 0.985, 0.945])
-_GRAIN: Final = 0.016  # how much a point differs by the grain, standard deviation
+_GRAIN: Final = 0.016  # standard deviation of the grain
 
 
 def _grain(height: int, width: int) -> Array:

@@ -66,7 +66,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._fingers = [int(model.jnt_qposadr[finger]) for finger in fingers]
         self._dof = int(model.jnt_dofadr[fingers[0]])
         self._switches = [int(model.sensor(f"{prefix}switch_{side}").adr[0]) for side in "ab"]
-        self._set_point = self.gap  # of the finger servo when the time has passed, in m as the sensor reads
+        self._set_point = self.gap  # of the finger servo, in m on the scale of the sensor
         self._command: tuple[float, float] | None = None
         self._reading = HandReading(gap=self.gap, touch=(False, False))
         self._act = int(model.actuator_actadr[self._motor])

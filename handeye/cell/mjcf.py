@@ -22,7 +22,7 @@ MESHES: Final = "meshes"
 TEXTURES: Final = "textures"
 _ALL: Final = 17  # digits that tell any two figures apart
 _FIGURE: Final = re.compile(r'(?<=[\s"])-?\d+(?:\.\d+(?:e[-+]\d+)?|e[-+]\d+)(?=[\s"])')
-_DIGITS: Final = 10  # places of a vertex, in m: finer than the single precision that MuJoCo keeps it in
+_DIGITS: Final = 10  # decimals of a vertex, in m: finer than the single precision in which MuJoCo keeps it
 
 
 def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[str, bytes]:

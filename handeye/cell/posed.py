@@ -48,7 +48,7 @@ def _turns(model: mujoco.MjModel) -> dict[str, float]:
     return {figure.name.removeprefix(TURNS): 1 / float(figure.data[0]) for figure in hands}
 
 
-Posed = tuple[mujoco.MjModel, mujoco.MjData]  # a scene as it stands
+Posed = tuple[mujoco.MjModel, mujoco.MjData]  # a scene, and the state in which it is shown
 
 
 def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: float = 0.0) -> Posed:

@@ -69,7 +69,7 @@ class RayRenderer(SceneRenderer):
         model = self._model
         source, axis = data.light_xpos[index], data.light_xdir[index]
         directional = model.light_type[index] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
-        if directional:  # as good as parallel from 100 m, and the shadow is again a cast from one point
+        if directional:  # rays from 100 m away are almost parallel, and all of them come from one point
             source = points.mean(axis=0) - 100 * axis
         towards = source - points
         far = np.linalg.norm(towards, axis=1)
@@ -82,7 +82,7 @@ class RayRenderer(SceneRenderer):
         lit = amount > 0
         if self.shadows and model.light_castshadow[index]:
             _, met, _ = cast(model, data, source, -towards[lit])
-            amount[lit] *= met > far[lit] - 5e-4  # half a millimetre: a surface is not in its own shadow
+            amount[lit] *= met > far[lit] - 5e-4  # half a millimetre, so that a surface does not shade itself
         return np.asarray(amount + float(LUMA @ model.light_ambient[index]))
 
 

@@ -51,9 +51,11 @@ _BRIGHTEST: Final = 15  # intensity of a point
 class DefectState(Record, frozen=True, kw_only=True):
     """State of a defect."""
 
-    seconds: float | None = None  # since it began; None if it has not begun
+    seconds: float | None = None  # since the defect began; None if it has not begun
     first: bytes | None = None
-    """Value on its line when it began: a number, or the points of a picture. None if there was no value yet."""
+    """Value on the signal line when the defect began: a number, or the points of a picture. None if the line had no
+    value yet.
+    """
 
 
 class SignalLinesState(Record, frozen=True, kw_only=True):

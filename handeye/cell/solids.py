@@ -90,7 +90,7 @@ def _mesh(geom: mujoco.MjsGeom, mesh: str, shape: trimesh.Trimesh, colours: Arra
 
 
 def _joined(pieces: Sequence[tuple[trimesh.Trimesh, Array]]) -> tuple[trimesh.Trimesh, Array]:
-    """Join pieces with one colour each to one surface. Returns the surface, and the colours of its corners."""
+    """Join pieces, each of one colour, to form one surface. Returns the surface, and the colours of its corners."""
     loose = trimesh.util.concatenate([shape for shape, _ in pieces])
     assert isinstance(loose, trimesh.Trimesh)
     painted = np.concatenate([np.tile(colour, (len(shape.vertices), 1)) for shape, colour in pieces])

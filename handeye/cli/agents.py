@@ -61,8 +61,8 @@ def bench_agents(
     command: Annotated[
         str | None,
         Parameter(
-            help="The entrant: a command that is run in the folder of each task, reads brief.md there, and leaves its "
-            "program. `reference` and `trivial` are included with handeye."
+            help="The entrant: a command that is run in the folder of each task, reads brief.md there, and leaves "
+            "its program. The entrants `reference` and `trivial` are included with handeye."
         ),
     ] = None,
     attempt: Annotated[
@@ -98,7 +98,7 @@ def bench_agents(
     rounds: Annotated[
         WholeNumber,
         Parameter(
-            help="How often the command may be run for a task. It gets feedback before each run except the first."
+            help="How many times the command may be run for a task. It gets feedback before each run except the first."
         ),
     ] = 1,
     hidden: Annotated[
@@ -206,8 +206,8 @@ def _check(chosen: "list[BenchTask]", *, json: bool) -> int:
 def _scores(
     tasks: "list[BenchTask]", entrant: "Entrant | None", folder: Path, hidden: Path | None
 ) -> "list[TaskScore]":
-    """Let the entrant solve each task, then judge all solutions. The hidden seeds are read after that.
-    Raises BadFile at once if their file does not exist.
+    """Let the entrant solve each task, then read the hidden seeds, then judge all solutions. If the file of hidden
+    seeds does not exist, BadFile is raised before the first task.
     """
     from handeye.agents.bench_entrant import Effort, lost, solved, verdicts
     from handeye.agents.bench_result import scored
@@ -250,7 +250,9 @@ def _tell(task: str, verdict: "Verdict") -> None:
 
 
 def _seeds(task: "BenchTask", hidden: "HiddenSeeds | None") -> list[int]:
-    """The seeds of the worlds that judge a task; raises BadArgument if a file of hidden seeds has none for it."""
+    """The seeds of the worlds in which a task is judged. Raises BadArgument if the file of hidden seeds has none for
+    the task.
+    """
     if hidden is None or task.file.orders:
         return task.file.public
     if not hidden.seeds.get(task.name):

@@ -254,7 +254,7 @@ def _task_words(task: str, plan: Path | None) -> list[str]:
 
 
 def _again(trial: "Trial", command: list[str], options: list[str]) -> "Callable[[Row], str]":
-    """Return a function that gives the command to repeat the trial of a row."""
+    """Return a function that gives, for a row, the command that repeats its trial."""
     from msgspec.structs import replace
 
     from handeye.report.facts.again import sense_words, world_words

@@ -37,7 +37,7 @@ mcp = agents:mcp: Serve an agent (model context protocol over standard input and
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.
-export urdf = exports:urdf: Write the arm, as its drawing describes it, as URDF, and list its joints.
+export urdf = exports:urdf: Write the arm to a URDF file, as its drawing describes it, and list its joints.
 export lerobot = datasets:lerobot: Write runs as a data set for learned policies, in the format of LeRobot 3, with a data card; needs the extra `lerobot`.
 inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
 diff = scripts:diff: Compare what two plans do, step by step.
@@ -63,7 +63,7 @@ trials compare = batches:compare_trials: Compare batches of trials with a first 
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
-trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch what the missing one was for?
+trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch the faults for which the missing one was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
 trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 trials worst = rare:worst_trials: Find the nearest worlds in which a program fails, and the quantities that push it to fail.

@@ -206,7 +206,7 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
 
 
 def show_unreadable(file: Path, error: InvalidInput) -> None:
-    """Print as JSON, in place of diagnostics, why the script or the taught file cannot be used."""
+    """Print the reason why the script or the taught file cannot be used, as JSON, in place of diagnostics."""
     place = {"file": str(file), "line": 1, "column": 1, "end": 1, "text": ""}
     said = {"code": "unreadable-file", "severity": "error", "message": str(error), "file": str(file)}
     put_json([{**said, "primary": place, "secondary": [], "notes": [], "help": None}])

@@ -19,7 +19,7 @@ CONDITION: Final[dict[Shell, str]] = {"zsh": ", if its .zshrc calls compinit"}
 
 
 def register(app: App) -> None:
-    """Add the command to the command line that it completes."""
+    """Add the command that installs completion to the command line."""
 
     def install_completion(
         shell: Annotated[

@@ -27,7 +27,7 @@ def write_drawing(flow: "Flow", form: Drawing, output: Path | None, *, overwrite
 
 
 def write_text(text: str, output: Path | None, kind: Kind, *, overwrite: bool) -> None:
-    """Write a text to a file of some kind, or to standard output."""
+    """Write a text to a file of the given kind, or to standard output."""
     if output is None:
         put(text.encode())
     else:

@@ -75,7 +75,7 @@ def urdf(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Write the arm, as its drawing describes it, as URDF, and list its joints.
+    """Write the arm to a URDF file, as its drawing describes it, and list its joints.
 
     Exit code 0: written; 2: bad input.
     """

@@ -78,7 +78,7 @@ class Job:
     referee: bool = False
     listening: Sequence[Observer] = ()  # Observers that the system's own command adds
     then: Sequence[Then] = ()
-    """What to do next each time the referee accepts the work, in order."""
+    """What to do, in this order: each step begins when the referee has accepted the work before it."""
     planning_cpu_s: float = 0.0
 
 
@@ -111,8 +111,8 @@ class _Work:
         """The last checkpoint that was saved outside the folder of the run."""
 
     def _unnamed(self) -> UnnamedRun | None:
-        """A folder for a run for which the user named none. If it cannot be made, None: the run then continues without
-        a folder.
+        """A folder for the run, if the user named none. None if the folder cannot be made: the run then continues
+        without one.
         """
         home = runs_folder()
         if home is None:

@@ -96,7 +96,7 @@ def converse(
 
     Args:
         begin: function that begins the session. It is given two functions: one asks the user a question, the other
-            tells whether the panic button has been pressed.
+            returns whether the panic button has been pressed.
         echo: print questions even if the answers come from a pipe.
     """
     from handeye.cli.panic_button import PanicButton

@@ -81,8 +81,8 @@ def is_program(given: Path) -> bool:
 
 
 def _program(given: Path) -> "tuple[Path, Task] | None":
-    """The program with a name; None for a path. Raises NoSuchName if the text can only be a name, and no program
-    has it.
+    """The program with the given name; None if the text is a path. Raises NoSuchName if the text can only be a name,
+    and no program has it.
     """
     if not _is_name(given):
         return None

@@ -110,6 +110,6 @@ def _edit(words: Callable[[], Iterable[str]]) -> None:
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:
-    """The completion of a beginning, by its number from 0; None after the last completion."""
+    """The completion with this number, from 0, of a word that begins with `start`; None after the last completion."""
     found = sorted({word for word in words if word.upper().startswith(start.upper())})
     return f"{found[number]} " if number < len(found) else None

@@ -1,4 +1,4 @@
-"""`handeye check --prove`: what the end of a program rests on."""
+"""`handeye check --prove`: proves that a program ends only if its steps have shown that the work is right."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,7 +28,9 @@ PROOF: Final = Group("Proof", sort_key=1)
 class ProofOptions:
     """Options that `--prove` needs."""
 
-    graph: Annotated[Drawing | None, Parameter(help="With --prove: draw the proof instead.")] = None
+    graph: Annotated[
+        Drawing | None, Parameter(help="With --prove: draw the proof instead of printing it.")
+    ] = None
     output: Annotated[
         Path | None,
         Parameter(name=["--out", "-o"], help="File for the drawing. Default: standard output."),

@@ -48,11 +48,14 @@ class SampleOptions:
 
     n: Annotated[WholeNumber, Parameter(help=f"Number of runs of each level, at least {_LEAST}.")] = 250
     levels: Annotated[
-        WholeNumber, Parameter(help="Greatest number of levels. Each makes the failure ten times rarer.")
+        WholeNumber,
+        Parameter(
+            help="Greatest number of levels. Each level reaches worlds that are about ten times rarer."
+        ),
     ] = 6
     failure: Annotated[
         Literal["stopped", "silent"] | None,
-        Parameter(help="Look only for this kind of failure. Default: one after the other."),
+        Parameter(help="Look only for this kind of failure. Default: for both kinds, one after the other."),
     ] = None
     seed: FirstSeed = 0
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ANY_ERRORS
@@ -180,7 +183,7 @@ class _Search:
             write_over(self.options.out / page, content, PAGE)
 
     def name_first(self, files: "Sequence[str]") -> None:
-        """Name the command that runs the program in the first of some worlds in the folder."""
+        """Print the command that runs the program in the first of these worlds, given by their files in the folder."""
         if not files or self.options.out is None:
             return
         from handeye.report.facts.again import sense_words
@@ -203,9 +206,9 @@ ANY_SAMPLE: Final = SampleOptions()
 def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 
-    The worlds of the first level are those of seeds. Each further level is a sample of worlds in which the program
-    came closer to failing. The product of the shares of all levels estimates the probability; it is not a bound.
-    Whether the program fails in a world, only a run in this world decides.
+    The worlds of the first level are made from seeds. Each further level is a sample of the worlds in which the
+    program comes closer to failing: about a tenth of the level before it. The product of these shares estimates the
+    probability of the failure; it is not a bound. Only a run in a world decides whether the program fails there.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.

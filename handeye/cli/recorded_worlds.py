@@ -1,4 +1,4 @@
-"""Takes the world of a recorded run for another plan, to see how that plan would have done in the same world."""
+"""Runs another plan in the world of a recorded run, to see what that plan would have done there."""
 
 from pathlib import Path
 from typing import Final

@@ -8,7 +8,7 @@
 
   // -- where both runs stand --------------------------------------------------------------------------
 
-  /** The number of the leg at a time: the last leg that has begun by then, never the end itself. */
+  /** Return the index of the leg at the given time: the last leg that has begun by then, never the end itself. */
   function legAt(time) {
     let first = 0, behind = legs.length - 1;
     while (first < behind) {
@@ -18,7 +18,7 @@
     return Math.max(first - 1, 0);
   }
 
-  /** The time of a run, in s since it began, at a time on the common timeline. */
+  /** Convert a time on the common timeline to the time of one of the runs, in s since this run began. */
   function moment(leg, side, time) {
     const [begin, ...from] = legs[leg], [over, ...to] = legs[leg + 1];
     const share = over > begin ? Math.min(Math.max((time - begin) / (over - begin), 0), 1) : 0;
@@ -70,7 +70,7 @@
     history.replaceState(null, "", `#t=${now.toFixed(2)}`);
   }
 
-  /** Go to the next leg, or back: to the beginning of this one first, if it began a while ago. */
+  /** Go to the next leg, or back. Back leads first to the beginning of the present leg, unless it has just begun. */
   function skip(by) {
     const here = legAt(now);
     const next = by < 0 && now > legs[here][0] + 0.2 ? here : here + by;

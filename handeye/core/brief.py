@@ -6,7 +6,7 @@ from typing import Any, Final, TypeVar
 
 import msgspec
 
-_ITEMS: Final = 3  # of a collection that are shown
+_ITEMS: Final = 3  # items of a collection that are shown
 _TEXT: Final = 100  # characters of a text, or of a value that is not a record
 _DEPTH: Final = 3  # records within records
 LONGEST: Final = 1200  # characters: fifteen lines of 80

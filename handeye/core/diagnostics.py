@@ -42,7 +42,7 @@ class MissingMark(Record, frozen=True):
     mark: str
 
 
-Meant = SimilarName | KnownNames | MissingMark  # what was probably meant, for tools that correct it
+Meant = SimilarName | KnownNames | MissingMark  # what was probably meant; tools can insert it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,7 +126,7 @@ def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
 LOOKALIKES: Final = str.maketrans("OoIl", "0011")  # letters to digits
 MAX_LISTED: Final = 8  # known names
 MOST_COMPARED: Final = 500
-LONGEST_COMPARED: Final = 40  # characters; the search takes their square
+LONGEST_COMPARED: Final = 40  # characters; the time of the search grows with their square
 
 
 def quoted(name: str) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 
 FULL_TURN_DEG: Final = 360.0
 _NORMAL: Final = NormalDist()
-_RAREST: Final = 1e-15  # Probabilities are kept this far from 0 and 1, whose normal numbers are infinite
+_RAREST: Final = 1e-15  # Least distance of a probability from 0 and 1, whose normal numbers are infinite
 
 
 class Distribution(ABC):
@@ -21,16 +21,16 @@ class Distribution(ABC):
 
     __slots__ = ()
     name: ClassVar[str]
-    is_error: ClassVar[bool] = True  # scaled by the level of errors; False for the task's own range
-    widest: ClassVar[float] = inf  # Beyond this standard normal number, the value does not change any more
+    is_error: ClassVar[bool] = True  # True: the level of errors scales it. False: it is a range of the task.
+    widest: ClassVar[float] = inf  # Beyond this standard normal number, the value no longer changes
 
     @abstractmethod
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
         """Draw a value; `nominal` is the value without error."""
 
     def standard(self, rng: np.random.Generator) -> float | None:
-        """Draw the standard normal number from which `at` makes the value that `draw` would give. None: the value
-        is the same in every world.
+        """Draw the standard normal number for which `at` returns the value that `draw` would return. Returns None if
+        the value is the same in every world.
         """
         return None
 
@@ -161,7 +161,7 @@ class Choice(Distribution):
 
 
 def _standard(probability: float) -> float:
-    """Return the number that a standard normal number does not exceed with this probability."""
+    """Return the quantile of the standard normal distribution at this probability."""
     return _NORMAL.inv_cdf(min(max(probability, _RAREST), 1.0 - _RAREST))
 
 

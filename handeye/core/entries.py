@@ -25,7 +25,7 @@ OWN: Final = (
     "handeye.systems.sigma:ENTRY",
     "handeye.systems.ml:ENTRY",
     "handeye.systems.relay:ENTRY",
-)  # need no installed metadata
+)  # entries that need no installed metadata
 PLANNED: Final = "program"  # the system that executes plans of motions; the default
 
 Capability = Literal[
@@ -66,14 +66,14 @@ class Entry(Record, frozen=True, kw_only=True):
     help: str  # a one-line description
     system: str  # `module:NAME` of its `handeye.runs.system.System`
     can: tuple[Capability, ...] = ()
-    reasons: dict[Capability, str] = field(default_factory=dict)  # why it cannot, where that helps
+    reasons: dict[Capability, str] = field(default_factory=dict)  # why the system cannot do it
     commands: str = ""  # a line each: `NAME = MODULE:FUNCTION: SENTENCE`, as in `handeye/cli/commands.py`
     tasks: dict[str, str] = field(default_factory=dict)  # `module:NAME` of each of its tasks
     machines: dict[str, str] = field(default_factory=dict)  # `module:NAME` of an `ArmMachine`, by name
     sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     faults: str = ""
-    """`module:NAME` of a function that takes the name of a task and a world, and returns the kind of sweep and the
-    work of `handeye faults`. Empty if the system has no such trials.
+    """`module:NAME` of a function that takes a task's name and a world. It returns the kind of sweep, and the work
+    that `handeye faults` does for each fault. Empty if the system has no such trials.
     """
     programs: str = ""
     """`module:NAME` of a function that takes the name of a task, the name and text of a program, and a variant of the
@@ -81,9 +81,9 @@ class Entry(Record, frozen=True, kw_only=True):
     no such tasks, or if it runs plans of motions.
     """
     orders: str = ""
-    """`module:NAME` of a function that takes the name and text of a program. It returns what is wrong with the program
-    in some order of its concurrent tasks, the worst first: whether the program does not notice it, and a sentence.
-    Empty if the system cannot try every order.
+    """`module:NAME` of a function that takes the name and text of a program. It returns the problems that the program
+    has in at least one order of its concurrent tasks, the worst first. A problem has two values: True if the program
+    does not notice it, and a sentence. Empty if the system cannot try every order.
     """
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending

@@ -64,7 +64,7 @@ def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def fill_folder(path: Path, fill: Callable[[Path], None]) -> None:
-    """Replace a folder atomically by the one that `fill` makes at the place that it is given. If that fails, the old
+    """Replace a folder atomically. `fill` makes the new folder at the path that it is given. If that fails, the old
     folder stays.
     """
     place = Path(os.path.realpath(path))

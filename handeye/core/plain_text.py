@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Final
 
 _EXTRA_DECIMALS: Final = 6
-_SAME_DIGITS: Final = 1e-6  # share of the last digit: an error of computing up to this size does not round up
+_SAME_DIGITS: Final = 1e-6  # share of the last digit: a smaller rounding error does not round a number up
 
 
 def printable(text: str) -> str:

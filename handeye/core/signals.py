@@ -22,15 +22,15 @@ Handler = Callable[[int, FrameType | None], None]
 
 
 class ToldToEnd(KeyboardInterrupt):
-    """Raised by an ending signal other than Ctrl-C. At a prompt, Ctrl-C only drops the typed line; the other
-    signals end the program.
+    """Raised by a signal, other than Ctrl-C, that ends the program. At a prompt, Ctrl-C only drops the typed line; the
+    other signals end the program.
     """
 
 
 @contextmanager
 def heard(handler: Handler) -> Iterator[None]:
-    """Pass ending signals to a handler while the context is open. A signal that the process ignores, as after
-    `nohup`, stays ignored.
+    """Pass the signals that end the program to a handler while the context is open. A signal that the process ignores,
+    as after `nohup`, stays ignored.
     """
     before = {}
 

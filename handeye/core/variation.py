@@ -36,7 +36,7 @@ Seed = Annotated[int, msgspec.Meta(ge=0, le=LARGEST_SEED)]
 
 _LONG: Final = 10**40  # a number with more digits is not quoted in a message
 
-_NAMED: Final = 8  # more quantities that are set are not named but counted
+_NAMED: Final = 8  # if more quantities than this are set, a message gives only their number
 
 UNSOURCED: Final = "unsourced"
 """In a scale, this name stands for all quantities whose size has no source."""

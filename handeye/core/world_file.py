@@ -25,15 +25,15 @@ class WorldFile(Record, frozen=True, kw_only=True):
 
 
 def write_world(path: Path, file: WorldFile) -> None:
-    """Write a world to a file, completely or not at all. Raises InvalidInput if the file cannot be written, or is
-    something else than a world.
+    """Write a world to a file, completely or not at all. Raises InvalidInput if the file cannot be written, or if it
+    exists and does not hold a world.
     """
     write_over(path, msgspec.json.format(msgspec.json.encode(file), indent=1) + b"\n", WORLD_FILE)
 
 
 def read_world(path: Path) -> WorldFile:
-    """Read a world from a file. Raises InvalidInput if the file holds no world. Whether the world has these
-    quantities, only the table of its task says (`Variation.check`).
+    """Read a world from a file. Raises InvalidInput if the file holds no world. The function does not check whether
+    the task has these quantities; `Variation.check` does.
     """
     try:
         file = msgspec.json.decode(read_whole(path, _LARGEST), type=WorldFile)

@@ -36,7 +36,7 @@ this moment, and `action` is what the arm did in the tenth of a second after it.
 | `observation.force_share` | fraction of the servo periods in which force was estimated. The program estimates force only in guarded and compliant motions; elsewhere, the force is 0 and means nothing | |
 | `observation.picture_age` | time since the last television picture was taken; -1 before the first one | s |
 | `action` | positions at the end of the next frame, as the sensors will read them | rad, m |
-| `annotation.stage`, `annotation.instruction` | stage and instruction of the arm program that make the action; empty between two | |
+| `annotation.stage`, `annotation.instruction` | stage and instruction of the arm program that make the action; empty between two instructions | |
 | `annotation.outcome` | outcome of the whole episode | |
 | `next.done`, `next.success` | true in the last frame; success only if the outcome is `right` | |
 {pictures}
@@ -46,7 +46,7 @@ what the referee found wrong, and the versions of the programs.
 ## What it does not show
 
 - The runs are simulated. No measurement compares them with a real arm.
-- The demonstrator is a program that uses sensors only; it is no optimum. The state of the parts is not in the data.
+- The demonstrator is a program that uses sensors only; it is not optimal. The state of the parts is not in the data.
 - While the brakes hold the arm, the sensors are read at most four times a second; the frames then repeat the last reading.
 - The finger switches and the torque of the screwdriver are recorded only while a guard watches them, so they are not in the data.
 - The outcome of an episode is known only at its end. A policy must not be given `annotation.outcome` as an observation.

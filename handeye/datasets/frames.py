@@ -34,8 +34,8 @@ NO_PICTURE: Final = -1  # number of the picture, and its age (s), before the fir
 class Frames:
     """A run as K frames, of an arm with n joints. Joint positions are in rad, or m if prismatic.
 
-    The positions of a frame are those of the joints, then the opening of the fingers (m). The sensors are not read
-    while the brakes hold the arm for longer; then the last reading stands for the frame.
+    The positions of a frame are those of the joints, then the opening of the fingers (m). While the brakes hold the
+    arm for several servo periods, the sensors are not read. A frame in this time has the last reading.
     """
 
     times: Array  # moments of the frames, s since the program began, shape (K,)

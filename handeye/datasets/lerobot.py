@@ -119,7 +119,7 @@ def _fill(
                 use_videos=pictures,
             )
         elif trace.motion.names != joints:
-            raise Refused(f"the run in {run} has another arm than the runs before it")
+            raise Refused(f"the run in {run} uses a different arm from the runs before it")
         goal = any_task(trace.head.task).words.done
         for frame in lerobot_frames(frames, trace, episode, pictures=pictures):
             dataset.add_frame({**frame, "task": goal})

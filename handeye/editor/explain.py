@@ -198,7 +198,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE P\nOPEN 1\nTOUCH 3\nCHANGE X 1\nSKIPN 25 ;a finger touches it\nWAIT "NOTHING THERE"\nPARK',
     ),
     errors.PART_NOT_SEEN: Remedy(
-        "Nothing of the part's size is visible in the picture: ask the operator for the part.",
+        "No object of the part's size is visible in the picture: ask the operator for the part.",
         'LOOK V\nGENERAL BASE V\nSKIPN 30 ;it is there\nWAIT "PUT A BASE ON THE TABLE"\nMOVE P',
     ),
     errors.FEATURES_NOT_SEEN: Remedy(

@@ -191,7 +191,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             InvalidInput: no episode has begun.
         """
         if self._runner is None:
-            raise Refused("an episode has facts after `reset`")
+            raise Refused("there are no facts before the first `reset`")
         memory = self._runner.context.state
         links = memory.drive.links
         return Facts(

@@ -120,7 +120,7 @@ class Evaluation:
 
 
 class OutcomeShare(Record, frozen=True, kw_only=True):
-    """How many episodes had an outcome."""
+    """How many episodes ended with one of the outcomes."""
 
     outcome: str
     episodes: int

@@ -89,7 +89,7 @@ class Policy:
 
 
 class RandomPolicy(Policy):
-    """Draws every component of every action uniformly, except that it says done in one of a thousand steps."""
+    """Draws every component of every action uniformly. In one of a thousand steps, it reports that the work is done."""
 
     def __init__(self, facts: Facts) -> None:
         super().__init__(facts)
@@ -154,8 +154,8 @@ def check_policy(name: str, maker: PolicyMaker, environment: str, action: Action
 
 
 def played(policy: Any, episode: Episode) -> None:
-    """Let a policy play an episode to its end. A policy that ends earlier has not said done: it holds still until
-    the time limit.
+    """Let a policy play an episode to its end. If the policy ends before the episode, the arm holds still until the
+    time limit: the policy has not reported that the work is done.
     """
     try:
         if hasattr(policy, "play"):

@@ -26,8 +26,8 @@ def controlled(run: ExecutionContext, controller: Controller, most: int) -> tupl
     """Let a controller command servo periods until it ends, but at most `most` periods, and then set the brakes until
     the arm stands. Returns the commands.
 
-    The steps before cannot be undone any more, because a reversal would begin where the last step ended. The
-    program assumes no longer that nothing touches the hand.
+    Earlier steps can no longer be undone, because a reversal would begin where the last step ended. The program no
+    longer assumes that nothing touches the hand.
     """
     drive, effort, commands = run.drive, constants(run.arm).effort, list[CommandedPeriod]()
     while len(commands) < most and (command := controller(drive.sensed)) is not None:
@@ -45,7 +45,7 @@ def controlled(run: ExecutionContext, controller: Controller, most: int) -> tupl
 
 
 def _command_devices(run: ExecutionContext, command: CommandedPeriod) -> None:
-    """Set what fingers and screwdriver shall do in the next servo period."""
+    """Set the commands to the fingers and the screwdriver for the next servo period."""
     state = run.drive.state
     state.gap, state.grip, state.magnet = command.gap, command.grip, command.magnet
     if state.tool != command.driver:

@@ -14,7 +14,7 @@ from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.touch.guards import Monitor
 
 _STANDS: Final = 0.1
-"""Time (s) in which the brakes bring the arm to rest. Chosen."""
+"""Time (s) in which the brakes bring the arm to rest. Our choice."""
 
 
 @dataclass(slots=True, kw_only=True)

@@ -28,7 +28,7 @@ from handeye.ports.workcell import Workcell
 from handeye.program.diagnosis.cause_text import cause_sentence
 
 RAMP: Final = 0.1  # s to reach the constant rate, and again until the servo has compensated friction; chosen
-MIN_TRAVEL: Final = 0.5  # fraction of its range that a joint must move, or it is stuck; chosen
+MIN_TRAVEL: Final = 0.5  # least fraction of the commanded path; a joint that moves less is stuck; chosen
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 

@@ -159,10 +159,10 @@ class Servo:
         bias = here.bias + friction
         tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, before.qd, exerted=load + dither)
         effort = constants(self.arm).effort
-        tau = tau.clip(-effort, effort)  # else torque that the drives cannot give would be sensed as force
+        tau = tau.clip(-effort, effort)  # without this, excess torque would be sensed as force
 
         def feel(after: Sensed) -> None:
-            # gravity and Jacobian where the arm is, not at its set-point: under a force it gives way
+            # gravity and Jacobian where the arm is, not at its set-point: a force pushes the arm off its set-point
             there = self.chain.at_rest((q_was + self.state.here) / 2)
             bias_so = here.bias + there.bias - self.chain.gravity(q) + friction
             felt = felt_wrench(here.M, bias_so, there.J, tau, before.qd, after.qd, self.period)

@@ -47,15 +47,15 @@ _AT_ONCE = 15
 .25 s.
 """
 LIGHT = 5.0
-"""Greatest load (N) with which the drag of joints is judged. Losing a heavier load would look like drag above the
-limit. Chosen.
+"""Greatest load (N) with which the drag of joints is judged. If the hand lost a heavier load, the loss would look like
+drag above the limit. The load is our choice.
 """
 SWING = 0.3
-"""A joint swings if it has been off its set-point on both sides by at least this fraction of the limit. A joint
-that is stopped is off only on one side. Chosen.
+"""A joint swings if it has been off its set-point on both sides by at least this fraction of the limit. A joint that
+is stopped is off only on one side. The fraction is our choice.
 """
 PRESS_TIME = 10.0
-"""Time (s) after which a pressing motion ends if it neither advances nor trips its guard. Chosen."""
+"""Time (s) after which a pressing motion ends if it neither advances nor trips its guard. Our choice."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -17,7 +17,7 @@ from handeye.execution.servo_loop import Outcome
 from handeye.ports.axes import Axes, AxesReading, AxisSpec, Channel
 
 SPEED: Final = 0.2  # m/s. At this speed, up to 7 N are sensed in free air; at .025 m/s, 2.5 N.
-TURNING: Final = 1.0  # rad/s. Chosen.
+TURNING: Final = 1.0  # rad/s; our choice
 FORCE: Final = Channel(name="force", unit="N", width=3)
 MOMENT: Final = Channel(name="moment", unit="N m", width=3)
 TOUCH: Final = Channel(name="touch", width=2)

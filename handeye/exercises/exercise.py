@@ -66,7 +66,9 @@ class Grade(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """0: right in every case; 1: not; 3: a silent failure in some case."""
+        """0: right in every case; 1: not right in every case, but without a silent failure; 3: a silent failure in
+        some case.
+        """
         if not self.failures:
             return 0
         return 3 if self.failures[0].standing == "silent" else 1

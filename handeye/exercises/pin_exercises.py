@@ -18,9 +18,9 @@ TOUCH: Final = PinExercise(
     name="touch",
     session=1,
     title="stand the pin on the plate, gently",
-    brief="The hand holds the pin about .13 in over the face of the plate; how far exactly, differs from world to "
+    brief="The hand holds the pin about .13 in over the face of the plate; the exact distance differs from world to "
     "world. Move the pin down until it stands on the face, and stop there. A motion by a fixed distance stops above "
-    "the face in some worlds and presses in others.",
+    "the face in some worlds, and presses on the face in others.",
     start="touch.al",
     worlds=(PinWorlds(seeds=range(20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}),),
     most_force=MOST_FORCE,
@@ -48,7 +48,7 @@ FIND: Final = PinExercise(
     hints=(
         (
             "called the operator",
-            "Where the pin stands on the face, error 23 does not occur. Begin a SEARCH there.",
+            "If the pin stands on the face, error 23 does not occur. Begin a SEARCH at that place in the program.",
         ),
         (
             "reported success",
@@ -88,7 +88,8 @@ HONEST: Final = PinExercise(
     hints=(
         (
             "reported success",
-            "Follow each way to the end of the program. Which one does not measure that the pin is in?",
+            "Follow each path to the end of the program. On which path does the program not measure that the pin "
+            "is in?",
         ),
         ("called the operator", "The hole was within reach here. Search more places before you give up."),
     ),

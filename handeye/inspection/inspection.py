@@ -118,7 +118,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     """The guards and the exerted force, in the words and units of the language."""
     depends: tuple[Dependence, ...]
     error: int | None
-    """The error for which the step tests."""
+    """The error that the step tests for."""
     raised: int | None
     """The step that follows if the tested error was raised. None if the program then ends, or if the step tests for
     no error.

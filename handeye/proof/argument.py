@@ -155,7 +155,7 @@ def _undecided(
 ) -> Diagnostic:
     first = claims[0]
     says = said_of(first.says, [first])
-    silent = f"the program may end without noticing that `{finding.finding}` does not hold"
+    silent = f"the program can end without noticing that `{finding.finding}` does not hold"
     undecided = f"it cannot be decided whether {silent}"
     if first.too_many:
         span = _span(source, program.steps[-1])

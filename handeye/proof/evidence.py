@@ -163,7 +163,7 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class HeightWithin(Evidence, frozen=True, kw_only=True):
-    """A HEIGHT after a contact, over the height of another contact, with a range (m) within limits."""
+    """A HEIGHT after a contact, measured from the height of another contact. Its range (m) lies within limits."""
 
     operations: ClassVar = (Height,)
 
@@ -185,7 +185,7 @@ class HeightWithin(Evidence, frozen=True, kw_only=True):
 
 
 class TravelWithin(Evidence, frozen=True, kw_only=True):
-    """A TRAVEL after a contact, with a range (m) within limits."""
+    """A TRAVEL after a contact, whose range (m) lies within limits."""
 
     operations: ClassVar = (Travel,)
 

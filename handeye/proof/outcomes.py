@@ -1,8 +1,8 @@
 """The paths through a program, as a graph in which every action has one edge for each outcome.
 
-An action either succeeds or raises one of its errors. A raised error leads to the tests behind the action, as the
-executor leads it there: if one of them tests for this error, the path continues at that test's target. Otherwise, the
-arm stops. A call to the operator is a stop, too.
+An action either succeeds or raises one of its errors. A raised error leads to the tests that follow the action, as in
+the executor. If one of them tests for this error, the path continues at that test's target. Otherwise, the arm stops.
+A call to the operator is a stop, too.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from handeye.program.flow_operations import Assign, Countdown, Test, Undo
 from handeye.program.operation import Operation
 from handeye.program.program import Step
 
-END: Final = -1  # the node behind the last step
+END: Final = -1  # the node after the last step
 SUCCESS: Final = 0  # the outcome of an action that raises no error
 ALWAYS: Final = frozenset({errors.WATCHDOG, errors.GAP_WRONG})
 """Errors that any action may raise, because the servo or the hand can raise them during the action."""

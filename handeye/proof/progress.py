@@ -18,8 +18,8 @@ UNREACHED: Final = 127
 
 @dataclass(frozen=True, slots=True)
 class Effects:
-    """What the steps of a program do to a claim. With `generous`, a step whose place is not known shows the claim and
-    does not undo it; without, it does not show it and undoes it.
+    """What the steps of a program do to a claim. With `generous`, a step whose place is not known counts as showing
+    the claim, and never as undoing it. Without, such a step counts as undoing the claim, and never as showing it.
     """
 
     claim: Claim

@@ -65,7 +65,7 @@ def way_without(graph: OutcomeGraph, effects: Effects, live: list[frozenset[str]
 
 
 def _counted(graph: OutcomeGraph, state: _State, edge: Edge) -> Counters | None:
-    """Return the counters behind an edge; None if their values forbid the edge."""
+    """Return the counters after an edge; None if their values forbid the edge."""
     operation = graph.step(state.node).operation
     if isinstance(operation, Assign):
         return tuple(sorted({**dict(state.counters), operation.counter: operation.value}.items()))

@@ -70,8 +70,8 @@ def _readme(exhibit: ExportedState, about: str) -> str:
 This shows {shows(exhibit)}.
 
 `{SCENE}` is a MuJoCo model that needs only the folders next to it:
-`mujoco.MjModel.from_xml_path("{SCENE}")`. The state shown is both its last keyframe, `{exhibit.moment}`,
-and its initial state. Lengths are in m, angles in rad, masses in kg. World frame:
+`mujoco.MjModel.from_xml_path("{SCENE}")`. Its last keyframe, `{exhibit.moment}`,
+is the state shown; the model also begins in this state. Lengths are in m, angles in rad, masses in kg. World frame:
 origin at a corner of the table, z up, table top z = 0. The texts in `<custom>` give the same facts to programs:
 `moment` (`drawn`, `final` or `unfinished`), `shows`, and `world`.
 

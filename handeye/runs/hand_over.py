@@ -22,11 +22,13 @@ from handeye.program.world_model import rounded_place
 from handeye.vision.calibration import Calibration
 
 MOVED: Final = 3e-3
-"""Distance (m) by which the hand may be off its place in the record. Chosen: brakes let the hand sink by less."""
-TURNED: Final = 0.02  # rad by which the hand may be turned. Chosen.
+"""Distance (m) by which the hand may be off its place in the record. Our choice: under the brakes, the hand sinks by
+less.
+"""
+TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
-"""Change (m) of the gap up to which the hand still holds the same part. Chosen: a part that straightens between the
-fingers changes the gap by up to 1.1 mm / 2 each way.
+"""Change (m) of the gap up to which the hand still holds the same part. Our choice: a part that straightens between
+the fingers changes the gap by up to 1.1 mm / 2 each way.
 """
 MOST_NAMES: Final = 200
 
@@ -55,7 +57,10 @@ class HandOver(Record, frozen=True, kw_only=True):
                 f"the hand-over record is in {', '.join(self.units)}; it must be in {', '.join(UNITS)}"
             )
         if len(self.hand) != SIZES["place"] or not np.isfinite([*self.hand, self.gap, self.load]).all():
-            raise Refused("the hand, gap and load of the hand-over record must be eight finite numbers")
+            raise Refused(
+                "the hand-over record must give the hand as six finite numbers, and the gap and the load as one "
+                "each"
+            )
         if sum(map(len, self.named.values())) > MOST_NAMES:
             raise Refused(f"the hand-over record has more than {MOST_NAMES} names")
         for kind, values in self.named.items():

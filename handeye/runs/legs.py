@@ -41,7 +41,7 @@ class RunningLeg(RunningSystem):
 
     @abstractmethod
     def stand_at(self, stage: str) -> None:
-        """Stand at the first step of a stage, unless the program already stands in this stage."""
+        """Go to the first step of a stage, unless the program is already in this stage."""
 
     @abstractmethod
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
@@ -51,13 +51,13 @@ class RunningLeg(RunningSystem):
 
     @abstractmethod
     def leave(self, record: HandOver | None) -> HandOver:
-        """Set the brakes, and return the record for the next leg. The new record keeps the values of the last one that
-        this program does not know.
+        """Set the brakes, and return the record for the next leg. The new record also keeps those values of the
+        previous record that this program does not know.
         """
 
     def take_back(self, station: StationMemory) -> None:
         """Take the arm back from the program of the next leg, which has undone its steps. The arm stands about where
-        this program left it. Only a program that can undo its own steps has to do so.
+        this program left it. Only a program that can undo its own steps needs this method.
         """
         raise NotImplementedError
 
@@ -120,8 +120,8 @@ class LegSystem(ABC):
         return ()
 
     def lacks(self, plan: Record, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        """Return what a stage demands that a leg cannot do. `earlier` has the stages that earlier legs of the same
-        program do.
+        """Return the demands of a stage that a leg cannot meet. `earlier` gives the stages that earlier legs of the
+        same program execute.
         """
         return ()
 
@@ -135,7 +135,9 @@ class LegSystem(ABC):
 
 
 def leg_system(name: str) -> LegSystem:
-    """Return what lets a system do legs. Raises Refused if the system cannot, NoSuchName if there is none."""
+    """Return the `LegSystem` of the system called `name`. Raises Refused if the system cannot do legs, and NoSuchName
+    if there is no such system.
+    """
     require(name, "leg")
     found: LegSystem = loaded(entry_named(name).leg)
     return found

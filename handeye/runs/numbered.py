@@ -95,4 +95,4 @@ class NumberedRun(RunningSystem):
 
     @abstractmethod
     def _set(self, what: str, name: str, number: float) -> None:
-        """Set a value that has been found among the settables."""
+        """Set a value. The caller has checked that it is one of the settable values."""

@@ -15,8 +15,9 @@ class Observer:
         """Called when a servo period has passed."""
 
     def undone(self, events: int) -> None:
-        """Called when the run has gone back to an earlier state. Only its first `events` events have happened
-        until then; the later ones are undone."""
+        """Called when the run has gone back to an earlier state. The first `events` events of the run remain; all
+        later ones are undone.
+        """
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         """Called when a state that should be kept has been reached."""

@@ -27,7 +27,7 @@ class Setup(Record, frozen=True, kw_only=True):
         """Name of the task in the plan. Raises BadFile if the plan does not name a task."""
         name = getattr(self.plan, "task", None)
         if not isinstance(name, str):
-            raise BadFile(f"a plan of {entry_named(self.system).title} does not name its task")
+            raise BadFile(f"the plan for {entry_named(self.system).title} does not name its task")
         return name
 
 

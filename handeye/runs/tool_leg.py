@@ -55,7 +55,7 @@ class ToolArm:
         return round(round(self.drive.sensed.time / period) * period, 6)
 
     def take_over(self, record: HandOver, station: StationMemory) -> None:
-        """Hold the arm as it stands, and a part as the record says."""
+        """Hold the arm where it stands, and hold the part that the record names, if it names one."""
         memory, drive = self.memory, self.memory.drive
         drive.friction, drive.links, drive.weights = station.friction, station.links, station.weights
         drive.hold_anew(self.cell.devices.sense(), self.arm)
@@ -88,7 +88,9 @@ class ToolArm:
 
     @property
     def station(self) -> StationMemory:
-        """What the station knows of itself: only the program of 1973 improves the weights and uses the camera."""
+        """What the station knows of itself. It stays as it was taken over, because only the program of 1973 improves
+        the weights and uses the camera.
+        """
         return self.memory.station
 
     def hand_over(
@@ -146,7 +148,8 @@ class ToolLeg(RunningLeg):
 
     def begin(self) -> Sequence[AnyEvent]:
         raise Refused(
-            "the first leg of a relay must be one of the system of 1973, which measures the joints of the arm"
+            "the first leg of a relay must be a program of the system of 1973, because only this system measures "
+            "the joints of the arm"
         )
 
     def stand_at(self, stage: str) -> None:

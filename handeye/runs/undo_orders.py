@@ -85,7 +85,7 @@ def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> 
     runner.repeat(happened)
     if runner.events[: len(happened)] != list(happened):
         raise Refused(
-            f"repeated here, the steps of {name} after its newest checkpoint give a different result; `handeye resume "
-            f"{name}` continues from the newest checkpoint"
+            f"the steps of {name} after its newest checkpoint give a different result when they are repeated here; "
+            f"`handeye resume {name}` continues from the newest checkpoint"
         )
     return runner.checkpoint()

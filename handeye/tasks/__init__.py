@@ -152,7 +152,7 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """Return, for each of handeye's own tasks and each task of its systems, from where it is imported."""
+    """For each of handeye's own tasks and each task of its systems, return where it is imported from."""
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 
 

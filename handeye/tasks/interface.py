@@ -223,7 +223,7 @@ class Task(AnyTask):
 
     def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
         """Return what a program must show before it ends, finding by finding of the referee; none by default. Each
-        finding occurs once. The world says what the job is, not how its errors are."""
+        finding occurs once. The obligations depend on the job of the world, but not on its errors."""
         return ()
 
     def disturbances(self) -> tuple[Disturbance, ...]:

@@ -90,7 +90,7 @@ def _differing(a: Any, b: Any, name: tuple[str, ...] = ()) -> Iterator[Found]:
         yield name, a, b
 
 
-# -- what the messages of each channel tell --------------------------------------------------------------
+# -- what the messages of each channel say ---------------------------------------------------------------
 
 
 def _joints(data: bytes) -> dict[str, Any]:

@@ -71,7 +71,7 @@ def done_steps(events: Iterable[AnyEvent]) -> Iterator[DoneStep]:
 
 
 BROKEN_OFF: Final = "broken off"
-Status = Literal["done", "stopped", "skipped", "broken off", "turned"]  # `turned`: the arm went the other way
+Status = Literal["done", "stopped", "skipped", "broken off", "turned"]  # `turned`: the arm turned back
 
 
 class Stage(Record, frozen=True, kw_only=True):

@@ -100,7 +100,7 @@ class Moment:
     force: Array | None  # force that the hand exerts on the world, shape (3,), N; None: it is not estimated
     joints: Array  # shape (n,), rad and m
     channels: Array  # components of the system's channels, shape (k,), SI; NaN: nothing was sensed yet
-    poses: Poses  # poses of all bodies, shape (m, 7): place (m), quaternion w, x, y, z; NaN: not there
+    poses: Poses  # poses of all bodies, shape (m, 7): place (m), quaternion w, x, y, z; NaN: absent
 
     @cached_property
     def packed(self) -> bytes:

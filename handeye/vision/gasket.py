@@ -3,7 +3,7 @@
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference
 wherever the base or the gasket has a hole, so a displaced gasket shows the *union* of the two holes. The centre of
 the union moves by only half the displacement, but its border moves on one side by all of the displacement.
-Therefore both the centre and the rim are tested. If the gasket lies right, `gasket_sheet` checks that it is whole.
+Therefore both the centre and the rim are tested. If the gasket is in its place, `gasket_sheet` checks that it is whole.
 """
 
 import math
@@ -173,7 +173,7 @@ class _Steps(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Check:
-    """Result for one hole; `fault` is None if the gasket lies right at this hole."""
+    """Result for one hole; `fault` is None if the gasket is in its place at this hole."""
 
     fault: BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | None = None
     base: Array | None = None  # centre of the hole of the base, m, shape (3,)

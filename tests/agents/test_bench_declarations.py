@@ -32,7 +32,7 @@ def test_a_change_that_fits_nowhere_or_twice_is_refused(tmp_path: Path) -> None:
     (tmp_path / "given/a.al").write_text("OPEN 1\nOPEN 1\n")
     for old in ("CLOSE 1", "OPEN 1"):
         made = files(tmp_path, given_b=Derived(source="given/a.al", changes=[(old, "")]))
-        with pytest.raises(BadFile, match=rf"given/b\.al: `{old}` does not occur once in given/a\.al"):
+        with pytest.raises(BadFile, match=rf"given/b\.al: `{old}` must occur exactly once in given/a\.al"):
             made.read("given")
 
 

@@ -1,4 +1,4 @@
-"""What the language tests share: a few taught names, and ways to compile and to walk a program."""
+"""What the language tests share: a few taught names, and functions that compile a program and follow its steps."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -70,9 +70,8 @@ def only(text: str, kind: type) -> object:
 
 
 def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[str]:
-    """Statements in the order to which the compiler's graph leads, when each raises, in turn, the errors given.
-
-    It shows what the compiler makes of a text. It is not the executor, and shows nothing of how that goes.
+    """Return the statements in the order in which the compiler's graph leads to them, if each raises the given errors,
+    one at each visit. This tests the compiler, not the executor.
     """
     errors = {text: list(numbers) for text, numbers in raised.items()}
     trace: list[str] = []
@@ -100,7 +99,7 @@ _WHERE = ("span", "start", "end", "line")
 
 
 def said(tree: object) -> object:
-    """What a syntax tree says, wherever it stands."""
+    """Return the content of a syntax tree, without its places in the text."""
     if isinstance(tree, tuple):
         return tuple(map(said, tree))
     if isinstance(tree, dict):

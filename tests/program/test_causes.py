@@ -183,7 +183,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     (s.PictureBlank(picture="WIDE"), "picture WIDE has the same intensity everywhere"),
     (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
     (c.NoGeneral(), "no earlier GENERAL found the part"),
-    (c.NoOutline(), "nothing of the part's size stands out from the background where the part should be"),
+    (c.NoOutline(), "no object of the part's size stands out from the background where the part should be"),
     (c.OutsidePicture(), "the part is not in the field of the close picture: is the camera aimed at it?"),
     (
         c.FaintPicture(contrast=1.734, least=3.3),

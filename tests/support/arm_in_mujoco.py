@@ -1,4 +1,4 @@
-"""An arm in MuJoCo, made from the figures of its model alone: an independent judge of what we compute."""
+"""An arm in MuJoCo, made from the figures of its model alone. Our own computations are compared with it."""
 
 import mujoco
 import numpy as np
@@ -37,7 +37,7 @@ def postures(arm: ArmModel, count: int, seed: int = 1) -> np.ndarray:
 
 
 def _turn(joint: Joint) -> np.ndarray:
-    """What stands between the frames of a joint and of the next, its own motion apart."""
+    """The fixed transform from the frame of a joint to the next frame, without the joint's own motion."""
     return rotation_z(joint.theta) @ rotation_x(joint.alpha)
 
 

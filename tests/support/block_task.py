@@ -1,4 +1,4 @@
-"""The second task: one block is picked up and put down on a table by a small Cartesian arm that knows nothing else."""
+"""The second task: a small Cartesian arm picks up one block, and puts it down on a table."""
 
 from dataclasses import replace
 from functools import cache
@@ -33,7 +33,7 @@ from handeye.tasks.interface import Task, Words
 
 SCRIPT: Final = Path(__file__).with_name("block.al")
 EDGE: Final = 1.2
-"""Of the block, in."""
+"""Edge of the block, in."""
 HALF: Final = EDGE / 2 * INCH
 """m."""
 FOOT: Final = HALF / 4
@@ -41,7 +41,9 @@ FOOT: Final = HALF / 4
 GOAL: Final = np.array([30.0, 30.0]) * INCH
 """Where the block is to stand, x and y, m."""
 STIFF: Final = [0.003, 1.0]
-"""Of contacts with the block, else the fingers sink .05 in into it: s, damping ratio."""
+"""Time constant (s) and damping ratio of contacts with the block. With softer contacts, the fingers sink .05 in into
+it.
+"""
 PLACE: Final = (
     0.3  # in: .2 across the finger line, where the hand feels nothing, and what is off with the arm
 )
@@ -81,7 +83,7 @@ class Block(Task):
         world = VARIATION.draw(spec)
         scene = mujoco.MjSpec.from_string(CARTESIAN_MJCF)
         scene.option.timestep = 1 / 960
-        scene.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC  # else what is held creeps out of the fingers
+        scene.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC  # without it, a held block creeps away
         scene.option.impratio = 10
         scene.worldbody.add_camera(name="studio", pos=[0.6, -1.2, 1.0], xyaxes=[1, 0, 0, 0, 0.4, 0.9])
         scene.worldbody.add_geom(
@@ -123,7 +125,7 @@ class Block(Task):
 
 
 def _boxes(thickness: float) -> list[tuple[list[float], float]]:
-    """Half sizes, and height of the middle, of the boxes that a block of some thickness (m) is made of."""
+    """Return the boxes of a block of the given thickness (m): their half sizes, and the heights of their middles."""
     if thickness > 2 * HALF - 1e-9:
         return [([HALF] * 3, HALF)]
     return [([HALF, HALF, FOOT], FOOT), ([HALF, thickness / 2, HALF - FOOT], HALF + FOOT)]
@@ -146,7 +148,9 @@ tasks.register(BLOCK)
 
 @cache
 def block_plan(script: str | None = None) -> Plan:
-    """The plan of a script for the small arm, with the positions beside this file; of the script there if none."""
+    """Return the plan of a script for the small arm, with the positions in `block.toml`. By default, the script is
+    `block.al`.
+    """
     source = read_source(SCRIPT) if script is None else Source(name="small.al", text=script)
     program, problems = compile_text(source, load_taught(SCRIPT.with_suffix(".toml")))
     assert program is not None, problems
@@ -156,7 +160,7 @@ def block_plan(script: str | None = None) -> Plan:
 
 
 def block_run(script: str, seed: int = 0, **set: float) -> Runner:
-    """A run of a script in the drawn world of a seed, with some quantities set (SI), that has not begun."""
+    """Return a run that has not begun, of a script in the world of a seed, with some quantities set (SI)."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=set))
     setup = Setup(plan=block_plan(script), world=world, camera="ray")
     return Runner(Checkpoint(setup=setup))

@@ -1,6 +1,5 @@
-"""A Chromium without a window, driven through a pair of pipes: for checks of pages that a person would open.
-
-It needs a Chromium on this machine: `HANDEYE_CHROMIUM`, or one on the path.
+"""A Chromium without a window, controlled through a pair of pipes, for tests of pages. It needs a Chromium on this
+computer: the one that `HANDEYE_CHROMIUM` names, or one on the path.
 """
 
 import base64
@@ -29,7 +28,7 @@ PATIENCE = 120.0
 
 
 class NoChromium(Exception):
-    """There is none, or it does not answer."""
+    """There is no Chromium, or it does not answer."""
 
 
 def chromium() -> str:
@@ -46,14 +45,14 @@ def chromium() -> str:
 
 @dataclass
 class Pipe:
-    """Commands to a browser and what it answers: JSON, each with a zero byte behind it."""
+    """Commands to a browser, and its answers: JSON, each followed by a zero byte."""
 
     write: int
     read: int
     number: int = 0
     buffer: bytes = b""
     heard: list[dict[str, Any]] = field(default_factory=list)
-    """What it told without having been asked."""
+    """Messages that the browser sent without being asked."""
 
     def ask(self, method: str, session: str | None = None, **words: Any) -> dict[str, Any]:
         """The answer to a command.
@@ -118,7 +117,7 @@ class Page:
         return value
 
     def screenshot(self) -> bytes:
-        """What is to be seen, as a PNG file."""
+        """Return a picture of the page as a PNG file."""
         return base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"])
 
     def press(self, x: float, y: float, *way: tuple[float, float], button: str = "left") -> None:
@@ -149,7 +148,7 @@ class Page:
         self.ask("Input.dispatchKeyEvent", type="keyUp", key=name)
 
     def resize(self, width: int, height: int) -> None:
-        """Make the window so large."""
+        """Change the size of the window."""
         self.ask(
             "Emulation.setDeviceMetricsOverride",
             width=width,
@@ -160,7 +159,7 @@ class Page:
 
     @property
     def errors(self) -> list[str]:
-        """What went wrong, by the page's console."""
+        """Errors in the page's console."""
         found = []
         for told in self._told():
             words = told["params"]
@@ -174,13 +173,13 @@ class Page:
 
     @property
     def requests(self) -> list[str]:
-        """What it asked the network or the disk for; what it carries with it is left out."""
+        """Addresses that the page requested from the network or the disk, without data in the page itself."""
         asked = [told for told in self._told() if told["method"] == "Network.requestWillBeSent"]
         urls = [told["params"]["request"]["url"] for told in asked]
         return [url for url in urls if not url.startswith(("data:", "blob:"))]
 
     def _told(self) -> Iterator[dict[str, Any]]:
-        self.evaluate("0")  # what it has told by now is heard
+        self.evaluate("0")  # all messages sent so far are read now
         return (told for told in self.pipe.heard if told.get("sessionId") == self.session)
 
 

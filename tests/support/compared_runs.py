@@ -1,4 +1,4 @@
-"""Runs of a small arm that are kept, to be compared: a block is reached, grasped, lifted and put down."""
+"""Recorded runs of a small arm, for comparison. The arm grasps a block, lifts it, and puts it down."""
 
 from pathlib import Path
 from typing import Final
@@ -29,7 +29,7 @@ SCRIPT: Final = """TRANS ABOVE [20 24 1.2 90 90 0]
 
 
 def kept(folder: Path, start: Checkpoint) -> RecordedRun:
-    """A run to its end, or to where it stops, kept in a folder."""
+    """Execute a run until it ends or stops, and keep it in a folder."""
     keeping = open_new(folder, start)
     runner = Runner(start, observers=lambda runner: [keeping.watch(runner, start, again=False)])
     advance(runner)
@@ -39,7 +39,7 @@ def kept(folder: Path, start: Checkpoint) -> RecordedRun:
 
 
 def block_start(script: str = SCRIPT, seed: int = 0, **values: float) -> Checkpoint:
-    """A run of the small arm that has not begun, in a world with some quantities set (SI)."""
+    """Return a run of the small arm that has not begun, in a world with some quantities set (SI)."""
     world = WorldSpec(seed=seed, overrides=Overrides(set=values))
     setup = Setup(plan=block_plan(script), world=world, camera="ray")
     return Checkpoint(setup=setup)

@@ -1,4 +1,4 @@
-"""A cell driven by hand, a servo period at a time: everything that is put out, in one record."""
+"""Drives a cell directly, one servo period at a time, with all commands in one record."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from handeye.ports.workcell import Sensed, Workcell
 
 @dataclass(frozen=True, kw_only=True)
 class Drive:
-    """What is put out for a servo period."""
+    """All commands for a servo period."""
 
     torque: Array | None = None
     """None: brakes."""
@@ -23,7 +23,7 @@ BRAKED = Drive()
 
 
 def tick(cell: Workcell, drive: Drive = BRAKED, ticks: int = 1) -> Sensed:
-    """Put something out and let servo periods pass; what is sensed at their end."""
+    """Give commands, and let servo periods pass. Returns what is sensed at the end."""
     for _ in range(ticks):
         cell.arm.drive(drive.torque)
         if cell.hand is not None:

@@ -1,4 +1,4 @@
-"""Short scripts carried out by the Stanford arm in the fake cell: what the executor does, and no physics of parts."""
+"""Short scripts that the Stanford arm executes in the fake cell. They test the executor without physics of parts."""
 
 from dataclasses import dataclass, field
 from typing import TypeVar
@@ -27,7 +27,7 @@ from handeye.tasks.water_pump.world.nominal import DRAWING
 Kind = TypeVar("Kind", bound=Event)
 
 T = Position(at=(25 * INCH, 38 * INCH, 6 * INCH, 90 * DEGREE, 90 * DEGREE, 0.0))
-"""A position in the middle of the table, the hand pointing down."""
+"""A position in the middle of the table, with the hand pointing down."""
 AT_T = solve(STANFORD, hand(*T.at), PARK).q
 """The joint positions there."""
 
@@ -41,7 +41,7 @@ class FakeRun:
     events: list[Event] = field(default_factory=list)
 
     def go(self) -> "FakeRun":
-        """Do steps until the program ends or the program calls the operator."""
+        """Execute steps until the program ends or calls the operator."""
         while self.executor.state.at is not None:
             self.executor.step()
         return self
@@ -61,12 +61,12 @@ class FakeRun:
 
     @property
     def called(self) -> bool:
-        """The operator was called."""
+        """True if the program has called the operator."""
         return self.executor.state.stopped is not None
 
     @property
     def told(self) -> str:
-        """What the operator was told."""
+        """The message to the operator."""
         stopped = self.executor.state.stopped
         assert stopped is not None
         return call_sentence(stopped.message, stopped.error, stopped.cause)
@@ -76,7 +76,7 @@ class FakeRun:
         return self.executor.state.saved[name] / INCH
 
     def off(self) -> Array:
-        """Where the hand is, less T (in)."""
+        """Position of the hand relative to T (in)."""
         return np.asarray(self.executor.run.drive.hand()[:3, 3] / INCH - np.array(T.at[:3]) / INCH)
 
 
@@ -87,7 +87,7 @@ def fake_run(
     positions: dict[str, Position] | None = None,
     held: dict[str, Held] | None = None,
 ) -> FakeRun:
-    """A script that knows the position T, and others besides, ready to go from there."""
+    """Return a script that knows the position T, and any further positions. The arm begins at T."""
     taught = Taught(positions={"T": T, **(positions or {})}, parts=parts or {}, held=held or {})
     program, diagnostics = compile_text(Source(name="fake.al", text=script), taught)
     assert program is not None, diagnostics

@@ -1,4 +1,4 @@
-"""Devices without physics of parts, a few lines each, under one clock: a perfect arm, scripted contacts."""
+"""Fake devices of a few lines each, under one clock: a perfect arm, and scripted contacts instead of physics."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -39,13 +39,13 @@ def by_formulas(q: Array, qd: Array) -> tuple[Array, Array]:
 
 
 class Device(Protocol):
-    """Something that time passes for."""
+    """A device for which time passes."""
 
     def elapse(self, seconds: float) -> None: ...
 
 
 class FakeClock(Clock):
-    """Time that passes at once."""
+    """A clock whose time passes at once."""
 
     now = 0.0
 
@@ -84,7 +84,7 @@ class FakeArm(ArmPort):
 
     @property
     def tcp(self) -> Array:
-        """Where the tool centre point is, m."""
+        """Position of the tool centre point, m."""
         return np.asarray(forward(STANFORD, self.q)[:3, 3])
 
     def read(self) -> ArmReading:
@@ -126,12 +126,14 @@ class FakeArm(ArmPort):
 
 
 def nothing(p: Array) -> float:
-    """Thickness (m) of what stands nowhere."""
+    """Return the thickness (m) if no object is there: 0."""
     return 0.0
 
 
 class FakeHand(HandPort):
-    """Fingers that close on what stands between them: `thickness` (m, 0 for nothing) where the arm's hand is."""
+    """Fingers that close on the object between them. `thickness` gives the thickness of the object at the place of the
+    hand (m); 0 if there is none.
+    """
 
     def __init__(self, arm: FakeArm, gap: float = 0.05) -> None:
         self.arm, self.gap, self.goal, self.grip = arm, gap, gap, 0.0
@@ -150,13 +152,13 @@ class FakeHand(HandPort):
         self.gap = max(moved, self._between())
 
     def _between(self) -> float:
-        """Thickness (m) where the hand is."""
+        """Thickness (m) of the object at the place of the hand."""
         return 0.0 if self.thickness is nothing else self.thickness(self.arm.tcp)
 
 
 @dataclass
 class FakeScrewdriver(ScrewdriverPort):
-    """A motor that meets one load as long as it turns."""
+    """A motor with the same load as long as it turns."""
 
     load: float = 0.0
     speed: float = 0.0
@@ -217,7 +219,7 @@ class FakeCamera(TvCamera):
 
 
 class FakeAxes(Axes):
-    """Axes that go to where they were told with their greatest speed."""
+    """Axes that move to their goals at their greatest speed."""
 
     specs: tuple[AxisSpec, ...] = ()
     period, name = 1 / 100, "fake"

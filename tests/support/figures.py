@@ -1,20 +1,23 @@
-"""Figures in recorded text. Their last digit is the processor's: NumPy and OpenBLAS take other instructions on another
-kind, and contacts make a rounding error of theirs larger."""
+"""Figures in recorded text. Their last digit depends on the processor: NumPy and OpenBLAS use other instructions on
+another kind of processor, and contacts enlarge the rounding errors.
+"""
 
 import re
 from typing import Final
 
 FIGURE: Final = re.compile(r"(-?\d+\.\d+)( ounces\b)?")
 UNITS: Final = 3
-"""By how many units of its last place a figure may be another one."""
+"""Tolerance of a figure, in units of its last place."""
 OUNCES: Final = 15
-"""The same of a force, tenths of an ounce: it rises by as much in a few milliseconds of a contact, .6 oz was seen."""
+"""The same tolerance for a force, in tenths of an ounce. In a few milliseconds of a contact a force rises by as much;
+we saw .6 oz.
+"""
 
 
 def as_recorded(text: str, recorded: str) -> str:
     """The text with each figure as it was recorded, where the two differ by their last place only.
 
-    Compare what this gives with `recorded`: every other difference is still there.
+    Compare the result with `recorded`: all other differences remain.
     """
     figures = iter(figure for figure, _ in FIGURE.findall(recorded))
 

@@ -1,4 +1,4 @@
-"""Habits of translated prose: what this project does not write, and how a text is searched for them."""
+"""Habits of translated prose, which this project avoids, and functions that find them in a text."""
 
 import ast
 import io
@@ -38,7 +38,7 @@ HABITS = {
     "is lacking": r"(?:is|are|was|were) lacking\b",
     "is not there": r"(?:is|are|was|were) not there\b",
 }
-"""What is searched for, by name; CONTRIBUTING.md says what to write instead."""
+"""The patterns of the habits, by name. CONTRIBUTING.md says what to write instead."""
 
 PATTERNS = {name: re.compile(rf"(?<![\w-])(?:{habit})", re.IGNORECASE) for name, habit in HABITS.items()}
 ANY = re.compile("|".join(f"(?:{pattern.pattern})" for pattern in PATTERNS.values()), re.IGNORECASE)
@@ -60,7 +60,9 @@ def habits(text: str) -> Iterator[str]:
 
 
 def prose_of_python(source: str) -> Iterator[tuple[int, str]]:
-    """What is written for readers in a Python source, by line: texts, docstrings, and comments of successive lines."""
+    """Yield the prose in a Python source, by line: texts, docstrings, and comments. Comments on successive lines are
+    joined.
+    """
     inside: set[ast.AST] = set()
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.JoinedStr):

@@ -1,13 +1,13 @@
-"""Imports of a module, read off its source: however they are written, and wherever they stand in it."""
+"""Finds the imports of a module in its source, in every form and at every place."""
 
 import ast
 from collections.abc import Iterator
 from typing import Final
 
 MAKERS: Final = {"importlib", "runpy", "pkgutil", "imp", "zipimport", "builtins"}
-"""Modules by which another is imported under a name that is made at run time, which no reader of a source sees."""
+"""Modules that import others by a name that is made at run time. The source does not show that name."""
 CALLED: Final = {"__import__", "exec", "eval", "__builtins__", "__loader__", "__spec__"}
-"""Names by which the same is done without an import."""
+"""Names that do the same without an import."""
 
 
 def imports(source: str, module: str) -> set[str]:
@@ -33,7 +33,7 @@ def imports(source: str, module: str) -> set[str]:
 
 
 def run_time_imports(source: str) -> set[str]:
-    """Whatever a module uses that imports under a name made at run time."""
+    """Everything with which a module imports by a name made at run time."""
     return set(_makers(ast.walk(ast.parse(source))))
 
 

@@ -16,15 +16,14 @@ if TYPE_CHECKING:
 
 CELL = "handeye.tasks.water_pump.cell"
 MOST = 8
-"""Scenes kept at a time: those of the worlds that a file of tests uses again and again."""
+"""Greatest number of kept scenes: enough for the worlds that a file of tests uses again and again."""
 
 Build = Callable[["PumpWorld"], "mujoco.MjModel"]
 
 
 def keep_scenes() -> None:
-    """Have cells built from kept scenes, if the tests that were collected build any in this process.
-
-    `test_kept_scenes.py` shows that a copy equals what is compiled anew.
+    """Build cells from kept scenes, if the collected tests build cells in this process. `test_kept_scenes.py` shows
+    that a copy equals a newly compiled scene.
     """
     cell = sys.modules.get(CELL)
     if cell is not None and not hasattr(cell.build, "__wrapped__"):
@@ -32,7 +31,7 @@ def keep_scenes() -> None:
 
 
 def keeping(build: Build) -> Build:
-    """The same, compiling only worlds that are not among the last ones."""
+    """Return the same function, which compiles a scene only if its world is not among the last ones."""
     kept: dict[bytes, mujoco.MjModel] = {}
 
     @wraps(build)

@@ -15,7 +15,9 @@ SCRIPT = "LENS 25\nAIM PUMP\nLOOK WIDE\nGENERAL PUMP WIDE\nLENS 50\nAIM PUMP\nLO
 
 
 def aimed(lens: float, x: float, y: float) -> Picture:
-    """The picture of the base that the camera takes, aimed at a part believed to lie there (m)."""
+    """The picture that the camera takes of the base if it is aimed at a part that the program expects at (`x`, `y`)
+    (m).
+    """
     holes = np.array([PART.holes[1].x / 2, 0.0])
     turn = np.array([[np.cos(PART.at[3]), -np.sin(PART.at[3])], [np.sin(PART.at[3]), np.cos(PART.at[3])]])
     middle = turn @ holes + (x, y)
@@ -25,12 +27,14 @@ def aimed(lens: float, x: float, y: float) -> Picture:
 
 
 WALL = Position(at=(0.0, 1.53 * INCH, 2.75 * INCH, 90 * DEGREE, 90 * DEGREE, 0.0), of="PUMP")
-"""Where the hand takes the wall beside the large hole, the finger line across it."""
+"""The place at which the hand grasps the wall beside the large hole, with the finger line across the wall."""
 GRASP = "OPEN 1.8\nMOVE WALL\nCLOSE .5"
 
 
 def looked(then: str = "WHERE", end: str = "WHERE") -> FakeRun:
-    """The base was found in a wide picture, the camera aimed anew, and its holes found in a close one."""
+    """A run in which the base is found in a wide picture, the camera is aimed again, and the holes are found in a
+    close picture.
+    """
     script = f"{SCRIPT}\nJUMP END\n{then}\nEND: {end}"
     run = fake_run(script, parts={"PUMP": PART}, positions={"WALL": WALL})
     run.cell.camera.pictures = [aimed(0.025, *PART.at[:2])]

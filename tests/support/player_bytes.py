@@ -1,4 +1,4 @@
-"""What a page makes of the player's bytes, reckoned apart from both the maker and the page's script."""
+"""Decodes the player's bytes independently of the code that makes them and of the page's script."""
 
 import gzip
 import json
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 QUATERNION = 8191
-"""What 1 is in one."""
+"""The number that stands for 1 in a component of a quaternion."""
 
 
 @dataclass(frozen=True)
@@ -31,12 +31,12 @@ class Unpacked:
         return np.frombuffer(self.body, dtype=kind, offset=first, count=count)
 
     def rows(self, name: str, width: int, kind: str = "uint16") -> NDArray[np.float64]:
-        """Whole numbers of 16 bits in rows."""
+        """Return whole numbers of 16 bits as rows."""
         steps = self.array(name).reshape(width, -1)
         return np.cumsum(steps, axis=1, dtype=np.uint16).view(kind).T.astype(float)
 
     def summed(self, name: str) -> NDArray[np.int64]:
-        """Whole numbers whose differences have their sign in the lowest bit."""
+        """Return whole numbers that are stored as differences, with the sign in the lowest bit."""
         steps = self.array(name).astype(np.int64)
         return np.cumsum(np.where(steps % 2, -(steps + 1) // 2, steps // 2))
 
@@ -62,7 +62,7 @@ class SeenTracks:
         return data.summed("periods"), data.rows("places", 3), data.rows("turns", 4, "int16") / QUATERNION
 
     def pose(self, body: str, period: int) -> NDArray[np.float64] | None:
-        """Place and quaternion of a body in a servo period; None: it is not there."""
+        """Place and quaternion of a body in a servo period; None if the body is hidden."""
         if body in self.unpacked.header["still"]:
             return np.array(self.unpacked.header["still"][body])
         row = 0

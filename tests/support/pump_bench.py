@@ -1,7 +1,6 @@
-"""A work cell arranged by the experimenter, and a short program that is carried out in it.
-
-Before a run begins the experimenter may lay parts where the question needs them, by writing the simulator's
-state; once it has begun nobody touches anything, unless a test says that the experimenter does.
+"""A work cell that the experimenter has arranged, and a short program that is executed in it. Before a run begins, the
+experimenter may place parts by writing the simulator's state. During the run, the experimenter touches nothing, unless
+the test says so.
 """
 
 import re
@@ -67,11 +66,11 @@ SCRIPT: Final = (plans() / "water_pump.al").read_text(encoding="utf-8")
 
 
 MACROS: Final = SCRIPT[: SCRIPT.index("        STAGE")]
-"""What its stages share."""
+"""The macros that its stages share."""
 
 
 def stage(*names: str) -> str:
-    """The text of some stages of the water-pump program, behind its macros."""
+    """The text of some stages of the water-pump program, after its macros."""
     texts = dict(re.findall(r'STAGE\s+"([^"]+)"\n(.*?)(?=\n\s+STAGE|\Z)', SCRIPT, re.DOTALL))
     return MACROS + "\n".join(f'STAGE "{name}"\n{texts[name]}' for name in names)
 
@@ -84,11 +83,12 @@ def without(word: str, script: str) -> str:
 LAID: Final = 1.81
 """Height (in) of the gasket on the base, where closed fingers feel it."""
 SEEDS: Final = (None, 1)
-"""Worlds in which a claim is shown that holds in any: the one without errors, and seeds of drawn ones."""
+"""Worlds in which a claim is tested that holds in every world: the world without errors, and the worlds of some seeds.
+"""
 IN_WORLDS: Final = pytest.mark.parametrize(
     "seed", SEEDS, ids=lambda seed: "nominal" if seed is None else f"seed {seed}"
 )
-"""Shows a claim in each of them."""
+"""Tests a claim in each of these worlds."""
 COUNT: Final = {"nominal": SEEDS.count(None), "drawn": len(SEEDS) - SEEDS.count(None)}
 """Their number, for the mark of a row."""
 
@@ -110,18 +110,18 @@ class Bench:
     executor: Executor
     events: list[Event]
     first: dict[str, Array]
-    """Where bodies lay before the run, in inches."""
+    """Places of the bodies before the run, in inches."""
 
     # -- the run ------------------------------------------------------------------------------------
 
     def go(self, until: Callable[[], bool] = lambda: False) -> "Bench":
-        """Do steps until the program ends, the program calls the operator, or `until` says so."""
+        """Execute steps until the program ends or calls the operator, or until `until` returns True."""
         while self.executor.state.at is not None and not until():
             self.executor.step()
         return self
 
     def to(self, word: str) -> "Bench":
-        """Do steps until the next one's text begins with `word`."""
+        """Execute steps until the text of the next step begins with `word`."""
         return self.go(lambda: self.text.startswith(word))
 
     @property
@@ -157,7 +157,7 @@ class Bench:
 
     @property
     def told(self) -> str:
-        """What the operator was told."""
+        """The message to the operator."""
         return call_sentence(self.called.message, self.called.error, self.called.cause)
 
     @property
@@ -170,10 +170,10 @@ class Bench:
         """A saved difference in inches."""
         return self.run.state.saved[name] / INCH
 
-    # -- what is really so --------------------------------------------------------------------------
+    # -- the true state ----------------------------------------------------------------------------
 
     def place(self, body: str) -> Array:
-        """Where a body is, in inches; shape (3,), W."""
+        """True position of a body, in inches; shape (3,), W."""
         return np.array(self.cell.truth.data.body(body).xpos) / INCH
 
     def pose(self, body: str) -> Pose:
@@ -186,11 +186,11 @@ class Bench:
         return float(np.hypot(*(self.place(body) - self.first[body])[:2]))
 
     def hand(self) -> Array:
-        """Where the fingers really are, midway between their tips, in inches; shape (3,), W."""
+        """True position of the point midway between the finger tips, in inches; shape (3,), W."""
         return np.array(self.cell.truth.data.site("stanford/tool").xpos) / INCH
 
     def flick(self, body: str, force: tuple[float, float, float], seconds: float = 0.1) -> "Bench":
-        """The experimenter pushes a body for a moment (N), and waits until it lies still."""
+        """Push a body for a moment with a force (N), and wait until the body is at rest."""
         truth = self.cell.truth
         index = truth.model.body(body).id
         truth.data.xfrc_applied[index, :3] = force
@@ -214,7 +214,7 @@ def bench(
     felt: dict[str, float] | None = None,
     camera: str = "ray",
 ) -> Bench:
-    """A cell with a script compiled for it, ready to go.
+    """Return a cell with a script compiled for it, ready to run.
 
     Args:
         positions: taught positions besides those of the water-pump program.
@@ -247,7 +247,7 @@ def bench(
 
 
 def put(cell: SimulatedCell, part: str, X_WP: Pose) -> None:
-    """The experimenter lays a free body somewhere, at rest."""
+    """Place a free body at a pose, at rest."""
     quat = np.zeros(4)
     mujoco.mju_mat2Quat(quat, X_WP[:3, :3].ravel())
     joint = cell.truth.data.joint(part)
@@ -256,7 +256,7 @@ def put(cell: SimulatedCell, part: str, X_WP: Pose) -> None:
 
 
 def settle(cell: SimulatedCell) -> None:
-    """A tenth of a second with brakes set: what was laid comes to rest, and the interface reads anew."""
+    """Let a tenth of a second pass with the brakes set. The placed parts come to rest, and the sensors are read."""
     gap = cell.devices.sense().gap
     tick(cell.devices, Drive(gap=gap, grip=80.0), ticks=6)
 
@@ -267,7 +267,7 @@ def at_standard(x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> dict[str, 
 
 
 def stacked(x: float = 0.0, y: float = 0.0) -> dict[str, Pose]:
-    """Base, gasket and top in their places, or off them (in), held together by the two pins, nothing screwed."""
+    """Base, gasket and top in their places, or off them (in), held together by the two pins, without screws."""
     X_WP, seat = at_standard(x, y)["base"], base_top()
     lay = {"base": X_WP, "gasket": X_WP @ planar(0, 0, seat, 0)}
     lay["top"] = X_WP @ planar(0, 0, seat + dimensions()("gasket.thickness"), 0)
@@ -279,7 +279,9 @@ def stacked(x: float = 0.0, y: float = 0.0) -> dict[str, Pose]:
 
 
 def base_off(x: float, y: float, seed: int | None = None) -> PumpWorld:
-    """The world without errors, or a drawn one, with the base on the belt as planned, but for its place (in)."""
+    """The world without errors, or the world of a seed, with the base on the belt as planned, except for its place
+    (in).
+    """
     base, world = PumpWorld.nominal().base, world_of(seed)
     return replace(world, base=Placing(x=base.x + x * INCH, y=base.y + y * INCH, yaw=base.yaw))
 

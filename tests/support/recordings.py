@@ -1,4 +1,4 @@
-"""A short made-up run to record: three stages, something that moves, a picture, an error, a search."""
+"""A short made-up run to record: three stages, a moving body, a picture, an error, a search."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -38,7 +38,7 @@ MARKS: Final[tuple[Mark, ...]] = (
     Line(ends=((1.0, 1.0), (4.0, 2.0)), colour=RED),
     Disc(centre=(2.5, 1.5), colour=GREEN, diameter=2.0),
 )
-"""What is found in the picture."""
+"""The marks for the findings in the picture."""
 BODIES: Final = ("base", "finger", "screw", "carrier")
 
 
@@ -56,7 +56,7 @@ PLAN: Final = encode(plan()).encode()
 
 
 class FakeFrames(Frames):
-    """Bodies that stand where a test puts them; the carrier is not to be seen at first."""
+    """Bodies at the places that a test gives them. At first, the carrier is hidden."""
 
     def __init__(self) -> None:
         self.names = BODIES
@@ -76,7 +76,7 @@ class FakeFrames(Frames):
 
 @dataclass(frozen=True)
 class Moment:
-    """An event or a servo period, and how the cell looks in it."""
+    """An event or a servo period, with the poses of the bodies at that time."""
 
     what: Event | Sensed
     poses: Poses
@@ -87,7 +87,7 @@ class Moment:
 
     @property
     def period(self) -> ServoPeriod:
-        """The servo period that it is; a guarded one feels the torques put out, so that there is something to feel."""
+        """The servo period. If it is guarded, its sensed force is the commanded torque, so that it is not zero."""
         assert isinstance(self.what, Sensed)
         felt = {"wrench": -self.effort, "guards": (GUARD,)} if self.guarded else {}
         return ServoPeriod(sensed=self.what, effort=self.effort, **felt)
@@ -114,7 +114,7 @@ class _Clock:
             self.time += JIFFY
             self.poses[1, :3] += np.float32(self.rng.normal(0, 1e-3, 3))
             if self.shown:
-                self.poses[2, 2] -= np.float32(1e-4)  # what is put away does not lie quite still
+                self.poses[2, 2] -= np.float32(1e-4)  # a hidden body still moves a little
             q, qd, effort = self.rng.normal(size=(3, 6))
             sensed = Sensed(
                 time=self.time, q=q, qd=qd, gap=0.02, touch=(False, False), tool_torque=0.0, braked=False
@@ -164,7 +164,7 @@ BOUNDARIES: Final = [0, *(n for n, event in enumerate(EVENTS, 1) if isinstance(e
 
 @dataclass
 class Recording:
-    """A recorder at work, and what it looks at."""
+    """A recorder in use, and the objects that it records."""
 
     path: Path
     frames: FakeFrames = field(default_factory=FakeFrames)
@@ -189,7 +189,7 @@ class Recording:
         return self
 
     def play(self, first: int = 0, last: int = len(EVENTS)) -> "Recording":
-        """What happens behind event number `first`, up to event number `last`."""
+        """Record what happens after event number `first`, up to event number `last`."""
         for moment in between(first, last):
             self.frames.now, self.frames.carrier_shown = moment.poses, moment.carrier_shown
             if isinstance(moment.what, happened.PictureTaken):
@@ -204,7 +204,7 @@ class Recording:
         return self
 
     def kill(self) -> "Recording":
-        """The program is gone; what it had not handed over to the system is lost."""
+        """Kill the program. What it has not passed to the operating system is lost."""
         self.recorder._writing.file.release()
         return self
 
@@ -214,7 +214,7 @@ class Recording:
 
 
 def between(first: int, last: int) -> list[Moment]:
-    """The moments behind event number `first`, up to event number `last`."""
+    """The moments after event number `first`, up to event number `last`."""
     places = [place for place, moment in enumerate(HISTORY) if isinstance(moment.what, Event)]
     start = places[first - 1] + 1 if first else 0
     return HISTORY[start : places[last - 1] + 1]

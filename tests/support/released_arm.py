@@ -1,4 +1,4 @@
-"""The arm of a drawn world, with nothing around it: let go of where it is parked, and perhaps pushed at its hand."""
+"""The arm of a world, with nothing around it. It is released where it is parked, and its hand may be pushed."""
 
 from dataclasses import dataclass
 
@@ -20,7 +20,7 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
 def arm_alone(world: PumpWorld) -> SimulatedCell:
-    """The cell of a world without anything but its arm and hand."""
+    """The cell of a world, with only its arm and hand."""
     spec = mujoco.MjSpec()
     spec.option.timestep = 1 / 960
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
@@ -34,7 +34,7 @@ def arm_alone(world: PumpWorld) -> SimulatedCell:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drift:
-    """How far a released arm has gone."""
+    """How far a released arm has moved."""
 
     joints: Array
     """rad, m, shape (6,)"""

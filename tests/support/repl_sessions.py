@@ -1,4 +1,4 @@
-"""Somebody who types at the arm program, and the cell behind it."""
+"""A user who types lines to the arm program, and the cell in which they are executed."""
 
 from pathlib import Path
 from typing import Any
@@ -20,23 +20,23 @@ def workplace(taught: Taught = TAUGHT, **more: Any) -> Workplace:
 
 
 class Console:
-    """Lines typed, and what is seen."""
+    """Types lines, and returns what the user sees."""
 
     def __init__(self, place: Workplace, folder: Path) -> None:
         self.repl = Repl(workplace=place, folder=folder)
 
     def type(self, *lines: str) -> Answer:
-        """Type lines; the answer to the last."""
+        """Type lines. Returns the answer to the last line."""
         answers = [self.repl.hear(line) for line in lines]
         return answers[-1]
 
     def read(self, *lines: str) -> str:
-        """Type lines; the text of the answer to the last."""
+        """Type lines. Returns the text of the answer to the last line."""
         return text(self.type(*lines))
 
     @property
     def steps(self) -> list[str]:
-        """The functions of the plan carried out last."""
+        """The functions of the last executed plan."""
         return [step.text for step in self.repl.workplace.runner.setup.plan.program.steps]
 
     @property

@@ -23,14 +23,14 @@ def recorded(path: Path) -> RecordedRun:
 
 
 def changed(run: RecordedRun, change: Callable[[AnyEvent], AnyEvent | None]) -> RecordedRun:
-    """The run with its events changed, or left out."""
+    """Return the run with its events changed; an event for which `change` returns None is left out."""
     events = tuple(each for event in run.trace.events if (each := change(event)) is not None)
     head = events[0]
     return replace(run, trace=replace(run.trace, head=head, events=events))
 
 
 def renamed(run: RecordedRun, **words: str) -> RecordedRun:
-    """The run with other words in all its events: `stage`, `text`, `program`, `message`."""
+    """Return the run with other texts in the fields `stage`, `text`, `program` and `message` of all its events."""
 
     def change(event: AnyEvent) -> AnyEvent:
         own = {name: word for name, word in words.items() if hasattr(event, name)}
@@ -40,13 +40,13 @@ def renamed(run: RecordedRun, **words: str) -> RecordedRun:
 
 
 def no_photographs(run: RecordedRun, why: str = "No photograph: none was wanted.") -> Album:
-    """An album with none."""
+    """An album without photographs."""
     none = Photograph(time=0.0, shows="nothing", width=4, height=3, webp=None, missing=why)
     return Album(leading=none, stages=(none,) * len(run.trace.stages))
 
 
 def page_of(run: RecordedRun) -> str:
-    """Its report, without photographs and animation."""
+    """The report of a run, without photographs and animation."""
     return report_page(run, no_photographs(run), None).decode()
 
 
@@ -59,18 +59,18 @@ class Node:
     children: "list[Node | str]" = field(default_factory=list)
 
     def __iter__(self) -> "Iterator[Node]":
-        """The element, and all that are in it."""
+        """Yield the element, and all elements in it."""
         yield self
         for child in self.children:
             if isinstance(child, Node):
                 yield from child
 
     def all(self, name: str) -> "list[Node]":
-        """The elements of a name."""
+        """All elements with this name."""
         return [node for node in self if node.name == name]
 
     def one(self, identity: str) -> "Node":
-        """The element of an identity."""
+        """The only element with this id."""
         (found,) = (node for node in self if node.attributes.get("id") == identity)
         return found
 
@@ -103,7 +103,7 @@ class _Parser(HTMLParser):
 
 
 def tree(page: str) -> Node:
-    """A page as a tree; every element that is opened is closed where it should be."""
+    """Return a page as a tree. Fails unless every element is closed where it should be."""
     parser = _Parser()
     parser.feed(page)
     parser.close()
@@ -112,7 +112,9 @@ def tree(page: str) -> Node:
 
 
 def barriers(page: Node) -> Iterator[str]:
-    """What keeps people who do not see or point from using a page, as far as its markup shows."""
+    """Return what would keep users who cannot see, or cannot use a mouse, from using a page, as far as its markup
+    shows it.
+    """
     headings = {node.attributes.get("id"): node.text for node in page}
     regions = []
     for node in page:

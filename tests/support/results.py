@@ -1,4 +1,4 @@
-"""Results of runs that nobody has carried out."""
+"""Results of runs that were never executed."""
 
 from handeye.core.variation import WorldSpec
 from handeye.results.result import CameraReport, Check, Result, Timing

@@ -1,4 +1,4 @@
-"""A robot alone over a plate, run by MuJoCo."""
+"""A robot alone over a plate, simulated by MuJoCo."""
 
 from dataclasses import replace
 
@@ -23,7 +23,9 @@ START = hand(0.635, 0.95, 0.2, np.pi / 2, np.pi / 2, 0.0)
 
 
 def converted(arm: ArmModel) -> ArmErrors:
-    """Sensors and drives that are perfect but for converters of the period: 12 bits to read, 8 for torques."""
+    """Sensors and drives that are perfect except for the converters of the period: 12 bits for readings, 8 bits for
+    torques.
+    """
     k = constants(arm)
     return replace(
         ArmErrors.none(len(arm.joints)),
@@ -35,7 +37,9 @@ class Bench:
     """A robot over a plate, its hand at `START`."""
 
     def __init__(self, name: str, friction: tuple[float, ...] = (), errors: ArmErrors | None = None) -> None:
-        """A robot with so much Coulomb friction in its joints (N m, N), none by default, and with these errors."""
+        """Make a robot with this Coulomb friction in its joints (N m, N), by default without friction, and with these
+        errors.
+        """
         robot = ROBOTS[name]
         self.arm = robot.arm
         spec, scene = mujoco.MjSpec.from_string(robot.mjcf), mujoco.MjSpec()
@@ -76,5 +80,5 @@ class Bench:
 
     @property
     def tool(self) -> Array:
-        """Where the tool centre point really is, m."""
+        """True position of the tool centre point, m."""
         return np.array(self.data.site("it/tool").xpos)

@@ -1,6 +1,5 @@
-"""The robots of the tests: the product's own, and toys of other structures; each with the model that MuJoCo runs.
-
-The toys' models are written by hand in table axes, so that they judge the Denavit-Hartenberg rows beside them.
+"""The robots of the tests: the product's own, and toys of other structures. Each has the model that MuJoCo simulates.
+The toys' models are written by hand in table axes, so that the Denavit-Hartenberg rows can be tested with them.
 """
 
 from dataclasses import dataclass, replace
@@ -31,7 +30,7 @@ YIELDING = ComplianceModel(
 )  # fmt: skip
 
 _RUBS = {"slide": 1.5, "turn": 0.1}
-"""Coulomb friction that a joint is expected to have, N or N m."""
+"""Expected Coulomb friction of a joint, N or N m."""
 
 _ALONG_X = np.array([[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]])
 """A base frame whose z, the first axis, is table x, and whose x is up."""
@@ -89,7 +88,7 @@ GANTRY = _arm(
     held={"rail": 0.25},
 )  # fmt: skip
 """Seven joints: on a rail along table x, held at .25 m, three slides along y, x and downwards, and a wrist that rolls,
-pitches and rolls. With the hand straight down, as it mostly is, both rolls are one axis."""
+pitches and rolls. When the hand points straight down, as it usually does, both roll axes are in line."""
 
 CARTESIAN = _arm(
     "cartesian", "cartesian", (0.0, 0.0, 0.8),
@@ -129,7 +128,7 @@ _FINGERS = """
 
 
 def _hand(wrist: float) -> str:
-    """The fingers on a link whose frame has the wrist centre `wrist` (m) before it along z."""
+    """Return the fingers, on a link whose frame has the wrist centre at `wrist` (m) along z."""
     tip = wrist + SMALL_HAND.length
     return _FINGERS.format(length=tip, root=tip - 0.06, middle=0.03)
 
@@ -208,7 +207,7 @@ class Robot:
     arm: ArmModel
     mjcf: str
     X_WM: Pose
-    """Where the model stands in the world."""
+    """The place of the model in the world."""
 
     def model(self) -> mujoco.MjModel:
         """Compiled."""

@@ -1,4 +1,4 @@
-"""The notebooks, carried out as docs/make_notebooks.py does."""
+"""Runs the notebooks as docs/make_notebooks.py does."""
 
 import importlib.util
 from pathlib import Path
@@ -17,7 +17,7 @@ def notebook_maker() -> ModuleType:
 
 
 def runs_to_its_end(script: Path, folder: Path) -> None:
-    """Carry a notebook out in a folder: no cell fails that does not show an error of a script, and none warns."""
+    """Run a notebook in a folder. A cell may fail only if it shows an error of a script, and no cell may warn."""
     maker = notebook_maker()
     made = maker.carried_out(maker.notebook(script), folder)
     shown = [output for cell in made.cells for output in cell.get("outputs", [])]

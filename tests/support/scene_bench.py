@@ -14,11 +14,11 @@ FREE = ("base", "gasket", "top", "pin0", "pin1", "driver", *(f"screw{k}" for k i
 
 
 class Bench:
-    """Physics only: the cell's runtime is not involved."""
+    """The physics alone, without the cell and its devices."""
 
     def __init__(self, world: PumpWorld | None = None) -> None:
         self.model = build(world or PumpWorld.nominal())
-        for k in range(6):  # as the runtime does: no thread has a screw in it
+        for k in range(6):  # as the cell does: no thread has a screw in it
             for geom in (self.model.geom(f"head{k}"), self.model.geom(f"shank{k}")):
                 geom.contype, geom.conaffinity = 0, 0
         self.data = mujoco.MjData(self.model)
@@ -62,7 +62,7 @@ def standard_base() -> Bench:
 
 
 def pinned_base() -> Bench:
-    """The same with both pins dropped into their holes, a millimetre off."""
+    """The same bench, with both pins dropped into their holes from a millimetre beside them."""
     bench = standard_base()
     for pin, hole in enumerate(int(k) for k in dimensions().all("base.screw_holes.pinned")):
         X = standard() @ planar(*screw_holes()[hole], 0.0, 0.0)

@@ -1,4 +1,4 @@
-"""Short programs as plans, and runs of them: no pictures, so that no camera has to be calibrated."""
+"""Short programs as plans, and their runs. They take no pictures, so no camera must be calibrated."""
 
 from collections.abc import Callable
 from functools import cache
@@ -51,7 +51,7 @@ TRANS   ABOVE [25 38 .5 90 90 0]
         SKIPE   23
         OPEN    1
 """
-"""Feels for the table, and then for nothing."""
+"""Feels for the table, and then feels in a place where there is nothing."""
 
 
 @cache
@@ -71,14 +71,14 @@ def begin(script: str = GRASP, seed: int = 0, files: tuple[tuple[str, str], ...]
 
 
 def through(runner: Runner) -> Runner:
-    """The run, carried out to its end."""
+    """Execute a run to its end."""
     while not runner.ended:
         runner.step()
     return runner
 
 
 def traced(start: Checkpoint, path: Path, *, prepare: Callable[[Runner], None] = lambda _: None) -> Trace:
-    """The trace of a run, carried out and kept in a folder; `prepare` does something to it before."""
+    """Execute a run in a folder, and return its trace. `prepare` may change the run before it begins."""
     folder = open_new(path, start)
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
     prepare(runner)

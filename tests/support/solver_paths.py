@@ -1,7 +1,8 @@
 """A state of a scene solved on both paths of MuJoCo's Newton solver: sparse and dense Jacobian of the constraints.
 
-Both minimise the same cost, so that acceleration and forces are to be the same, reached in as many iterations. A wrong
-factor of the Hessian on one of them shows in iterations first: a step that is none of Newton's still goes downhill.
+Both minimise the same cost. They should therefore find the same acceleration and forces in the same number of
+iterations. A wrong factor of the Hessian on one path first shows in the number of iterations, because a wrong step
+still reduces the cost.
 """
 
 from dataclasses import dataclass
@@ -19,18 +20,18 @@ STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solution:
-    """What the solver made of a state."""
+    """The solution that the solver found for a state."""
 
     qacc: Array
     """Accelerations, shape (nv,)."""
     pull: Array
     """Generalised forces of all constraints, shape (nv,)."""
     forces: Array
-    """Of each row of the constraints, shape (nefc,)."""
+    """Force of each row of the constraints, shape (nefc,)."""
     iterations: tuple[int, ...]
-    """Of Newton's method, for each island."""
+    """Iterations of Newton's method, for each island."""
     unbalanced: Array
-    """M qacc - (smooth forces) - (constraint forces), shape (nv,): zero where the cost is least."""
+    """M qacc - (smooth forces) - (constraint forces), shape (nv,): zero at the least cost."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,13 +39,13 @@ class Solved:
     """A state solved on both paths, from the same beginning."""
 
     where: str
-    """Which state of which scene."""
+    """The scene and the state, in words."""
     sparse: Solution
     dense: Solution
 
     @property
     def apart(self) -> float:
-        """How far the paths are apart: the largest of the relative differences of what they found."""
+        """The largest relative difference between the solutions of the two paths."""
         return max(
             relative(self.sparse.qacc, self.dense.qacc),
             relative(self.sparse.pull, self.dense.pull),
@@ -53,19 +54,19 @@ class Solved:
 
     @property
     def longer(self) -> int:
-        """By how many iterations the sparse path is the longer one, at most, in an island."""
+        """The greatest number of iterations, in any island, by which the sparse path is longer."""
         return max(s - d for s, d in zip(self.sparse.iterations, self.dense.iterations, strict=True))
 
 
 def relative(a: Array, b: Array) -> float:
-    """The largest difference of two arrays over the largest value."""
+    """Return the largest difference between two arrays, divided by the largest value."""
     return float(np.abs(a - b).max(initial=0.0) / max(np.abs(b).max(initial=0.0), 1e-9))
 
 
 def solved(
     model: mujoco.MjModel, data: mujoco.MjData, *, where: str = "", solver: int | None = None
 ) -> list[Solved]:
-    """A state on both paths: from the solution of the step before, and from nothing.
+    """Solve a state on both paths: once from the solution of the previous step, and once from zero.
 
     Args:
         solver: another method than Newton's on the sparse path.

@@ -34,11 +34,11 @@ L3:     MOVE    T
 """Raises error 23 on line 10, which line 11 tests, and error 2 on line 19, which calls the operator."""
 
 PINS = "TRANS T [-1.128 1.226 3.931 -90 90 0] OF PUMP\nOPEN 1\n" + INSERT.replace("P ", "P1", 1)
-"""The pin insertion of 1973, the hole a tenth of an inch off: the search goes on to its sixth place."""
+"""The pin insertion of 1973, with the hole a tenth of an inch off, so that the search reaches its sixth place."""
 
 
 def before_pins() -> Checkpoint:
-    """The beginning of the pin insertion, the base laid in its standard position."""
+    """The beginning of the pin insertion, with the base in its standard position."""
     runner = Runner(begin(PINS))
     for part, X_WP in at_standard().items():
         put(runner.cell, part, X_WP)
@@ -50,7 +50,7 @@ def before_pins() -> Checkpoint:
 
 
 def reset(runner: Runner) -> Runner:
-    """The run as it was before anything was done in it."""
+    """Return the run to its state before the first step."""
     del runner.history[1:]
     runner.rollback()
     runner.observers.clear()

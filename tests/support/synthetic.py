@@ -1,4 +1,4 @@
-"""Pictures drawn without a scene: what the eye sees is known exactly."""
+"""Pictures drawn without a scene, so that their content is known exactly."""
 
 import math
 
@@ -13,7 +13,7 @@ from handeye.vision.camera_model import View
 from handeye.vision.hole_search import hole_places
 
 DARK, BRIGHT, BELT, PLATE, FACE, HOLE, GASKET = 3, 11, 3, 6, 12, 4, 4
-"""Levels."""
+"""Intensity levels of the drawn surfaces."""
 FINE = 4
 """Samples for a picture point, along and across."""
 
@@ -60,7 +60,7 @@ class Canvas:
     def picture(
         self, rng: np.random.Generator | None = None, noise: float = 0.5, blur: float = 0.0
     ) -> Picture:
-        """Digitised, with noise if there is a generator."""
+        """Return the digitised picture, with noise if a generator is given."""
         image = self.fine.reshape(ROWS, FINE, COLUMNS, FINE).mean(axis=(1, 3))
         image = cv2.GaussianBlur(image, (0, 0), blur) if blur else image
         if rng:

@@ -1,4 +1,4 @@
-"""A bench with one tapped hole, one screw and a driver that is pressed down and gives way sideways: threads alone."""
+"""A bench for threads alone: one tapped hole, one screw, and a driver that is pressed down and yields sideways."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -57,7 +57,7 @@ def _wedges(
 
 
 def scene(offset: float, tilt: float) -> str:
-    """MJCF of the bench: driver `offset` (m) beside the hole and leaning by `tilt` (rad)."""
+    """Return the MJCF of the bench, with the driver `offset` (m) beside the hole and tilted by `tilt` (rad)."""
     ring, ring_geoms = _wedges("tap", 0.00255, 0.0095, 0.021, 0.001, -0.021)
     sock, sock_geoms = _wedges("sock", 0.0058, 0.0085, 0.003, 0.0, -0.0025)
     sock_geoms = sock_geoms.replace("bore", "socket")
@@ -103,7 +103,7 @@ def scene(offset: float, tilt: float) -> str:
 
 
 class ThreadBench:
-    """The bench as it runs."""
+    """The bench during the simulation."""
 
     def __init__(
         self, *, offset: float = 0.0, tilt: float = 0.0, slipping: frozenset[int] = frozenset()
@@ -148,7 +148,7 @@ class ThreadBench:
         self.driver.after()
 
     def drive_until(self, done: Callable[[], bool], *, speed: float, press: float, seconds: float) -> None:
-        """Turn and press until something is so, or the time is over."""
+        """Turn and press until `done` returns True, or the time is over."""
         for _ in range(round(seconds / JIFFY)):
             self.tick(speed, press)
             if done():
@@ -171,7 +171,7 @@ class Outcome:
 def drive_screw(
     *, offset: float = 0.0, tilt: float = 0.0, seconds: float = 8.0, press: float = 6.0, speed: float = SPEED
 ) -> Outcome:
-    """Press and turn until the motor has to work too hard or the time is over; then switch it off."""
+    """Press and turn until the motor's torque is too high or the time is over. Then switch the motor off."""
     bench = ThreadBench(offset=offset, tilt=tilt)
     bench.drive_until(lambda: bench.driver.torque() > STOP, speed=speed, press=press, seconds=seconds)
     torque = bench.driver.torque()

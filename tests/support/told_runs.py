@@ -1,4 +1,4 @@
-"""Runs of a short script of which only the events are told: made up, step by step."""
+"""Made-up runs of a short script, which consist only of events, step by step."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -12,7 +12,7 @@ from handeye.report.recorded import RecordedRun
 from handeye.trace.trace import Trace
 
 Happening = Callable[..., AnyEvent]
-"""An event whose time is still to be told."""
+"""An event without its time."""
 
 
 def happens(kind: Callable[..., AnyEvent], **fields: object) -> Happening:
@@ -21,7 +21,7 @@ def happens(kind: Callable[..., AnyEvent], **fields: object) -> Happening:
 
 
 def told(*steps: tuple[str, Sequence[Happening]], script: str = GRASP) -> RecordedRun:
-    """A run of a script that carried out some steps, each by the words that it begins with."""
+    """Return a run of a script in which some steps were executed. Each step is given by its first words."""
     plan = plan_of(script)
     events: list[AnyEvent] = [started()]
     for number, (words, inside) in enumerate(steps):

@@ -1,4 +1,4 @@
-"""Entry of the counter machine: a system that lives outside of handeye."""
+"""Entry of the counter machine: a system that is no part of handeye."""
 
 from handeye.core.entries import Entry
 

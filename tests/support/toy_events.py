@@ -5,7 +5,7 @@ from handeye.program.events import SystemEvent
 
 
 class CountTold(SystemEvent, frozen=True, kw_only=True):
-    """A line has told a register."""
+    """A line has reported a register."""
 
     register: str
     value: int

@@ -1,4 +1,4 @@
-"""The counter machine's files: lines as they are carried out, behind `TASK NAME` those of a task."""
+"""The counter machine's files: lines in the order of execution. The lines after `TASK NAME` are those of a task."""
 
 from typing import Final
 

@@ -1,4 +1,4 @@
-"""A kind of trials of a system from elsewhere: coins that are thrown, one in each world."""
+"""A kind of trial from another package: one coin is thrown in each world."""
 
 import os
 import signal
@@ -26,7 +26,7 @@ class Coin(TrialRow, frozen=True, kw_only=True):
 
 
 def throw(case: Case) -> list[Coin]:
-    """Throw a coin: the world of seed 7 has none, and in that of 13 the process is killed once."""
+    """Throw a coin. The world of seed 7 has no coin, and in the world of seed 13 the process is killed once."""
     (number,) = case.trials
     if case.seed == 7:
         raise ValueError("there is no coin")

@@ -1,6 +1,7 @@
 """A counter machine, the second system: registers, and lines that add to one, jump while one is positive, or call.
 
-It has no arm, no cell and no physics; a line takes a second. A program may have several tasks, which go on together.
+It has no arm, no cell and no physics; a line takes a second. A program may have several tasks, which run at the same
+time.
 """
 
 from typing import ClassVar
@@ -68,7 +69,7 @@ class Lines(Record, frozen=True, kw_only=True):
     stages: tuple[str, ...] = ("count",)
     steps: tuple[Line, ...]
     tasks: dict[str, int] = msgspec.field(default_factory=dict)
-    """The step that each task begins with; none: all steps are of one."""
+    """The step with which each task begins; empty if the program has one task."""
     task: str = "counting"
     required: ClassVar[dict[str, str]] = {}
     numbered: ClassVar[dict[int, str]] = {}
@@ -87,9 +88,9 @@ class Registers(SystemState, kw_only=True):
     """What the counter machine remembers."""
 
     cursors: dict[str, int] = msgspec.field(default_factory=dict)
-    """The step that each task does next."""
+    """The next step of each task."""
     turn: str = ""
-    """The task that goes on next."""
+    """The task whose turn is next."""
     agenda: Agenda[int] = msgspec.field(default_factory=lambda: Agenda(now=0))
 
     time: float = 0.0
@@ -104,7 +105,7 @@ class Registers(SystemState, kw_only=True):
 
 
 class CounterMachine(RunningSystem):
-    """Ten lines of interpreter, and what a run asks of any system."""
+    """An interpreter of ten lines, and the methods that a run requires of every system."""
 
     cell = None
     trouble = None
@@ -135,7 +136,7 @@ class CounterMachine(RunningSystem):
         return [begun]
 
     def _take_turns(self) -> None:
-        """Find the task that goes on next, if there are several."""
+        """Find the task whose turn is next, if there are several."""
         state = self._state
         if self._lines.tasks:
             state.turn = state.agenda.turn(self._met, lambda time: time) or ""
@@ -147,7 +148,7 @@ class CounterMachine(RunningSystem):
         return self._state.values.get(register, 0) >= int(least)
 
     def _go_on(self, line: Line, onward: int | None) -> None:
-        """Let the task that had its turn stand at its next line."""
+        """Move the task that had its turn to its next line."""
         state, task = self._state, self._state.turn
         if onward is None:
             del state.cursors[task]
@@ -280,7 +281,7 @@ register(ENTRY)
 
 
 def counting(times: int = 5) -> Lines:
-    """Counts A down and B up, so many times; then calls the operator, and counts B on."""
+    """A program that counts A down and B up, `times` times. It then calls the operator, and counts B further."""
     return Lines(
         stages=("count", "ask"),
         steps=(

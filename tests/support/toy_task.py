@@ -1,4 +1,4 @@
-"""What the counter machine does: nothing that anybody could see or judge."""
+"""The task of the counter machine, in which there is nothing to see or to judge."""
 
 from collections.abc import Mapping
 from typing import Final, Literal

@@ -1,4 +1,4 @@
-"""Trials that processes carry out in tests: functions that a new process can import."""
+"""Trials that processes execute in tests. They are functions that a new process can import."""
 
 import os
 import signal
@@ -9,12 +9,12 @@ from handeye.core.errors import InvalidInput
 
 
 def process(item: object) -> tuple[object, int]:
-    """Tell in which process an item was tried."""
+    """Return the process in which an item was tried."""
     return item, os.getpid()
 
 
 def killed_once(item: Path) -> str:
-    """Have the process killed, the first time that the item is tried."""
+    """Kill the process when the item is tried for the first time."""
     if item.exists():
         return "tried again"
     item.touch()
@@ -22,21 +22,21 @@ def killed_once(item: Path) -> str:
 
 
 def killed_always(item: Path) -> str:
-    """Have the process killed where the item is named for that."""
+    """Kill the process each time, unless the item is called `well`."""
     if item.name != "well":
         os.kill(os.getpid(), signal.SIGKILL)
     return "done"
 
 
 def hung(item: str) -> str:
-    """Hang, at work, where nothing looks at a limit."""
+    """Hang in busy code that checks no limit."""
     while item == "hung":
         pass
     return "done"
 
 
 def paused(item: str) -> str:
-    """Be stopped for longer than the limit of a trial, and go on."""
+    """Stop the process for longer than the limit of a trial, and then continue."""
     goes_on = f"sleep .6; kill -CONT {os.getpid()}"
     with subprocess.Popen(["/bin/sh", "-c", goes_on]):
         os.kill(os.getpid(), signal.SIGSTOP)

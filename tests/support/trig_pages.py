@@ -1,7 +1,7 @@
-"""Pages about TRIG whose sessions are carried out: what is typed in a page happens, and what is shown comes of it.
+"""Pages about TRIG whose sessions are executed: the lines typed in a page are executed, and the page shows the results.
 
-A block `trig` is typed into the session of the page; `begin` in place of it begins a new one. The blocks behind it show
-what was told since (`told`), and what can be seen then: the steps (`partial`), and the whole program (`full`).
+A block `trig` is typed into the session of the page; a block `begin` begins a new session instead. The blocks after it
+show the output since then (`told`) and the display: the steps (`partial`), or the whole program (`full`).
 """
 
 import re
@@ -20,13 +20,13 @@ _BLOCK: Final = re.compile(r"^```(trig|begin|told|partial|full)\n(.*?)^```$", re
 
 
 class Page:
-    """A page that is carried out from its beginning."""
+    """A page whose sessions are executed from its beginning."""
 
     def __init__(self) -> None:
         self._begin()
 
     def carried_out(self, text: str) -> str:
-        """The page with what really happens."""
+        """Return the page with the true output."""
         return _BLOCK.sub(self._block, text)
 
     def _begin(self) -> None:

@@ -1,4 +1,4 @@
-"""TRIG sessions for tests: an arm that is imagined, and a desk at which a text sits."""
+"""TRIG sessions for tests, with an imaginary arm. The lines come from a text, not from a person."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -15,7 +15,7 @@ BUCKET = (PLANS / "bucket.trig").read_text(encoding="utf-8")
 
 
 class Typist:
-    """Somebody who types lines into one session."""
+    """A user who types lines into one session."""
 
     def __init__(self, text: str = "", halted: Callable[[], bool] = lambda: False) -> None:
         self.arm = NoArm()
@@ -72,7 +72,7 @@ def straight(count: int) -> str:
 
 
 def typed(text: str) -> Session:
-    """The session in which a text has been typed."""
+    """Type a text into a new session, and return the session."""
     script = Script(text.splitlines())
     session = Session(arm=(arm := NoArm()), table=arm, desk=script)
     type_script(session, script, "script")

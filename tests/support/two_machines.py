@@ -59,7 +59,7 @@ def slide(name: str, force: float | None = None) -> AxisSpec:
 
 
 class Work(Lines, frozen=True, kw_only=True):
-    """What the machines do, a line each."""
+    """A program: one line for each piece of work."""
 
     name: str = "machines"
     stages: tuple[str, ...] = ("hour",)
@@ -67,7 +67,7 @@ class Work(Lines, frozen=True, kw_only=True):
 
 
 class Rest(SystemState, kw_only=True):
-    """What the system remembers: nothing but where it stands."""
+    """The state of the system, which is only the place in its program."""
 
 
 class TwoMachines(RunningSystem):
@@ -146,7 +146,7 @@ class TwoMachines(RunningSystem):
             self._state.stage = None
 
     def _go(self, machine: BenchAxes, far: tuple[float, ...]) -> Task[None]:
-        """There and back in a second, a goal a period."""
+        """Move a machine there and back in a second, with one goal for each period."""
         periods = round(1 / machine.period)
         for period in range(1, periods + 1):
             machine.put(np.sin(np.pi * period / periods) * np.array(far))
@@ -183,7 +183,7 @@ class MachinesSystem(System):
 
 
 class BenchTask(AnyTask):
-    """Nothing is asked of the two machines."""
+    """A task in which nothing is required of the two machines."""
 
     name, words = "bench", Words(product="the bench", done="Both machines stand.")
 

@@ -1,9 +1,9 @@
 """Pages that a reader can follow from a shell: files to write, commands to type, and what these print.
 
-A block `al NAME` is a file, and so are those of `toml`, `mal`, `ml` and `sym`. A block without a language holds
-commands behind `$ `, each with what it prints; `...` stands for lines left out, and where nothing is shown, all is.
-A command with `--step` begins a session, whose commands stand behind `handeye> `, there and in later blocks; lines
-typed at the terminal of ML stand behind `READY `. Other languages are not looked at.
+A block `al NAME` is a file, and so are those of `toml`, `mal`, `ml` and `sym`. A block without a language contains
+commands after `$ `, each with what it prints. `...` stands for lines left out; if nothing is shown, everything is left
+out. A command with `--step` begins a session. Its commands follow `handeye> `, in this block and in later ones. Lines
+typed at the terminal of ML follow `READY `. Blocks of other languages are ignored.
 """
 
 import re
@@ -18,7 +18,7 @@ PROMPTS = r"\$ |handeye> |READY "
 TYPED = re.compile(rf"^({PROMPTS})(.*)\n((?:(?!{PROMPTS}).*\n)*)", re.MULTILINE)
 LEFT_OUT = "..."
 Answer = Callable[[str], tuple[int, str]]
-"""Carries out a line: exit code, and what is printed."""
+"""Function that executes a line, and returns its exit code and what it prints."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Typed:
 
     @property
     def stands(self) -> bool:
-        """What is shown is what was printed."""
+        """True if the page shows what was printed."""
         lines = self.printed.splitlines()
         if LEFT_OUT not in self.shown.splitlines():
             return as_recorded(self.printed, self.shown).rstrip() == self.shown.rstrip()
@@ -41,7 +41,9 @@ class Typed:
 
     @property
     def anew(self) -> str:
-        """What is to be shown: all that was printed; behind dots, from the line on that begins as shown."""
+        """The text that the page should show: everything that was printed or, after dots, what follows from the line
+        that begins as shown.
+        """
         if not self.shown:
             return ""
         first, *rest = self.shown.splitlines()
@@ -84,7 +86,7 @@ def with_outputs(page: str, typed: list[Typed]) -> str:
 
 
 def pieces(lines: list[str]) -> list[list[str]]:
-    """What stands between the dots for lines left out."""
+    """Return the shown pieces between the dots, which stand for lines left out."""
     found: list[list[str]] = [[]]
     for line in lines:
         if line.strip() == LEFT_OUT:
@@ -95,7 +97,7 @@ def pieces(lines: list[str]) -> list[list[str]]:
 
 
 def stands(piece: list[str], lines: list[str]) -> bool:
-    """A piece is there somewhere, line after line."""
+    """Return True if the lines of a piece follow each other somewhere in `lines`."""
     recorded = "\n".join(piece)
     ways = ["\n".join(lines[start : start + len(piece)]) for start in range(len(lines))]
     return any(as_recorded(way, recorded) == recorded for way in ways)

@@ -1,4 +1,6 @@
-"""A whole run of the pump's program in a drawn world, and what the reference's rows ask of any."""
+"""A whole run of the pump's program in a world from a seed, and the values that the reference's rows require of every
+run.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,11 +33,11 @@ STAGES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Whole:
-    """A run that has ended, what it came to, and everything that happened."""
+    """A run that has ended, its result, and all its events."""
 
     result: Result
     runner: Runner
-    """As it stands at the end."""
+    """The runner in its final state."""
 
     @property
     def events(self) -> Sequence[AnyEvent]:
@@ -76,13 +78,13 @@ class Whole:
 
 
 def whole_run(plan: Plan, world: WorldSpec) -> Whole:
-    """The plan, carried out in a drawn world."""
+    """Execute the plan in a world."""
     finished = run_plan(plan, world=world)
     return Whole(result=finished.result, runner=finished.runner)
 
 
 def whole_in(folder: Path) -> Whole:
-    """A run that was kept in a folder, taken up at its end."""
+    """Read a run from its folder, in its final state."""
     _, end, faults = open_again(folder)
     assert faults == []
     result = msgspec.json.decode((folder / RESULT).read_bytes(), type=Result)

@@ -211,5 +211,5 @@ def test_a_plan_that_records_no_task_is_refused_and_leaves_no_folder(shell: Shel
         "toy_commands.toy(Path('two.toy'), out=Path('bare'))"
     )
     said, _ = begun(folder, "-c", asked).communicate()
-    assert said.endswith("BadFile: a plan of the counter machine does not name its task\n")
+    assert said.endswith("BadFile: the plan for the counter machine does not name its task\n")
     assert not (folder / "bare").exists()

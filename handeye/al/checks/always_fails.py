@@ -64,7 +64,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
                 f"the grasp needs at least {grasp.minimum / INCH:g} in, but the hand is open only "
                 f"{max(opened) / INCH:g} in"
             )
-            help = "open the fingers wider or lower the minimum: this grasp always raises error 2"
+            help = "open the fingers wider, or reduce the minimum: this grasp always raises error 2"
             yield AlwaysFails("opened-too-little", number, message, help, max(before))
 
 

@@ -43,9 +43,12 @@ from handeye.program.operation import Operation
 from handeye.touch.guards import FirstOf, Monitor
 from handeye.touch.senses import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
-SUPPORT_SHARE: Final = 0.5  # of the force that took a screw: this must support the hand that returns it
+SUPPORT_SHARE: Final = 0.5
+"""Least force that must support the hand when it returns a screw, as a fraction of the force with which the screw was
+taken.
+"""
 STRAIGHTER: Final = 2 * 1.1e-3
-"""Distance (m) by which the gap may change because a carried object straightens between the fingers. Chosen: twice
+"""Distance (m) by which the gap may change because a carried object straightens between the fingers. Our choice: twice
 the largest measured value.
 """
 SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
@@ -72,7 +75,7 @@ def order(state: ExecutionState, undoing: ReversalOrder) -> None:
 
 
 def end(state: ExecutionState) -> None:
-    """End a reversal. The magnet is switched on again, because programs always have it on."""
+    """End a reversal. The magnet is switched on again, because it is always on while a program runs."""
     state.undoing, state.drive.magnet = None, True
 
 

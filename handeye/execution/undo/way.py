@@ -13,7 +13,7 @@ import numpy as np
 from handeye.core.pose import Array
 
 GRAIN: Final = 1e-6  # rad or m; at the hand a tenth of the potentiometers' resolution
-_LONGEST: Final = 1 << 22  # decompressed bytes: days
+_LONGEST: Final = 1 << 22  # decompressed bytes: enough for days
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

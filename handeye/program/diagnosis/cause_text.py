@@ -157,7 +157,7 @@ def _met_early(cause: c.MetEarly) -> str:
 def _not_found(cause: c.SightCause) -> str:
     match cause:
         case c.NoOutline():
-            return "nothing of the part's size stands out from the background where the part should be"
+            return "no object of the part's size stands out from the background where the part should be"
         case c.OutsidePicture():
             return "the part is not in the field of the close picture: is the camera aimed at it?"
         case c.FaintPicture():

@@ -202,7 +202,7 @@ GasketFault = BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | GasketTorn
 
 
 class GasketWrong(CauseRecord, frozen=True, kw_only=True):
-    """A gasket is present, but lies wrong or is not whole. `faults` gives the reasons."""
+    """A gasket is present, but is out of place or torn. `faults` gives the reasons."""
 
     faults: tuple[GasketFault, ...]
 

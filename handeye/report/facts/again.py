@@ -12,7 +12,7 @@ from handeye.report.recorded import RecordedRun
 from handeye.tasks import DEFAULT, known, option
 
 _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
-_TYPED: Final = 20  # the settings of a world that can be typed; more are taken from the folder of the run
+_TYPED: Final = 20  # with more settings of the world, the command reads them from the run's folder
 
 
 def command(run: RecordedRun) -> str | None:

@@ -68,8 +68,9 @@ def _thinned(motion: Forces) -> SensedForce:
 
 
 def tried_places(searches: Sequence[Search], motions: Sequence[GuardedMotion]) -> tuple[TriedPlaces, ...]:
-    """Return when the hand was at the places of each search: at the end of the last guarded motion before the search
-    went on and, for the last place, of the first one after that.
+    """For each search, return the times at which the hand was at its places. For every place but the last, this is the
+    end of the last guarded motion before the search went on. For the last place, it is the end of the first guarded
+    motion after that.
     """
     ends = np.array([motion.times[-1] for motion in motions])
     return tuple(_tried(search, ends) for search in searches if len(ends) and search.times)

@@ -36,8 +36,9 @@ class Meshes:
     """
 
     told: list[dict[str, Any]] = field(default_factory=list)
-    """Data for the page on each mesh: `fine` and `coarse`, first corner and number of corners of the triangles;
-    `scale` of the points; `ball`, the bounding sphere; `parts`, names and ranges of the pieces.
+    """What the page must know about each mesh. `fine` and `coarse`: for the triangles of this level, the index of
+    their first corner and the number of their corners. `scale`: the scale of the points. `ball`: the bounding sphere.
+    `parts`: the names and ranges of the pieces.
     """
     _points: list[NDArray[np.uint16]] = field(default_factory=list)
     _normals: list[NDArray[np.int8]] = field(default_factory=list)

@@ -61,7 +61,9 @@ HAND: Final = 11  # number of the motor of the fingers
 ZERO: Final = (20 * INCH, 42 * INCH, 5 * INCH)  # x, y, z of the tool in W (m) with all slides at 0
 _DOWN: Final = (pi / 2, pi / 2, 0.0)  # O, A, T
 _SLIDE: Final = {"lower": -10_039, "upper": 10_039, "tolerance": 60}
-"""Travel of the rectilinear arm. The tolerance is chosen: friction holds the Stanford arm up to 1.5 mm off."""
+"""Travel of the rectilinear arm. We chose the tolerance, because friction holds the Stanford arm up to 1.5 mm off its
+goal.
+"""
 
 SPEC: Final = ArmSpec(
     side="right",
@@ -85,7 +87,7 @@ SPEC: Final = ArmSpec(
     digital={2: ("touch_1", "touch_2")},
     sensors={**{2 + n: analog(17 + n) for n in range(3)}, 9: digital(2, 1), 10: digital(2, 2)},
 )
-"""The Stanford arm, as the real-time level sees it. Any gap is within the tolerance of its goal, because
+"""The Stanford arm, as the real-time level sees it. Every gap counts as within the tolerance of its goal, because
 the fingers may stop at a part.
 """
 _GIVES: Final = re.compile(r"\*\s*([A-Z][A-Z0-9]*) IS &(\d+)\s*", re.ASCII)
@@ -122,7 +124,7 @@ class SlideAxes(Axes):
         return self.tool.period
 
     def power(self, on: bool) -> None:
-        """Switch nothing: the servo of the arm runs in the computer, and ends with the brakes."""
+        """Switch nothing: the servo of the arm runs in the computer, and ends when the brakes are set."""
 
     def put(self, goal: Array) -> None:
         z, y, x, self.roll, gap = map(float, goal)
@@ -135,7 +137,7 @@ class SlideAxes(Axes):
         turned = (read.q[3] - _DOWN[0] - self.roll + pi) % (2 * pi) - pi
         upright = (
             abs(abs(read.q[4]) - pi / 2) < 0.05
-        )  # then O says little, and the hand has the roll of its goal
+        )  # then O says little about the roll: assume the roll of the goal
         roll = self.roll + (0.0 if upright else turned)
         q = np.array([ZERO[2] - read.q[2], read.q[1] - ZERO[1], read.q[0] - ZERO[0], roll, read.q[6]])
         channels = {
@@ -224,7 +226,7 @@ class MlLeg(ToolLeg, RunningMl):
 
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
         self._held = None
-        self.recorder.restart()  # as after a resumed run
+        self.recorder.restart()  # as when a run is resumed
         known = {name: record.height(name) for name in _given(self._plan)}
         for name, variable in _given(self._plan).items():
             value = round((ZERO[2] - known[name]) / LINEAR)

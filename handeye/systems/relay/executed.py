@@ -14,7 +14,7 @@ from handeye.systems.relay.state import RelayCore
 
 @dataclass(frozen=True, slots=True)
 class LegStep:
-    """An executed step of a leg that has not been undone."""
+    """An executed step of a leg. The step has not been undone."""
 
     step: int
     enters: bool
@@ -42,7 +42,7 @@ def last_leg(state: RelayCore) -> int:
 
 
 def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
-    """Return the executed steps of all legs that have not been undone, in the order of the legs."""
+    """Return the executed steps of all legs, in the order of the legs. Steps that were undone are left out."""
     found = []
     for leg in legs(plan)[: state.leg + 1]:
         own = leg.system.executed(leg.plan, memories(plan, state)[leg.file])
@@ -55,7 +55,7 @@ def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
 
 
 def own_legs(plan: RelayPlan, state: RelayCore) -> tuple[Leg, ...]:
-    """Return the leg that has the arm, after the legs directly before it that the same program has done."""
+    """Return the unbroken series of legs of one program that ends with the leg that has the arm."""
     all_legs, here = legs(plan), last_leg(state)
     first = here
     while first and all_legs[first - 1].file == all_legs[here].file:
@@ -77,8 +77,8 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
 
 
 def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
-    """Return the part of an order that the program with the arm can execute, in its own numbers: to undo its steps
-    since it took the arm over, or fewer. None if it has no such steps.
+    """Return the part of an order that the program with the arm can execute: to undo all or some of its steps since it
+    took the arm over. Steps have that program's own numbers. None if there are no such steps.
     """
     own, done = own_legs(plan, state), executed(plan, state)
     before = sum(each.step < own[0].first for each in done)

@@ -27,7 +27,7 @@ class LegStarted(SystemEvent, frozen=True, kw_only=True):
 
 
 def _kind(system: str, kind: type[SystemEvent]) -> type[SystemEvent]:
-    """Return a kind of events of a system, under a name that no other system has."""
+    """Return a kind of event of a system under a new name, which no other system has."""
     name = f"{system.capitalize()}{kind.__name__}"
     made: Any = msgspec.defstruct(
         name, [], bases=(kind,), frozen=True, kw_only=True, tag_field="event", tag=name, module=__name__
@@ -42,7 +42,7 @@ OF_LEGS: Final[Mapping[type, type[SystemEvent]]] = {
     if "leg" in entry.can and entry.events
     for kind in loaded(entry.events)
 }
-"""The kinds of events of the systems of legs, and the kinds that stand for them in a relay."""
+"""For each kind of event of a system that can do legs: the kind that stands for it in a relay."""
 EVENTS: Final[tuple[Any, ...]] = (LegStarted, *OF_LEGS.values())
 
 

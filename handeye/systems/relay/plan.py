@@ -69,7 +69,9 @@ class Leg:
         return range(self.first, self.first + len(self.steps))
 
     def number(self, step: int | None) -> int | None:
-        """Return the number in the relay of a step of the program. Outside the leg, the next leg follows."""
+        """Return the number that a step of the program has in the relay. For a step outside the leg, return the first
+        step of the next leg.
+        """
         return self.first + step - self.steps[0] if step is not None and step in self.steps else self.onward
 
 

@@ -205,7 +205,7 @@ class RunningRelay(RunningSystem):
             self._leave()
 
     def _mirror(self, *, undoing: bool = False) -> None:
-        """Take over the place of the program that has the arm."""
+        """Let the state of the relay follow the state of the program that has the arm."""
         state, own = self._state, self._running.state
         if undoing:
             place = own.at if own.at is not None else own.onward
@@ -224,7 +224,7 @@ class RunningRelay(RunningSystem):
 
     @property
     def _turned(self) -> bool:
-        """True if the program stands where the arm has undone its steps."""
+        """True if the arm has undone the program's last steps, and the program has not gone on since."""
         return self._running.state.onward is not None
 
     # -- handing over -------------------------------------------------------------------------------------
@@ -326,7 +326,9 @@ class RunningRelay(RunningSystem):
         self._go_back()
 
     def _go_back(self) -> None:
-        """Let the program that has the arm undo its steps, or the next program before it that has any."""
+        """Let the program that has the arm undo its steps. If it has none, give the arm back to earlier programs until
+        one has steps to undo.
+        """
         assert self._state.undoing is not None
         while (order := own_order(self._plan, self._state, self._state.undoing)) is None:
             self._take_back()

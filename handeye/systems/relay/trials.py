@@ -31,8 +31,8 @@ class LegTrial(Record, frozen=True, kw_only=True):
     ended: str
     arm_s: float
     peak_n: float
-    """Greatest force of all contacts on the arm (N), in the simulator, at the ends of servo periods. A held part
-    presses with its weight, too.
+    """Greatest force of all contacts on the arm (N) at the end of any servo period, taken from the simulator. It
+    includes the weight of a held part.
     """
 
 
@@ -116,7 +116,7 @@ class LegLine(Record, frozen=True, kw_only=True):
     stage: str
     system: str
     reached: int
-    ended: int  # as the leg should
+    ended: int  # number of legs that ended as they should
     mean_s: float | None  # of the legs that ended as they should
     median_n: float | None
     most_n: float | None
@@ -150,7 +150,7 @@ RELAYS: Final = Sweep(
     narrated=True,
     details=_details,
     summary=lambda _: [
-        "A peak is the greatest force of all contacts on the arm, in the simulator, at the ends of servo periods. A "
-        "held part presses with its weight, too."
+        "A peak is the greatest force of all contacts on the arm at the end of any servo period, taken from the "
+        "simulator. It includes the weight of a held part."
     ],
 )

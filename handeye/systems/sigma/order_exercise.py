@@ -35,7 +35,7 @@ class OrderExercise(Exercise):
     def rules(self) -> tuple[str, ...]:
         return (
             f"The program keeps every {', '.join(_WORK[:-1])} and {_WORK[-1]} of each task, in their order.",
-            "Some order executes each line, and the program ends.",
+            "Each line is executed in at least one order, and the program ends.",
         )
 
     def diagnostics(self, given: Submission) -> list[Diagnostic]:

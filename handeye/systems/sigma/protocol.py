@@ -16,7 +16,7 @@ FORCE_STEP_N: Final = 0.01  # N: unit of forces and thresholds on the bus
 STANDARD: Final = 0xFFFF  # a threshold that restores the standard one
 LONGEST_MOVE: Final = 0xFFFF  # greatest number of steps in one command
 SLOWEST: Final = 31  # steps/s: the lowest rate to which a 16-bit counter can divide 2 MHz
-SLOW_STEP_MM: Final = 2  # mm/s, the speed that each unit of a speed code stands for: 2 to 254 mm/s
+SLOW_STEP_MM: Final = 2  # mm/s per unit of a speed code; a code stands for 2 to 254 mm/s
 
 _NAMES: Final = ("X1", "Y1", "Z1", "FORCE1", "HAND1", "X2", "Y2", "Z2", "FORCE2", "HAND2")
 NUMBERS: Final = {name: number for number, name in enumerate(_NAMES)}

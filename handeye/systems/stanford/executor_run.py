@@ -164,7 +164,7 @@ class RunningPlan(RunningSystem):
         if self.trouble is None:
             self._set_clock()
             made = preparation_of(self.context, self._cell, self._prepared, seconds)
-            take_up(made, self.context, self._cell)  # as a later run restores it
+            take_up(made, self.context, self._cell)  # as a later run does with a stored preparation
             if conditions is not None:
                 self._keep(kept, conditions, made)
         return seconds

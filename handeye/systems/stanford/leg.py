@@ -56,8 +56,8 @@ class PlanLeg(RunningPlan, RunningLeg):
                 state.world.moved[name] = Position(at=(x, y, z, o, a, t))
 
     def _found(self, stage: str, kind: Kind, record: HandOver) -> Mapping[str, np.ndarray]:
-        """Return the values of the record that this program knows by name. Raises Refused if one that the stage needs
-        is missing or of another kind, and this program does not have it.
+        """Return the values of the record that this program knows by name. Raises Refused if the stage needs a value
+        that this program does not have itself, and that the record lacks or has as another kind.
         """
         program, state = self.plan.program, self.state
         own = {"difference": {*state.saved}, "height": {*state.heights}, "place": {*program.positions}}[kind]

@@ -125,7 +125,7 @@ def on_platter(axes: "Sequence[float] | Array") -> Place:
 
 
 class _Job:
-    """What a running job of TRIG has around it, on the Stanford arm."""
+    """What a TRIG job needs while it runs, on the Stanford arm."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -133,7 +133,7 @@ class _Job:
         self.axes: Any = None
 
     def turn(self) -> None:
-        """A leg is not reversed by a job."""
+        """Do nothing, because no job reverses a leg."""
 
 
 class TaughtLeg(ToolLeg, RunningJob):
@@ -279,7 +279,7 @@ class TaughtLegs(ToolLegs):
     def lacks(self, plan: Any, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
         found = [*super().lacks(plan, stage, earlier)]
         if FINISH not in {step.label for step in listing(plan).steps}:
-            found.append(Lack(1, f"no step is called {FINISH}, so the leg could never end well"))
+            found.append(Lack(1, f"no step is called {FINISH}, so the leg could never end successfully"))
         return found
 
     def writes(self, plan: Any, stage: str) -> Sequence[Use]:

@@ -168,9 +168,9 @@ def hand() -> Iterator[Quantity]:
             unsourced="the offset is the wear of the finger pads since the gap was last set, and this wear was never "
                 f"measured. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
-            "Scale error of the gap reading. Its size lies between the linearity of wire-wound potentiometers, "
-            ".15 to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of Bourns 3400 to 3590 "
-            "and 6537 to 6639."),
+            "Scale error of the gap reading. Its size is between the linearity of wire-wound potentiometers, .15 "
+            "to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of Bourns 3400 to 3590 and "
+            "6537 to 6639."),
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap reading, before the converter.",
             unsourced="the noise is a third of a step of the converter, so the converter hardly shows it. Bound: "

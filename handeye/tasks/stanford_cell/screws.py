@@ -206,8 +206,8 @@ def _screw_shapes(
 
 
 def add_hung_screw(shaper: Shaper, dispenser: mujoco.MjsBody, number: int, at: Place, top: float) -> None:
-    """Add a hole to a dispenser whose upper side is at `top`, and a screw that hangs in the hole by its head. Also
-    add a place, out of sight, for the screw's own body while a carrier represents the screw in a thread. The
+    """Add a hole to a dispenser whose upper side is at `top`, and a screw that hangs in the hole by its head. Also add
+    a place, out of sight, where the screw's own body stays while a carrier represents the screw in a thread. The
     origin of a screw is its point.
     """
     add_ring(shaper, dispenser, "dispenser_hole", "bore", at, top, HUNG_BORE, 10)

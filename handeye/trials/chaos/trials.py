@@ -215,7 +215,8 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
-    """The same trial with a schedule reduced as far as it still fails; None if the trial does not fail."""
+    """The same trial with a schedule reduced as far as possible while it still fails; None if the trial does not fail.
+    """
 
     @property
     def outcome(self) -> str:
@@ -234,7 +235,7 @@ class ChaosWork:
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:
-        """Execute a schedule. If it fails, reduce it as far as it still fails."""
+        """Execute a schedule. If it fails, reduce it as far as possible while it still fails."""
         schedule = parse_schedule(case.condition)
         sound = sound_run(self.folder, self.setup, WorldSpec(seed=schedule.seed, level=schedule.level))
         drawn = try_schedule(schedule, sound)

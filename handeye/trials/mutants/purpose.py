@@ -11,16 +11,16 @@ from handeye.program.program import Program
 from handeye.proof.outcomes import END, SUCCESS, OutcomeGraph
 from handeye.trials.mutants.rules import Mutant
 
-NEAR: Final = 40  # nodes behind a failed check in which its call is sought
+NEAR: Final = 40  # nodes that are searched for the call of a failed check, from the check on
 CALLS: Final = 3  # calls, at most
 
 
 def faults_for(
     mutant: Mutant, program: Program, graph: OutcomeGraph, catalogue: Catalogue, most: int
 ) -> list[Fault]:
-    """Return at most `most` faults for which the check that a mutant lacks exists in the program. Faults that can begin
-    at the mutant's stage come first, because their runs are short; among them, those with the fewest names that count
-    as right. Of faults that differ only in a number, only the first is returned.
+    """Return at most `most` faults for which the program has the check that a mutant lacks. Faults that can begin at
+    the mutant's stage come first, because their runs are short. Among them, faults that fewer errors and calls
+    identify come first. Of faults that differ only in a number, only the first is returned.
     """
     calls, stops = calls_of(mutant.steps, program, graph)
     kinds = [
@@ -39,8 +39,8 @@ def _usual(kind: FaultKind, stage: int) -> Fault:
 
 
 def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tuple[list[str], set[int]]:
-    """Return the calls to the operator nearest behind the failures of some steps, and the errors with which these steps
-    stop the arm.
+    """Return the first calls to the operator after some steps have failed, and the errors with which these steps stop
+    the arm.
     """
     changed, calls, stops = set(steps), list[str](), set[int]()
     waiting: list[int] = []
@@ -60,7 +60,9 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
 
 
 def _specific(program: Program, number: int) -> set[int]:
-    """Return the errors that only some actions of the kind of a step can raise, or that are the purpose of a check."""
+    """Return the errors of a step's guards or, if the step only checks or examines, all its errors except that of the
+    watchdog.
+    """
     operation = program.steps[number].operation
     if operation.guards:
         return {guard.error for guard in operation.guards}

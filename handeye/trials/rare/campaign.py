@@ -109,9 +109,9 @@ class Campaign:
     def run(
         self, places: Sequence[tuple[str, int]], points: Sequence[Point], *, kept: bool = True
     ) -> tuple[RareRow, ...]:
-        """Run the worlds of some points. The place of each is its condition, and its number within the condition.
-        With `kept`, worlds in which the program fails are kept. Raises InvalidInput if a run ended because this
-        computer failed, so that its margin is unknown.
+        """Run the worlds of some points. `places` gives the condition of each point, and its number within this
+        condition. With `kept`, worlds in which the program fails are kept. Raises InvalidInput if a run ended because
+        this computer failed, so that its margin is unknown.
         """
         cases = [
             RareCase(
@@ -163,7 +163,8 @@ def _check(row: RareRow, case: RareCase) -> None:
     """Raise InvalidInput if a row is of another world, or if its run must be repeated."""
     if row.seed != case.seed or row.world not in ("", world_digest(case.world)):
         raise BadFile(
-            f"run {row.trial} of {quoted(row.condition)} is in another world than this command would try"
+            f"run {row.trial} of {quoted(row.condition)} is in a different world from the one that this command "
+            "would try"
         )
     if row.to_be_tried_again:
         raise Refused(

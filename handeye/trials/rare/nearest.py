@@ -40,7 +40,7 @@ class Push(Record, frozen=True, kw_only=True):
     """How one quantity pushes the program towards a failure, in standard deviations."""
 
     quantity: str
-    worlds: int  # number of the nearest worlds that need it
+    worlds: int  # how many of the nearest worlds need it
     mean: float | None  # its mean deviation in these worlds; None: no such world needs it
     shift: float  # its mean deviation in all failing worlds of the search
 
@@ -78,7 +78,9 @@ def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> l
 
 
 def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> Generator[Array, bool, None]:
-    """Yield worlds that deviate less, at most `tries`. After each, receive True if the program still fails."""
+    """Yield worlds that deviate less, at most `tries` of them. The caller answers each with True if the program still
+    fails in it.
+    """
     kept = numbers.copy()
     parts = deque(list(group) for group in groups)
     for _ in range(max(0, tries - HALVINGS)):
@@ -99,7 +101,7 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return how the quantities push, those that the most of the nearest worlds need first."""
+    """Return how the quantities push the program to fail. Those that more of the nearest worlds need come first."""
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:
         return []

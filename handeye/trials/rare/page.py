@@ -41,9 +41,10 @@ def estimates(found: Sequence[Estimated]) -> Iterator[Markup]:
     for each in found:
         yield section(each.failure, _TITLES[each.failure], element("p", sentence(each)), _levels(each))
     yield note(
-        "Each level is a sample of worlds in which the margin of a run is at most the threshold of the level before "
-        "it. A margin of 1 is what runs usually have left; at 0, the program fails. The estimate is the product of "
-        "the shares. It is not a bound."
+        "Each level is a sample of the worlds in which the margin of a run is at most the threshold of the level "
+        "before it. A share is the fraction of a level's runs that are within the level's own threshold. A run "
+        "usually has a margin of about 1; at 0, the program fails. The estimate is the product of the shares. It "
+        "is not a bound."
     )
 
 
@@ -58,11 +59,12 @@ def worlds(failure: str, found: Sequence[NearWorld], pushing: Sequence[Push]) ->
         title,
         _worlds(found),
         note(
-            "Distances and deviations are in standard deviations. All quantities that are not named are in the middle "
-            "of their ranges."
+            "Distances and deviations are in standard deviations. Quantities that are not named are all in the "
+            "middle of their ranges."
         ),
     )
-    yield section(f"{failure}-pushes", f"{_TITLES[failure]}: what pushes", _pushes(pushing[:PUSHES]))
+    heading = f"{_TITLES[failure]}: quantities that push it to fail"
+    yield section(f"{failure}-pushes", heading, _pushes(pushing[:PUSHES]))
 
 
 def _worlds(found: Sequence[NearWorld]) -> Markup:

@@ -41,8 +41,8 @@ class WorldSpace:
         return Point(np.array([*found], dtype=float), seed)
 
     def world(self, point: Point) -> WorldSpec:
-        """Return the world of a point. Values that an error of four times its size takes beyond the limits of its
-        quantity are at these limits.
+        """Return the world of a point. A value beyond the limits of its quantity, which an error of four times its
+        size can cause, is set to the limit.
         """
         values = {
             name: self._value(each, float(number))

@@ -34,7 +34,7 @@ class Reserves(Observer):
             if isinstance(operation, Search):
                 self._limit, self._place = operation.limit, event.place
         elif isinstance(event, SearchAdvanced):
-            self._note(f"places left of the search in line {self._place}", self._limit - event.count)
+            self._note(f"remaining places of the search in line {self._place}", self._limit - event.count)
         elif isinstance(event, StepFinished):
             step = self._program.steps[event.step]
             if self._runner.context.state.pending is None and not is_tested(self._program, step):
@@ -43,7 +43,7 @@ class Reserves(Observer):
     def _measure(self, step: Step) -> None:
         operation, state = step.operation, self._runner.context.state
         if isinstance(operation, Countdown):
-            self._note(f"rounds left of {operation.counter}", state.counters[operation.counter])
+            self._note(f"remaining rounds of {operation.counter}", state.counters[operation.counter])
         elif isinstance(operation, Travel):
             self._between("travel", step, state.travel, operation.minimum, operation.maximum)
         elif isinstance(operation, Height):
@@ -55,7 +55,7 @@ class Reserves(Observer):
             self._between("gap", step, gap, least_gap(operation.minimum), most)
         elif isinstance(operation, Change) and operation.guards:
             way = float(np.linalg.norm(operation.displacement)) - state.travel
-            self._note(f"way left to meet something, line {step.place}", _MM * way)
+            self._note(f"distance left when a guard ended the motion, line {step.place}", _MM * way)
 
     def _between(self, what: str, step: Step, value: float, least: float, most: float | None) -> None:
         left = value - least if most is None else min(value - least, most - value)

@@ -42,7 +42,7 @@ class RareRow(Row, frozen=True, kw_only=True):
 
     @property
     def failure(self) -> FailureKind | None:
-        """How the program failed; None if it did not. A run that was broken off has stopped."""
+        """How the program failed; None if it did not. A run that was broken off counts as stopped."""
         return {"silent": "silent", "assembled": None}.get(self.verdict, "stopped")
 
 
@@ -51,7 +51,9 @@ class Margin:
     """The margin of a run, and the part that determines it."""
 
     value: float
-    """1: as much as usual; 0 or less: the run failed in the way in question; inf: the run says nothing about it."""
+    """1: the run had as much left as runs usually have. 0 or less: the run failed in this way. inf: the run gives no
+    information about this kind of failure.
+    """
     part: str
 
 

@@ -24,14 +24,17 @@ ACCEPTED: Final = 0.44
 FIRST_STEP: Final = 0.6  # Papaioannou and others
 SMALLEST_STEP: Final = 0.02
 REDRAWN: Final = 0.5
-"""Probability with which a candidate has new noise. The other candidates keep the noise of the state they come from,
-so that a failure that needs a rare noise is not lost at every step. Our choice.
+"""Probability with which a candidate has new noise. The other candidates keep the noise of the state they come from.
+With new noise in every candidate, a failure that needs a rare noise would be lost at every step. The value is our
+choice.
 """
 NORMAL_95: Final = 1.96  # standard deviations
 FAILED: Final = 0.0  # a run whose margin is not above this has failed
 
 Margins = Callable[[int, Sequence[Point]], Sequence[float]]
-"""Runs the worlds of some points, which belong to the level of this number; returns the margin of each run."""
+"""Function that runs the worlds of some points, which belong to the level with the given number. It returns the margin
+of each run.
+"""
 
 
 class Level(Record, frozen=True, kw_only=True):
@@ -77,7 +80,7 @@ def subset_simulation(
 
     Args:
         first: worlds drawn independently; every level has as many.
-        stream: returns the random numbers of the level of a number.
+        stream: returns the random number generator of a level, given by its number.
     """
     chains = [[_State(*each)] for each in zip(first, margins(0, first), strict=True)]
     level = _level(chains, Level(number=0, runs=len(first), threshold=0, share=0, failed=0, variation=0))
@@ -92,8 +95,8 @@ def subset_simulation(
 
 
 def estimate(levels: Sequence[Level]) -> Estimate:
-    """Return the product of the shares of all levels, with its variation. The variation leaves out how the levels
-    depend on each other, as Au and Beck do.
+    """Return the product of the shares of all levels, with its variation. Like Au and Beck, this function computes the
+    variation as if the levels were independent.
     """
     probability = math.prod(level.share for level in levels)
     variation = math.sqrt(sum(level.variation**2 for level in levels))
@@ -129,7 +132,7 @@ class _Walk:
 
     @property
     def told(self) -> Level:
-        """The level, without what is found in its sample."""
+        """The level, without the values that its complete sample determines."""
         return Level(
             number=self._last.number + 1, runs=self._runs, threshold=0, share=0, failed=0, variation=0,
             acceptance=self._accepted / self._runs, step=self._step,
@@ -154,7 +157,7 @@ class _Walk:
 
 
 def _level(chains: Sequence[_Chain], told: Level) -> Level:
-    """Complete a level with its threshold, and with what its sample says about it."""
+    """Complete a level with the threshold, the share and the failures that its sample gives."""
     margins = sorted(state.margin for chain in chains for state in chain)
     threshold, failed = _threshold(margins), sum(margin <= FAILED for margin in margins)
     below = sum(margin <= threshold for margin in margins)

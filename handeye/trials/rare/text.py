@@ -14,7 +14,7 @@ _ENDS: Final = {"stopped": "stops", "silent": "fails silently"}
 
 LEVEL_HEADS: Final = ("level", "runs", "margin at most", "share", "accepted", "failed")
 WORLD_HEADS: Final = ("distance", "found at", "needs")
-PUSH_HEADS: Final = ("in worlds", "mean there", "mean in all failing")
+PUSH_HEADS: Final = ("in worlds", "mean there", "mean in all failing worlds")
 
 
 def levels_table(found: Estimated) -> PlainTable:

@@ -98,7 +98,7 @@ def test_what_a_leg_cannot_do_is_found_before_the_run(tmp_path: Path) -> None:
 
     assert found() == []
     assert found(trig=TEXTS["take.trig"].replace("FINISH", "DONE")) == [
-        "no step is called FINISH, so the leg could never end well"
+        "no step is called FINISH, so the leg could never end successfully"
     ]
     assert found(mal=TEXTS["carry.mal"].replace("STANDS", "STOOD")) == [
         "no earlier leg finds the place STOOD", "no earlier leg finds the place STOOD",

@@ -11,7 +11,7 @@ import { Tracks } from "./tracks.js";
 
 const DETAIL = [1, 0.75, 0.5]; // possible resolutions of a draft, as fractions of the canvas's
 const SLOW = 45, FAST = 14; // ms for a draft: a slower one is made coarser, a faster one finer
-const TIMED = 24; // one of this number of drafts is timed
+const TIMED = 24; // one draft in this number is timed
 const REST = [150, 800]; // ms without change before fine pictures begin: least and greatest value
 const SHOWN = 8; // the average is shown each time this number of exposures has been added
 const PATIENCE = 4000; // ms after which the next shown average is the last
@@ -73,7 +73,7 @@ class Player {
     return this.senses;
   }
 
-  // A function from a place (m) to its point in a picture of this size, or to null behind the eye.
+  // Return a function that converts a place (m) to its point in a picture of this size, or to null if the place is behind the eye.
   projection(width, height) {
     const { matrix: m } = this.camera.seen(width, height);
     return ([x, y, z]) => {
@@ -189,7 +189,7 @@ async function levelsOf(file) {
   return pen.getImageData(0, 0, width, height).data.filter((_, i) => i % 4 === 0);
 }
 
-// Return a player on a canvas; `handeye.report.player` describes it. Rejected with a sentence if it cannot draw.
+// Return a player on a canvas; `handeye.report.player` describes it. The promise is rejected, with a sentence as its reason, if the browser cannot draw.
 export async function createPlayer(canvas, sceneBuffer, tracksBuffer, options = {}) {
   const scene = unpacked(sceneBuffer), levels = scene.header.grains ? await levelsOf(scene.array("picture")) : null;
   return new Player(canvas, scene, new Tracks(tracksBuffer), levels, options);

@@ -5,12 +5,12 @@ const PER_NEWTON = 0.005; // m for each N of the force
 const LONGEST_ARROW = 0.15; // m
 const LEAST_FORCE = 0.15; // N; a weaker force has no arrow
 const FADING = 2; // s for which the last force of a motion remains
-const TRAILING = 12, TRAIL_STEP = 0.1; // s of the drawn path of the hand, and between its points
+const TRAILING = 12, TRAIL_STEP = 0.1; // s: duration of the drawn path of the hand, and interval between its points
 const LINGERING = 12; // s for which the places of a search remain after the last of them
 const FINEST = 2; // points per CSS pixel, at most
 const INKS = { force: "#ff6a3d", strong: "#ff2d2d", path: "#4fb3ff", tried: "#ffd24a", found: "#58e07f", halo: "rgb(0 0 0 / 60%)" };
 
-// Draws over the 3D view what the hand sensed: its force, its path, and the places of a search.
+// Draws onto the 3D view what the hand sensed: its force, its path, and the places of a search.
 export class Senses {
   constructor(canvas, player, { tools, forces = [], searches = [], held = [] }) {
     Object.assign(this, { canvas, player, tools, forces, searches, held, shown: true });
@@ -18,7 +18,7 @@ export class Senses {
     this.pen = canvas.getContext("2d");
   }
 
-  // The force at a time: its vector (N), the limit of the guard (N, or null), and its strength, which fades from 1 to 0
+  // The force at the given time: its vector (N), the limit of the guard (N, or null), and its strength, which fades from 1 to 0
   // after the motion. Null if no force was sensed.
   force(time) {
     const motion = this.forces[countUpTo(this.begins, time + 1e-6) - 1];
@@ -39,7 +39,7 @@ export class Senses {
     return this.held.find(({ begin, end }) => begin <= time && time < end)?.name ?? null;
   }
 
-  // What the hand senses and holds at a time, as a line of text.
+  // What the hand senses and holds at the given time, as a line of text.
   label(time) {
     const sensed = this.force(time), held = this.holds(time), told = [];
     if (sensed) told.push(`force ${Math.hypot(...sensed.vector).toFixed(1)} N`);
@@ -91,7 +91,7 @@ export class Senses {
     }
   }
 
-  // The tip of the arrow is where the hand pushes to.
+  // The arrow points to where the hand pushes.
   drawForce(tool, time) {
     const sensed = this.force(time), place = this.tool(tool, time);
     if (!sensed || !place) return;

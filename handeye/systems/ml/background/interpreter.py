@@ -55,8 +55,8 @@ class Interpreter:
 
     @property
     def _emergency(self) -> str:
-        """The emergency that has stopped the program's own arm or the arm that it now commands; empty if neither was
-        stopped.
+        """The emergency that has stopped the program's own arm or the arm that the program now commands; empty if
+        neither was stopped.
         """
         return self.level.stopped or self._own.stopped
 

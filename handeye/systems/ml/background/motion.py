@@ -88,7 +88,7 @@ def go_mean(mos: "Interpreter", one: int, other: int) -> None:
 
 
 def go_line(mos: "Interpreter", one: int, other: int) -> None:
-    """Go to a place on the line through two POINTs, in the space of all motors: the one nearest to the present goals.
+    """On the line through two POINTs, in the space of all motors, go to the place nearest to the present goals.
     Half a unit is rounded up.
     """
     level, a, b = mos.level, mos.program.point(one), mos.program.point(other)

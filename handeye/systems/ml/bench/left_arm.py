@@ -38,7 +38,7 @@ def add_left_arm(spec: mujoco.MjSpec) -> None:
         arm.delete(arm.geom(name))
     for each in (*arm.lights, *arm.cameras):
         arm.delete(each)
-    arm.option.impratio = spec.option.impratio  # that of the right arm holds for both
+    arm.option.impratio = spec.option.impratio  # both arms use that of the right arm
     column = arm.body("column")
     column.pos[2] += _HIGH
     arm.joint("z").range[:] = [-_HIGH, _HIGH]

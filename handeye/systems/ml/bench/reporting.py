@@ -40,7 +40,9 @@ def counted(heard: object) -> int:
 
 
 def calls_of(troubles: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the message of a program for each trouble, as declarations of faults quote it: with `{count}`."""
+    """For each trouble, return the program's message in the form that declarations of faults quote: its sentence,
+    then `({count})`.
+    """
     return tuple(f"{sentence} ({{count}})" for sentence in troubles.values())
 
 

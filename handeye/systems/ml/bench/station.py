@@ -61,7 +61,7 @@ class Station:
                 motors begin at 0.
             tools: a dictionary from the names of tools of the station to the functions that switch them. Other tools do
                 nothing.
-            others: mechanisms of a job that do not act as time passes.
+            others: mechanisms of a job whose state the cell keeps, but which do nothing as time passes.
             left: True if the scene also has the left arm.
         """
         self.bench = Bench(spec.compile())

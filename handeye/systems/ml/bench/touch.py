@@ -70,13 +70,13 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def trips(self) -> bool:
-        """True if the start of the motion, in the air, would trip a guard that was set before it."""
+        """True if a guard that was set before the motion would trip in the air, when the motion starts."""
         return self.jolt > self.limit * GRAM_FORCE
 
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """A touch, each millisecond."""
+    """A touch, millisecond by millisecond."""
 
     z: list[float]
     goal: list[float]

@@ -1,4 +1,4 @@
-// Touches by period, bandwidth and speed: sliders choose one, and four drawings show it among the others.
+// Touches for each period, bandwidth and speed. Sliders choose one touch; four drawings show it among the others.
 (() => {
   "use strict";
   const byId = (id) => document.getElementById(id);
@@ -31,7 +31,7 @@
 
   const way = (xs, ys) => `M${xs.map((x, n) => `${x.toFixed(1)},${ys[n].toFixed(1)}`).join("L")}`;
 
-  /** A course of the touch in time. */
+  /** Plot a value of the touch against time. */
   function course(name, values, one, period, others) {
     const times = values.map((_, n) => one.begin + n), shown = times.map((time) => time >= -30 && time <= 100);
     const xs = scale(-30, 100, LEFT, RIGHT), visible = [...values, ...(others ?? [])].filter((_, n) => shown[n % values.length]);
@@ -57,7 +57,7 @@
     byId(name).replaceChildren(...drawn);
   }
 
-  /** A figure of all touches with the chosen bandwidth, by speed. */
+  /** Plot a figure of all touches with the chosen bandwidth against their speed. */
   function compared(name, figure, [period, bandwidth, speed]) {
     const xs = scale(Math.log(data.speed[0]), Math.log(data.speed.at(-1)), LEFT + 10, RIGHT - 40);
     const all = data.period.flatMap((_, p) => data.speed.map((_, v) => touch(p, bandwidth, v)[figure]));
@@ -83,8 +83,8 @@
     const at = chosen(), one = touch(...at), period = data.period[at[0]];
     NAMES.forEach((name, n) => { byId(`${name}-shown`).textContent = data[name][at[n]]; });
     const noticed = one.noticed === null ? "The limit is never noticed." : `The limit is noticed ${one.noticed.toFixed(1)} ms after the contact.`;
-    const air = one.trips ? ` The start of the motion presses a finger with ${one.jolt.toFixed(1)} N: a guard that is set before the start trips in the air.` : "";
-    byId("said").textContent = `${noticed} The slide goes on by ${one.way.toFixed(2)} mm, and the fingers press with up to ${one.force.toFixed(1)} N.${air}`;
+    const air = one.trips ? ` When the motion starts, a jolt of ${one.jolt.toFixed(1)} N acts on a finger. A guard that is already set then trips in the air.` : "";
+    byId("said").textContent = `${noticed} After the contact, the slide moves on by ${one.way.toFixed(2)} mm, and the fingers press with up to ${one.force.toFixed(1)} N.${air}`;
     course("place", one.places, one, period, one.goals);
     course("force", one.forces, one, period);
     compared("ways", "way", at);

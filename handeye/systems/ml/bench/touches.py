@@ -1,4 +1,4 @@
-"""Touches for many periods, bandwidths and speeds, and a page on which they can be chosen."""
+"""Touches for many periods, bandwidths and speeds, and a page on which a user chooses one of each."""
 
 from collections.abc import Sequence
 from pathlib import Path

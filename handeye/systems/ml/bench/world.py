@@ -37,8 +37,8 @@ ARM: Final = (
         "mm",
         Fixed(0.38),
         4.0,
-        "Full width of the range in which a slide stops. For each motion, the place where it stops in this range is "
-        "drawn, with a uniform distribution. The paper says about .38 mm.",
+        "Full width of the range in which a slide stops. Each motion stops at a random place in this range, "
+        "uniformly distributed. The paper says about .38 mm.",
     ),
     quantity(
         SLIDES,
@@ -95,8 +95,8 @@ ARM: Final = (
         "N",
         Noise(0.02),
         1.0,
-        "Standard deviation of a strain gauge's noise. Chosen so that the error of a reading is less than the 5 g of "
-        "the paper.",
+        "Standard deviation of a strain gauge's noise. Our choice: it keeps the error of a reading below the 5 g "
+        "of the paper.",
     ),
     quantity(
         RANGE,

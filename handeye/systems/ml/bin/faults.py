@@ -28,7 +28,8 @@ FAULTS: Final = Catalogue(
     arm_fault("motor.roll.dead"),
     arm_fault("motor.separation.dead", _SHUT),
     arm_fault(
-        "motor.separation.weak", _LEFT, _LOST, harmless="The fingers close with less force than a weak motor has.",
+        "motor.separation.weak", _LEFT, _LOST,
+        harmless="To close the fingers takes less force than even the weak motor has.",
     ),
     arm_fault("potentiometer.x.stuck"),
     planted(EMPTY, "No parts were poured into the bin.", _MISSING),

@@ -19,7 +19,7 @@ BOXES: Final = {"good": -6500, "bad": 6500}  # x of the slides
 BOX: Final = 0.050  # m: half the inner side of a box
 TRAY: Final = (0.060, 0.090)  # m: half the inner sides of a large box, along x and y
 HIGH: Final = 0.030  # m: height of low walls over the table, those of a small box or hopper
-DEEP: Final = 0.080  # m: height of walls that a part which is let go between them cannot leave
+DEEP: Final = 0.080  # m: height of walls that no part leaves if it is let go between them
 THIN: Final = 0.002  # m: half the thickness of the walls of a box
 THICK: Final = (
     0.005  # m: half the thickness of the hopper's walls and slopes, between which the fingers close
@@ -36,9 +36,10 @@ _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 
 def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, rim: float = DEEP) -> None:
-    """Add the hopper at a place of the scene (m), by default under the hand when the x and y slides are at 0. A part
-    that slides in the hopper has the friction of the hopper, not its own. The pile in it is solved with dense matrices,
-    and the fingers hold a part without creep. A part that falls off the table comes to rest on the floor.
+    """Add the hopper at a place of the scene (m). By default, this place is under the hand when the x and y slides are
+    at 0. A part that slides in the hopper has the friction of the hopper, not its own. The pile in it is solved with
+    dense matrices, and the fingers hold a part without creep. A part that falls off the table comes to rest on the
+    floor.
 
     Args:
         rim: height of its walls over the table, m.
@@ -76,9 +77,9 @@ def _solve_densely(spec: mujoco.MjSpec) -> None:
     """Let MuJoCo solve for the contact forces with dense matrices. By default it takes sparse ones from 60 degrees of
     freedom on.
 
-    MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, such as fingers that touch parts
-    of a pile which touch each other. Newton's method then ends after 100 iterations without a solution, and a part
-    leaves the pile at 1000 rad/s.
+    MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, for example if fingers touch
+    parts of a pile, and these parts touch each other. Newton's method then ends after 100 iterations without a
+    solution, and a part leaves the pile at 1000 rad/s.
     """
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
 

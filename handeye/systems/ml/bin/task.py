@@ -172,7 +172,7 @@ def poured(spec: mujoco.MjSpec, world: ArmWorld, parts: int, place: Place = ORIG
     """Put parts above a hopper, into which they fall when time begins.
 
     Args:
-        place: of the middle of the hopper in the scene (m).
+        place: where the middle of the hopper is in the scene (m).
     """
     qualities = tuple(_quality(world, number) for number in range(1, parts + 1))
     places = product((_LOWEST + n * _LAYER for n in range(3)), (-1, 1), (-1, 1))

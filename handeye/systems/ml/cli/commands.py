@@ -114,7 +114,7 @@ def check(
     file: Annotated[Path, Parameter(help="A program in ML, `.ml`, or a symbolic program, `.sym`.")],
     /,
     *others: Annotated[
-        Path, Parameter(help="Files that are assembled together with a symbolic one, after it.")
+        Path, Parameter(help="Further symbolic files, which are assembled after FILE, as one program.")
     ],
     json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
@@ -135,7 +135,9 @@ def check(
 def assemble(
     file: Annotated[Path, Parameter(help="A symbolic program, `.sym`.")],
     /,
-    *others: Annotated[Path, Parameter(help="Files that are assembled together with it, after it.")],
+    *others: Annotated[
+        Path, Parameter(help="Further symbolic files, which are assembled after the first, as one program.")
+    ],
     out: Annotated[
         Path | None,
         Parameter(name=["--out", "-o"], help="File for the program in ML. Default: print the program."),

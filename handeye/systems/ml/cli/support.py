@@ -84,8 +84,8 @@ def typewriter_trials(
 ) -> int:
     """Take a bar out of a bin, orient it and assemble the rail support with it, in many worlds.
 
-    Each trial does what `handeye ml typewriter` does. Ctrl-C ends the batch and prints what has finished; with --out it
-    can be continued.
+    Each trial does what `handeye ml typewriter` does. Ctrl-C ends the batch and prints the trials that have finished;
+    with --out, the same command continues the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.

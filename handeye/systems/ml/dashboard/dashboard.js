@@ -1,10 +1,10 @@
-// The tables of a machine by cycle: in a report from its record, in a live page from what the server sends.
+// The tables of a machine, cycle by cycle. A report reads them from its record; a live page receives them from the server.
 const tables = (() => {
   "use strict";
   const byId = (id) => document.getElementById(id);
   const facts = JSON.parse(byId("tables-facts").textContent);
   const SVG = "http://www.w3.org/2000/svg", HIGH = 150, EDGE = 46, ACROSS = 16;
-  let courses = new Map(); // by number of the word: cycles from which on it has the values beside
+  let courses = new Map(); // by the word's number: its `values`, and the cycle in which each of them began
   let last = facts.last, cycle = 0, follows = true, picked = null, write = null, drawing = null;
   const open = new Set(facts.open), panels = new Map();
 
@@ -84,7 +84,7 @@ const tables = (() => {
   const named = (segment) => (segment.side && facts.arms > 1 ? `${segment.table} ${segment.side}` : segment.table);
   const keyOf = (segment) => `${segment.table} ${segment.side}`.trim();
 
-  /** Lines that are connected to a device or change; if none of the table is connected, those that are not always 0. */
+  /** The lines to show. If the table has lines that are connected to a device: these, and all lines that change. If not: all lines that are not always 0. */
   function used(segment) {
     const lines = new Set(Object.keys(segment.labels).map(Number)), labelled = lines.size > 0;
     for (const [number, course] of courses) {
@@ -200,7 +200,7 @@ const tables = (() => {
   let wide = 900;
   const x = (at) => EDGE + (at / Math.max(last, 1)) * (wide - EDGE - 2);
 
-  /** Cycles in which a word has a value that fits, as pairs of a first cycle and the one after the last. */
+  /** Spans of cycles in which the value of a word fits. Each is a pair: its first cycle, and the first cycle after it. */
   function spans(number, fits) {
     const course = courses.get(number), result = [];
     let begun = course && course.cycles[0] === 0 ? null : fits(0) ? 0 : null;
@@ -234,7 +234,7 @@ const tables = (() => {
     strip.replaceChildren(label(8, "flags"), label(20, "motion"), ...bars, draw("line", { class: "cursor", y1: 0, y2: 22 }));
   }
 
-  /** Words that belong to the picked one: goals to positions, limits to readings. */
+  /** Words to plot together with the picked one: goals with a position, limits with a reading. */
   function companions(number) {
     const segment = segmentWith(number), word = (number - segment.base) % segment.words + 1, start = number - word;
     if (segment.table === "MT" && [1, 4, 5].includes(word)) return [4, 5, 1].map((n) => [start + n, segment.names[n - 1]]);
@@ -369,7 +369,7 @@ const tables = (() => {
     moment();
   }
 
-  /** Begin to show a live run; `chosen` hears of each word that is picked. */
+  /** Begin to show a live run. `chosen` is called with the number of each word that the user picks. */
   function live(chosen) {
     write = chosen;
     begin();
@@ -378,12 +378,12 @@ const tables = (() => {
     chosen(picked);
   }
 
-  /** Hear of changes: triples of a cycle, the number of a word, and its value. With `restarted`, they are all that there are. */
+  /** Take in changes, as triples: a cycle, the number of a word, and its value. If `restarted`, forget all earlier changes. */
   function feed(changes, passed, restarted) {
     if (restarted) { courses = new Map(); panels.clear(); }
     for (let n = 0; n < changes.length; n += 3) set(changes[n], changes[n + 1], changes[n + 2]);
     last = passed;
-    if (follows || restarted) cycle = Math.max(last, ...changes.slice(-3, -2)); // the one in which a word has changed last
+    if (follows || restarted) cycle = Math.max(last, ...changes.slice(-3, -2)); // the cycle of the last change
     drawing ??= requestAnimationFrame(() => {
       drawing = null;
       range();

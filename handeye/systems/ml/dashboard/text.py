@@ -58,7 +58,9 @@ def _changing(done: History, segment: Segment, cycle: int | None = None) -> int:
 
 
 def overview(done: History, cycle: int) -> Iterator[str]:
-    """List all tables. For each, give the number of words that changed during the run, and of those in one cycle."""
+    """List all tables. For each, give the number of words that changed during the run, and the number that changed in
+    one cycle.
+    """
     yield f"{done.head.program}, {_moment(done, cycle)}"
     yield ""
     rows = [("table", "", "lines", "words", "words that change", "in this cycle")]

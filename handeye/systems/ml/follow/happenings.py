@@ -1,11 +1,11 @@
-"""Defines the event that a follower has done its work."""
+"""Defines the event that reports that a follower has done its work."""
 
 from handeye.core.units import Measures
 from handeye.program.events import SystemEvent
 
 
 class CircuitClosed(SystemEvent, frozen=True, kw_only=True):
-    """A follower has come around the object once."""
+    """A follower has gone around the object once."""
 
     text: str
 

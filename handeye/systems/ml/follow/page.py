@@ -32,7 +32,7 @@ _WIDE, _HIGH = 960.0, 520.0
 _PLAN: Final = (20.0, 500.0)  # left and right ends of the drawing that shows the plate from above
 _BARS: Final = (560.0, 940.0)
 _LEVEL: Final = 260.0  # y in the chart where the wand's surface is on the outline
-_DEEP: Final = 60.0  # length of a bar of one millimetre
+_DEEP: Final = 60.0  # length of the bar that stands for one millimetre
 _FAR: Final = 200.0  # units: distance of the points from which the direction away from the plate is computed
 
 

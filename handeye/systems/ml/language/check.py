@@ -31,7 +31,7 @@ def checked(
 
     Args:
         first: the statement at which the program begins; None: the one with the lowest number.
-        left: the statement at which the program of the left arm begins; None: it has no program.
+        left: the statement at which the program of the left arm begins; None: the left arm has no program.
     """
     lines, found = parsed(source)
     complete = not has_errors(found)

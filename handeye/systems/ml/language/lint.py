@@ -164,8 +164,8 @@ def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
     limit, sensor = min((limit, sensor) for sensor, limit in watch.limits)
     if speed * a_unit > limit:
         told = (
-            f"motor {-motor} starts with {counted(speed, 'unit')} a cycle; this jolt of {speed * a_unit:.0f} "
-            f"grams trips the limit of sensor {sensor}, which is {limit} grams"
+            f"motor {-motor} starts at {counted(speed, 'unit')} per cycle; its jolt of {speed * a_unit:.0f} grams "
+            f"trips sensor {sensor}, whose limit is {limit} grams"
         )
         most = int(limit / a_unit)
         cure = (

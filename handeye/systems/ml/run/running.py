@@ -272,7 +272,9 @@ class RunningMl(NumberedRun):
         self.recorder.statement()
 
     def interject(self, text: str, task: str) -> None:
-        """Execute a FILE in the middle of a statement. The real-time level uses the word in its next cycle."""
+        """Execute a FILE in the middle of a statement. The real-time level uses the written words from its next cycle
+        on.
+        """
         side = task or "right"
         if side not in self.interpreters:
             raise Refused(f"there is no {side} arm")

@@ -39,7 +39,7 @@ PIN_BORE: Final = 4.3
 PIN_DEPTH: Final = 16.0
 
 SADDLE: Final = (60.0, 18.0, 8.0)
-SADDLE_BORE: Final = 4.2  # radius: 1.1 mm of play, more than frame, saddle and hand are off together
+SADDLE_BORE: Final = 4.2  # radius: its play of 1.1 mm exceeds the errors of frame, saddle and hand together
 HUB: Final = (14.0, 14.0, 20.0)  # on the middle of a saddle, where the hand holds it
 RAIL: Final = (12.0, 130.0, 20.0)
 

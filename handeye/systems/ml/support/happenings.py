@@ -45,7 +45,8 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
         torque = f", and the torque is {self.torque:.3f} N m" if self.torque else ""
         off = f"{abs(self.deeper) / MILLIMETRE:.2f} mm {way}"
         return (
-            f"screw {self.screw} {_ENDS[self.found]}; the bit is {off} than over a screw at {where}{torque}"
+            f"screw {self.screw} {_ENDS[self.found]}; the bit is {off} than it would be over a screw at "
+            f"{where}{torque}"
         )
 
 

@@ -98,7 +98,7 @@ def screwing(
     """Return the station of a scene with the parts of the support. Screws and screwdriver work.
 
     Args:
-        others: mechanisms of a job that do not act as time passes.
+        others: mechanisms of a job whose state the cell keeps, but which do nothing as time passes.
     """
     drawing, driver = Drawing(world), PowerScrewdriver()
     tools = {"screwdriver": driver.turn, "reverse": driver.reverse}

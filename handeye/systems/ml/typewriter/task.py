@@ -49,7 +49,7 @@ _PLAY: Final = (0.7, 0.4)  # mm between the bar and a ridge: at its ends, and at
 TROUBLES: Final = {
     **support.TROUBLES,
     "7": "the hand and the range finder find no good bar in the bin",
-    "8": "bars that the hand cannot get out are left in the bin",
+    "8": "the bin still has bars that the hand cannot take out",
     "9": "the hand does not hold one bar by its sides",
     "10": "the bar does not meet the table",
     "11": "the bar does not become level",

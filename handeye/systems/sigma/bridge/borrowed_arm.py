@@ -1,8 +1,8 @@
 """The Stanford arm in place of arm 1: the axes X1, Y1 and Z1 drive coordinates of its tool, and there is no bus.
 
-The central computer sends the same commands as to the motors of SUPERSIGMA, but nothing carries them as bytes: they
-set goals of the tool (`execution/tool_axes.py`), one in each servo period of 1/60 s. Commands, places and times are
-handled as for perfect motors, except that each motion takes as long as this arm needs.
+The central computer gives the same commands as to the motors of SUPERSIGMA. They are not sent as bytes: they set goals
+of the tool (`execution/tool_axes.py`), one in each servo period of 1/60 s. Commands, places and times are handled as
+for perfect motors, except that each motion takes as long as this arm needs.
 """
 
 import math

@@ -35,7 +35,7 @@ class BorrowedRun(Record, frozen=True, kw_only=True):
     commands: int  # commands of the computer; none of them was sent over a bus
     bus: bool = False
     most_n: float  # the greatest force that the arm felt along an axis
-    error_mm: float  # greatest distance along an axis of the tool, at the end, from the counts
+    error_mm: float  # at the end: greatest distance of the tool from the counts, along any axis
 
 
 def check_program(lines: Sequence[Line]) -> None:

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
 
 CORNER: Final = (350.0, 800.0, 240.0)  # mm in W: the place of the tool at X1 = Y1 = Z1 = 0; Z1 points down
-OPEN: Final = 3.4 * INCH * 1e3  # mm: the open hand goes over the hub of the pump's top
+OPEN: Final = 3.4 * INCH * 1e3  # mm: this wide open, the hand fits over the hub of the pump's top
 _MM: Final = 1e-3
 _TURNING: Final = 0.5  # rad/s
 _SPEED: Final = 0.1  # m/s, to the nearest place of the board

@@ -1,11 +1,11 @@
 """Translates a MAL program of a single task into the program that the planner plans. Every line that cannot become a
 motion is refused.
 
-The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A MOVE
-of one axis, or with LINE, is a straight motion, and a MOVE of several axes is a motion on any path. A LIMIT becomes a
-guard of the motions of its axis, and a test of FORCE right after a motion becomes a guard of this motion, so that the
-motion stops at this force; the program no longer tests the force afterwards. Without a LIMIT there is no guard, because
-an arm that is not balanced feels several newtons even in free motion.
+The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A
+MOVE of one axis, or with LINE, is a straight motion, and a MOVE of several axes is a motion on any path. A LIMIT
+becomes a guard of the motions of its axis. A test of FORCE right after a motion becomes a guard of this motion: the
+motion stops at this force, and the program no longer tests the force afterwards. Without a LIMIT there is no guard,
+because an arm that is not balanced feels several newtons even in free motion.
 """
 
 from collections.abc import Iterator, Sequence

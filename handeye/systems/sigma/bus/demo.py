@@ -42,7 +42,7 @@ class Demonstration:
     diagrams: list[Diagram] = field(default_factory=list)
     command: bytes = b""
     misread: list[FrameTaken] = field(default_factory=list)  # frames that differ from what was sent
-    strangers: list[FrameTaken] = field(default_factory=list)  # frames for others on which one acted
+    strangers: list[FrameTaken] = field(default_factory=list)  # frames on which a wrong microcomputer acted
     deaf: bool = False  # True: the microcomputer to which the command is addressed does not act
     wanted: int = COUNT  # the count that the question should find
     found: int | None = None

@@ -347,7 +347,7 @@ def _wave(drawn: Diagram, wave: Wave, kind: str, y: int) -> Markup:
 def _receiver(drawn: Diagram, receiver: Receiver, y: int) -> Markup:
     pieces = [element("text", receiver.name, x=10, y=y + 14)]
     readable = drawn.slot * _WIDTH > _READABLE * (drawn.end - drawn.begin)
-    for mark in sorted(receiver.marks, key=lambda mark: mark.own):  # its own frames over the others
+    for mark in sorted(receiver.marks, key=lambda mark: mark.own):  # its own frames last, over the others
         if not drawn.begin <= mark.at < drawn.end or not (readable or mark.first or not mark.right):
             continue
         x = _x(drawn, mark.at)

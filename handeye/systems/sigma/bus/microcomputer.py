@@ -152,8 +152,9 @@ class Microcomputer:
     def receive(
         self, at: int, sent: Sequence[Sending], speeches: Sequence[Speech], wires: Wires
     ) -> Taken | None:
-        """Return the five bytes taken by now if the microcomputer has just compared their number with its own,
-        or else None."""
+        """Return the five bytes taken by now if the microcomputer has just compared the number in them with its own,
+        or else None.
+        """
         noticed = self.memory.noticed
         if noticed is None or self._checked(noticed) != at:
             return None

@@ -43,7 +43,7 @@ class Plant(ABC, Generic[Kept]):
         microcomputers."""
 
     def advance(self, at: int) -> tuple[int, list[Level]] | None:
-        """Advance to a time, or to an earlier time at which levels change. Returns the time reached and the
+        """Advance to the time `at`, or to an earlier time at which levels change. Returns the time reached and the
         changed levels.
         """
         return None

@@ -94,7 +94,7 @@ class WiredBus(MicrobusPort):
         self.wires = Wires(layout, self.timing, defects)
         self.tell: list[
             Callable[[AnyBusEvent], None]
-        ] = []  # called with each event, which none can change; some are known ahead of their time
+        ] = []  # called with each event, which they cannot change; some events come ahead of their time
         self._defects = tuple(defects)
         self._nodes = {place.number: self._switched_on(place, seed, clock_spread) for place in layout.places}
         self._memory = BusMemory(plant=self.plant.memory)
@@ -246,7 +246,9 @@ class WiredBus(MicrobusPort):
         return min(times) if times else None
 
     def _pass(self, moment: int) -> bool:
-        """Advance to a time, or to an earlier time at which the interface changes. Returns True if it changed."""
+        """Advance to the time `moment`, or to an earlier time at which the interface changes. Returns True if it
+        changed.
+        """
         free, self._changed = self.free, False
         while True:
             due = self._next_below(moment)
@@ -265,7 +267,7 @@ class WiredBus(MicrobusPort):
         return self._changed or self.free != free
 
     def _events(self, due: int) -> None:
-        """Handle all events that are due at a time."""
+        """Handle all events that are due at the time `due`."""
         for number, at in self._due.items():
             if at is not None and at <= due:
                 self._serve(number, at)
@@ -291,7 +293,7 @@ class WiredBus(MicrobusPort):
         return due if due is not None and due <= moment * PS else None
 
     def _due_of(self, number: int, at: int) -> int | None:
-        """Return the time of a microcomputer's next action after a time, or None if there is none."""
+        """Return the time of a microcomputer's next action after the time `at`, or None if there is none."""
         node = self._nodes[number]
         times = [
             time for time in (node.due, self._pin_due(node), self._scan_due(node, at)) if time is not None

@@ -73,7 +73,7 @@ class Wires:
         return self._clean[segment] and begin <= first < begin + slot and end - slot <= last < end
 
     def data(self, segment: int, at: int, sent: Iterable[Sending], speeches: Iterable[Speech] = ()) -> int:
-        """Return the byte that a microcomputer on a segment reads at a time."""
+        """Return the byte that a microcomputer on a segment reads at the time `at`."""
         value, then = OPEN, at - self.settle * PS
         for sending in sent:
             slot = (then - sending.start * PS) // (self.timing.slot * PS)
@@ -87,7 +87,7 @@ class Wires:
         return value
 
     def heard(self, at: int, speeches: Iterable[Speech]) -> int:
-        """Return the byte that the central computer reads at a time."""
+        """Return the byte that the central computer reads at the time `at`."""
         value = OPEN
         for speech in speeches:
             byte = self._spoken(speech, at - self.settle * PS)
@@ -116,7 +116,7 @@ class Wires:
         return joined
 
     def _spoken(self, speech: Speech, at: int) -> int | None:
-        """Return the byte that a microcomputer drives onto the lines at a time, or None if it drives none."""
+        """Return the byte that a microcomputer drives onto the lines at the time `at`, or None if it drives none."""
         for byte, (start, end) in zip(speech.frame, speech.lows(self.timing), strict=True):
             if start <= at < end:
                 return byte

@@ -14,7 +14,7 @@ def axis(
     *,
     mass: Annotated[
         float,
-        Parameter(help="Mass that the motor moves, in kg: in SUPERSIGMA 12 for X, 8 for Y and 2.5 for Z."),
+        Parameter(help="Mass that the motor moves, in kg. In SUPERSIGMA: 12 for X, 8 for Y and 2.5 for Z."),
     ] = 12.0,
     steps: Annotated[WholeNumber, Parameter(help="Length of the move, in steps of 0.0375 mm.")] = 8000,
     curve: Annotated[

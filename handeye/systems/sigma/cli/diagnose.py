@@ -25,8 +25,7 @@ def diagnose(
         bool,
         Parameter(
             negative=(),
-            help="Let handeye play the game in which `--seed` chooses the fault, with the tests in the order of the "
-            "paper.",
+            help="Let handeye play the game, with the tests in the order of the paper. `--seed` chooses the fault.",
         ),
     ] = False,
     seed: Annotated[

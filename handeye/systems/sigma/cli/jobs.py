@@ -91,7 +91,7 @@ def insert(
     """Straighten pegs in a rack with both arms, and find the holes for the pegs by force.
 
     `plans/insert.mal` runs on two simulated gantries, in a world with errors. Each peg is rotated by up to 20
-    degrees, and plates lie up to 3 mm beside their places. A referee then checks that each peg stands in its hole, no
+    degrees, and plates lie up to 3 mm from their places. A referee then checks that each peg stands in its hole, no
     plate moved by more than 1 mm, no wrist felt more than 25 N, no motor lost a step, the program counted the inserted
     pegs correctly, and the arms never touched each other.
 
@@ -155,7 +155,8 @@ def chess_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Sort the pieces of many boards. Shows how often all are right, height and position errors, and the bus load.
+    """Sort the pieces of many boards. Shows how often all pieces are right, the errors of their heights and positions,
+    and the bus load.
 
     Each trial does what `handeye sigma chess` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.
@@ -176,7 +177,8 @@ def handover_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Hand four pieces from arm to arm on many boards. Shows how often all is right, position errors, and bus load.
+    """Hand four pieces from arm to arm on many boards. Shows how often all pieces are right, their position errors,
+    and the bus load.
 
     Each trial does what `handeye sigma handover` does. Ctrl-C ends the batch and prints the trials that have
     finished; with --out, the same command continues the batch.
@@ -195,7 +197,7 @@ def insert_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Insert the pegs of many boards. Shows how often all is right, the forces, and the bus load.
+    """Insert the pegs of many boards. Shows how often all pegs are right, the forces, and the bus load.
 
     Each trial does what `handeye sigma insert` does. Ctrl-C ends the batch and prints the trials that have
     finished; with --out, the same command continues the batch.
@@ -217,7 +219,8 @@ def line_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Run the assembly line in many worlds. Shows how often all is right, position errors, and the bus load.
+    """Run the assembly line in many worlds. Shows how often all pieces are right, their position errors, and the bus
+    load.
 
     Each trial does what `handeye sigma line` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.
@@ -237,8 +240,8 @@ def prco_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble the plate of the pump in many worlds. Shows how often all is right, depth and clamping force of the
-    screws, and the bus load.
+    """Assemble the plate of the pump in many worlds. Shows how often all parts are right, the depth and the clamping
+    force of the screws, and the bus load.
 
     Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.

@@ -1,5 +1,5 @@
-"""The machine on the test bench, which is ideal except for a planted fault, and what a technician can do to it
-by hand.
+"""The machine on the test bench, and what a technician can do to it by hand. The machine is ideal except for a planted
+fault.
 
 Rotors follow each pulse, unless the fault weakens their motors. A balance of forces then decides whether they
 follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers when they
@@ -141,7 +141,7 @@ class Machine(IdealMachine):
         share = HALF if self.fault("phase", number) else 1.0
         share *= SAG if self.fault("supply") and most >= MANY else 1.0
         load, least = self.pulls.get(number, 0.0), _START_N * share
-        if load > least:  # the balance gives way as far as the motor does
+        if load > least:  # the rotor falls back until the balance pulls no more than the motor holds
             return math.ceil((load - least) / _SPRING / STEP / POLE) * POLE
         if share == 1.0 or not complete:
             return 0

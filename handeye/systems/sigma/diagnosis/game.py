@@ -185,7 +185,7 @@ class Game:
         end = (
             fault.told
             if fault
-            else f"it is still running after {_LONGEST_RUN / 1e6:g} s"
+            else f"the program is still running after {_LONGEST_RUN / 1e6:g} s"
             if vm.memory.tasks
             else "the program finished"
         )

@@ -139,7 +139,7 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     def takes(stranger: int, other: int) -> bool:
         """Return True if the microcomputer `stranger`, which is silent at its own number, answers to the number of the
         microcomputer `other`. This shows in one of two ways: both become busy together; or, if `stranger` is always
-        busy, like that of a wrist, it disturbs the answers of `other`.
+        busy, like the microcomputer of a wrist, it disturbs the answers of `other`.
         """
         theirs = heard[other]
         seen = not theirs.right if stranger in scanning else stranger in theirs.busy

@@ -73,7 +73,7 @@ class Motor(Device):
     # -- where it is -------------------------------------------------------------------------------------
 
     def sent(self, at: int) -> int:
-        """Return the number of pulses sent to the driver up to a time, forward pulses minus backward ones."""
+        """Return the number of pulses sent to the driver up to the time `at`, forward pulses minus backward ones."""
         memory = self.memory
         if memory.train is None:
             return memory.pulses
@@ -81,12 +81,12 @@ class Motor(Device):
         return memory.pulses + memory.sense * made
 
     def count(self, at: int) -> int:
-        """Return the count at a time (steps), as a signed number of 16 bits."""
+        """Return the count (steps) at the time `at`, as a signed number of 16 bits."""
         half = 1 << _BITS - 1
         return (self.sent(at) - self.memory.zero + half) % (1 << _BITS) - half
 
     def speed(self, at: int) -> float:
-        """Return the signed speed at a time (steps/s)."""
+        """Return the signed speed (steps/s) at the time `at`."""
         memory = self.memory
         if memory.train is None:
             return 0.0
@@ -172,7 +172,7 @@ class Motor(Device):
     def _release(self, at: int) -> None:
         self._start("releasing", constant(LONGEST_MOVE, RELEASE, self.shape), 1, at)
 
-    # -- what comes of itself ------------------------------------------------------------------------------
+    # -- what happens without a command ------------------------------------------------------------------
 
     @property
     def due(self) -> int | None:

@@ -202,7 +202,7 @@ STUDY: Final = (
 
 
 ABOVE: Final = tuple((lower, speed) for lower in (2, 1) for speed in (50.0, None))
-"""Lower arm and speed of each collision above a wrist."""
+"""For each collision above a wrist: the arm whose hand is lower, and the speed."""
 
 
 def page_tables() -> str:

@@ -50,8 +50,8 @@ _HAND_KG: Final = 1.2  # kg: mass of a hand for which the accelerometers are set
 _STIFFNESS: Final = 20_000.0  # N/m: stiffness of a wrist for which the strain gauges are set
 _DAMPING: Final = 92.95  # N s/m
 _GRAVITY: Final = 9.81
-_SUNK: Final = 1e-3  # m by which the lamp lies in its finger, so that an object in the grip is before it
-_FINGER: Final = 2e-4  # m by which a ray may end before the photodiode: it meets the other finger
+_SUNK: Final = 1e-3  # m: depth of the lamp inside its finger, so that a gripped object lies in front of it
+_FINGER: Final = 2e-4  # m before the photodiode at which a ray may end, because it meets the other finger
 _SENSE: Final = np.array(
     [1.0, 1.0, -1.0, -1.0, 1.0, -1.0]
 )  # of each axis of two arms along x, y or z of the scene
@@ -369,7 +369,7 @@ class Gantries(Plant[GantryMemory]):
             self.bench.end_early()
 
     def _strain(self, places: Array) -> None:
-        """Reduce the force of each pole with the distance of its rotor. Beyond half a pole, the next pole
+        """Reduce the force of each pole as its rotor moves away from the pole. Beyond half a pole, the next pole
         catches the rotor."""
         most, least = np.split(self._limits[self._row, self._levels :], 2)
         lags, begins = (places - (most - least) / 2) / STEP, (most + least) / 2 / STEP

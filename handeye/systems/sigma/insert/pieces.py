@@ -14,8 +14,8 @@ from handeye.core.record import Record
 from handeye.systems.sigma.gantries.world import ACROSS, GantryWorld
 
 MOST: Final = 4
-OFF: Final = 3.0  # mm by which a plate lies at most beside its place in the drawing
-TURNED: Final = 20.0  # deg by which a peg is rotated at most
+OFF: Final = 3.0  # mm: greatest distance of a plate from its place in the drawing
+TURNED: Final = 20.0  # deg: greatest rotation of a peg
 SIDE: Final = 20.0  # mm: side of the square section of a peg
 HIGH: Final = 50.0  # mm: height of a peg
 HOLE: Final = 21.0  # mm, the side of a hole

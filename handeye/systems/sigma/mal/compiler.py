@@ -151,7 +151,8 @@ def program_of(name: str, text: str, *, line: bool = False) -> MalProgram:
     """Compile a text. Raises BadFile if it has errors.
 
     Args:
-        line: the program may use the axes and hands of the assembly line; by default it is refused if it does.
+        line: True if the program may use the axes and hands of the assembly line. By default, a program that uses them
+            is refused.
     """
     program, found = compile_source(Source(name=name, text=text))
     if program is None:

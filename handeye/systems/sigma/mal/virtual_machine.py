@@ -30,7 +30,7 @@ from handeye.systems.sigma.mal.syntax import MAIN
 from handeye.systems.sigma.protocol import STEP_MM
 
 STATEMENT_US: Final = 2000  # time that the central computer needs for a statement
-ARITHMETIC_SHARE: Final = 4  # a calculation takes 1 / this number of that time
+ARITHMETIC_SHARE: Final = 4  # number of calculations that take as long as a statement
 DOUBT_N: Final = 20.0  # force on a wrist above which the count of its axis is doubted
 NEIGHBOURS: Final = {1: 2, 2: 1, 3: 4, 4: 3}  # arms with wrists, and the arm on the same rail
 NEAR_MM: Final = 500.0  # X1 + X2 from which on an arm may have hit the other arm; their hands meet at 560
@@ -281,8 +281,8 @@ class VirtualMachine:
     # -- aborts --------------------------------------------------------------------------------------------
 
     def _see_aborts(self) -> None:
-        """If a motor has raised the interrupt, query its position, and let its task continue as its ON ABORT
-        says. If the task has no ON ABORT, the program stops.
+        """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues as
+        its ON ABORT says; if it has no ON ABORT, the program stops.
         """
         if not self.machine.interrupt:
             return
@@ -309,7 +309,7 @@ class VirtualMachine:
     def _doubt(self, name: str) -> None:
         """Query the greatest forces on both wrists, because a standing motor does not report that it was hit.
 
-        The wrist of an arm that was hit above it feels nothing. Therefore, while the arms are near each other, a
+        If an arm was hit above its wrist, that wrist feels nothing. Therefore, while the arms are near each other, a
         great force on one wrist makes the count of the same axis of the other arm doubtful, too.
         """
         peaks = {axis: self._peak(name, axis) for axis in self.program.axes if int(axis[1]) in NEIGHBOURS}

@@ -49,7 +49,7 @@ WORDS: Final[dict[str, Word]] = {
         "End the program with all its tasks. With a text, the program counts as failed, and the text says why.",
         '90 STOP "NO PIECE IS FOUND"',
     ),
-    "END": Word("statement", "END", "End this task. The program ends with its last task.", "70 END"),
+    "END": Word("statement", "END", "End this task. The program ends when its last task ends.", "70 END"),
     "TASK": Word(
         "statement", "TASK name",
         "Begin a task: the lines that follow belong to it. Lines before the first TASK belong to the task MAIN.",
@@ -169,7 +169,7 @@ MAL_DEVICES: Final[dict[str, tuple[int, str]]] = {
     "LAMP": (1, "LAMP"),
     "BELL": (1, "BELL"),
 }
-"""The arm whose hand microcomputer drives a device, and the device's name there."""
+"""For each device: the arm whose hand microcomputer drives it, and the name that this microcomputer has for it."""
 assert {device for _, device in MAL_DEVICES.values()} == {*DEVICES}
 RESERVED: Final = {*WORDS, *LINE_AXES, "DIM"}
 """Words that cannot be names of variables, flags or tasks."""

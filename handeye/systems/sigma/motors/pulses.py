@@ -93,7 +93,7 @@ class Pulses:
         return int(np.searchsorted(self.ticks, ticks, side="right"))
 
     def speed(self, ticks: int) -> float:
-        """Return the speed at a time given in ticks (steps/s); 0 after the end."""
+        """Return the speed (steps/s) at a time given in ticks; 0 after the end."""
         done = self.count(ticks)
         return CLOCK_HZ / int(self.dividers[done]) if done < len(self.ticks) else 0.0
 

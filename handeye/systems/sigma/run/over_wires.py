@@ -47,9 +47,8 @@ def over_wires(
         vm.statement()
         vm.settle()
     fault = vm.memory.fault
-    message = (
-        fault.told if fault else "" if not vm.memory.tasks else f"it is still running after {_LONGEST} s"
-    )
+    endless = f"the program is still running after {_LONGEST} s"
+    message = fault.told if fault else endless if vm.memory.tasks else ""
     sent = [event.frame for event in log if isinstance(event, CommandSent)]
     seconds = bus.now / _MICROSECONDS
     rate = len(sent) / seconds if seconds else 0.0

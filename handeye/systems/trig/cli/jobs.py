@@ -238,7 +238,8 @@ def pallet_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Palletise in many worlds and undo it: success rate, and position errors of the blocks.
+    """Palletise blocks in many worlds, and undo the work. Shows the success rate, and the position errors of the
+    blocks.
 
     Each trial does what `handeye trig palletise` does: the program is taught, run, judged, undone and judged again.
     Ctrl-C ends the batch and prints the trials that have finished.

@@ -113,8 +113,8 @@ class Bucket(_BlocksTask):
 
 
 class Arrange(_BlocksTask):
-    """Place blocks as a user's script says. Only a referee of the user can judge the work: this one judges its
-    reversal.
+    """Place blocks as a user's script says. Only a referee that the user provides can judge the work. This referee
+    judges only whether the reversal has undone it.
     """
 
     name = "arrange"

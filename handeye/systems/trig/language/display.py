@@ -49,8 +49,8 @@ class Elbow:
 
 @dataclass(slots=True)
 class _Chain:
-    """A chain of steps, with the chains to its right. Each of these chains is listed under the row of its guarded step;
-    `shift` has its column offset.
+    """A chain of steps, with the chains to its right. For the row of each guarded step, `hung` has the chain that
+    begins there, and `shift` has the column offset of this chain.
     """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)
@@ -207,8 +207,9 @@ _STEP_STYLES: Final = {"guarded": "guarded", "normal": "position", "savpos": "po
 
 
 def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols) -> tuple[str, str, Style]:
-    """Return the name and the action of a step, and the style. If the name already says everything, the action
-    is empty."""
+    """Return the name of a step, its action, and the style of the action. If the name already says everything, the
+    action is empty, and the style is that of the name.
+    """
     node = cell.node
     if cell.link:
         return f"[{_cut(node.name or UNNAMED, symbols)}]", "", "link"

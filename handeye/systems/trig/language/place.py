@@ -84,7 +84,7 @@ class Position:
     unread: Mapping[str, object] = field(default_factory=dict)  # file fields unknown to this version
 
 
-Positions = dict[str, Position]  # by name; those of single steps by names that cannot be typed
+Positions = dict[str, Position]  # by name; positions of single steps have names that cannot be typed
 
 
 def name_of(word: str) -> str:

@@ -157,8 +157,8 @@ _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"
 
 
 def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
-    """Return the part of the job that has just ended, forwards or reversal, and a sentence on how it ended. The part is
-    None if the arm refused a step.
+    """Return the part of the job that has just ended, either the program or its reversal, and a sentence on how this
+    part ended. The part is None if the arm refused a step.
     """
     system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:

@@ -47,7 +47,9 @@ def _take(part: str, scene: Scene, _: MishapState) -> bool:
 
 
 def _take_layer(part: str, scene: Scene, _: MishapState) -> bool:
-    """Take the gasket or the top away, unless a screw or the top on it holds it."""
+    """Take the gasket or the top away. If a screw holds the layers, or the top covers the gasket, leave the part in
+    place.
+    """
     assert scene.threads is not None
     over = scene.place("top") - scene.place("gasket")
     covered = part == "gasket" and np.hypot(*over[:2]) < ON_BASE_M and over[2] > 0
@@ -97,7 +99,7 @@ def _turn(angle: float) -> Mishap:
 
 
 def _lift(height: float) -> Mishap:
-    """Return a mishap in which the rotor comes out of its bearing by a height (m)."""
+    """Return a mishap in which the rotor comes out of its bearing by `height` (m)."""
 
     def act(scene: Scene, _: MishapState) -> bool:
         _rotor(scene)
@@ -108,7 +110,7 @@ def _lift(height: float) -> Mishap:
 
 
 def _raise(height: float) -> Mishap:
-    """Return a mishap in which the screwdriver sticks in its rack, too high by a height (m)."""
+    """Return a mishap in which the screwdriver sticks in its rack, too high by `height` (m)."""
 
     def act(scene: Scene, _: MishapState) -> bool:
         scene.shift("driver", np.array([0.0, 0.0, height]))
@@ -154,8 +156,8 @@ def _screws() -> Iterator[MishapFault]:
             calls=(detect.high_head(number),),
         )
         meaning = (
-            f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began. "
-            "In the last stage, the program has then already driven the screw again."
+            f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began. In "
+            "the last stage, the program has by then already driven the screw again."
         )
         yield declared(
             f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE

@@ -85,7 +85,9 @@ def thicken(spec: mujoco.MjSpec, factor: float) -> None:
 
 
 def tear(spec: mujoco.MjSpec, side: float) -> None:
-    """Remove a square with the side `side` (m) from the gasket, with the screw hole in its middle and its land."""
+    """Remove from the gasket a square with the side `side` (m), the screw hole in its middle, and the land of that
+    hole.
+    """
     from handeye.tasks.water_pump.scene.solids import TORN_HOLE, gasket  # slow to import, and rarely needed
 
     vertices, triangles = gasket(sum(site.name.startswith("gasket_hole") for site in spec.sites), side)

@@ -64,7 +64,7 @@ PUMP_CHANGED: Final = (
     "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT, OR THE CAMERA OR THE LIGHT HAS CHANGED"
 )
 OR_PUMP: Final = "{what}, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
-"""Calls of the operator for a part of the pump that the hand does not feel where the part was before. The part or
+"""Calls of the operator if the hand does not feel a part of the pump at its earlier place. The part or
 the pump has moved, or a joint of the arm reads wrong.
 """
 SCREW_IN_NO_HOLE: Final = (

@@ -44,7 +44,7 @@ class PumpClaims:
         self.places = PumpPlaces(screws)
 
     def head(self, hole: int) -> Claim:
-        """The height of a head over the face of the base."""
+        """Return the claim that a head is at its height over the face of the base."""
         places = self.places
         top = base_top() + places.head_height
         where = places.over_hole(hole, 0.35 * INCH, top - 0.02 * INCH, top + 0.8 * INCH)
@@ -67,7 +67,7 @@ class PumpClaims:
         )
 
     def driven(self, hole: int) -> Claim:
-        """The torque stop at a hole."""
+        """Return the claim that the torque stop ended a drive at a hole."""
         socket = self.places.socket(hole)
         return Claim(
             says="the torque stop ends a drive",
@@ -81,7 +81,9 @@ class PumpClaims:
         )
 
     def tight(self, hole: int) -> Claim:
-        """The torque stop at a hole, once more after all screws have gone into their threads."""
+        """Return the claim that the torque stop ended one more drive at a hole, after all screws had gone into their
+        threads.
+        """
         socket = self.places.socket(hole)
         driven = [self.threaded(each).phases[0].by for each in range(self.places.screws)]
         return Claim(
@@ -96,7 +98,7 @@ class PumpClaims:
         )
 
     def threaded(self, hole: int) -> Claim:
-        """The length of thread through which a drive went down."""
+        """Return the claim that a drive at a hole went down by the length of the thread."""
         socket = self.places.socket(hole)
         return Claim(
             says="a drive goes down by the length of the thread before the torque stop ends it",
@@ -114,7 +116,7 @@ class PumpClaims:
         )
 
     def size(self, hole: int) -> Claim:
-        """How high a screw stands on its thread before it is driven."""
+        """Return the claim that a screw stood at the right height over its thread before it was driven."""
         places, d = self.places, dimensions()
         row = d("dispenser.pitch") * places.screws
         dispenser = Region(at=point("dispenser.place"), radius=row, height=Limits(2 * INCH, 9 * INCH))
@@ -147,7 +149,7 @@ class PumpClaims:
         )
 
     def against(self, block: Literal["far", "left"]) -> Claim:
-        """A push against a block, after which nothing has moved the pump."""
+        """Return the claim that a push brought the pump against a block, and that nothing has moved the pump since."""
         along = (0.0, 1.0, 0.0) if block == "far" else (-1.0, 0.0, 0.0)
         rim = Region(
             at=self.places.on_pump(0.0, 0.0),
@@ -170,7 +172,7 @@ class PumpClaims:
         )
 
     def face(self, corner: int) -> Claim:
-        """The height of the face of the base over the table, at one of four holes."""
+        """Return the claim that, at one of four holes, the face of the base is at its height over the table."""
         places = self.places
         limits = Limits(base_top() - 0.04 * INCH, base_top() + 0.04 * INCH)
         over = HeightWithin(of=self.corner(corner), over=places.table, limits=limits)
@@ -181,7 +183,7 @@ class PumpClaims:
         )
 
     def level(self) -> Claim:
-        """The heights of the table on two sides of the base."""
+        """Return the claim that the table has the same height on two sides of the base."""
         places = self.places
         left, right = (
             places.touched(
@@ -204,7 +206,7 @@ class PumpClaims:
         )
 
     def side(self, one: int, other: int) -> Claim:
-        """The heights of the face at two holes on one side of the base."""
+        """Return the claim that the face has the same height at two holes on one side of the base."""
         first, second = self.corner(one), self.corner(other)
         limits = Limits(-0.02 * INCH, 0.02 * INCH)
         return Claim(
@@ -222,7 +224,7 @@ class PumpClaims:
         )
 
     def corner(self, corner: int) -> Contact:
-        """A touch of the bare face near one of four holes."""
+        """Return the contact of the hand with the bare face near one of four holes."""
         low, high = base_top(), base_top() + 0.45 * INCH
         return self.places.touched(self.places.over_hole(_CORNERS[corner], 0.6 * INCH, low, high))
 
@@ -231,12 +233,14 @@ class PumpClaims:
         return Gripped(where=low), Released(where=low, least=0.5 * INCH)
 
     def gasket(self) -> Claim:
-        """Two pictures, before and after the gasket was laid on."""
+        """Return the claim that two pictures, taken before and after the gasket was laid on, show the gasket in its
+        place.
+        """
         laid, before = self.places.laid, Taken(role="before")
         pump = Region(at=self.places.on_pump(0.0, 0.0), radius=0.5 * INCH, height=Limits(-0.01, 0.01))
         lifted = (Gripped(where=laid), before)
         return Claim(
-            says="a picture from before the gasket was laid on the base and one from after show it in its place",
+            says="two pictures, taken before and after the gasket was laid on the base, show it in its place",
             phases=(
                 Phase(by=(before,)),
                 Phase(by=(Released(where=laid, least=1.0 * INCH),), undone=lifted),
@@ -246,7 +250,7 @@ class PumpClaims:
         )
 
     def pin(self, number: int) -> Claim:
-        """The end of a pin in its holder, over the table."""
+        """Return the claim that the end of a pin in its holder is at its height over the table."""
         d = dimensions()
         x0, y0, x1, y1 = d.all("pin_holder.places")
         at = ((x0, y0), (x1, y1))[number]
@@ -256,14 +260,14 @@ class PumpClaims:
         limits = Limits(high - 0.16 * INCH, high + 0.12 * INCH)
         by = HeightWithin(of=self.places.touched(end), over=self.places.table, limits=limits)
         return Claim(
-            says="after they have let go of the pin, the fingers feel its end in the holder, 3.5 in over the table to "
+            says="after letting go of the pin, the fingers feel its end in the holder, 3.5 in over the table to "
             "within .12 in",
             where=f"pin {number + 1}",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )
 
     def rack(self) -> Claim:
-        """The end of the screwdriver in its rack, over the table."""
+        """Return the claim that the end of the screwdriver in its rack is at its height over the table."""
         at = point("rack.place")
         end = Region(at=at, radius=0.4 * INCH, height=Limits(8.1 * INCH, 9.2 * INCH))
         held = Region(at=at, radius=0.6 * INCH, height=Limits(5.5 * INCH, 8.05 * INCH))
@@ -271,13 +275,13 @@ class PumpClaims:
             of=self.places.touched(end), over=self.places.table, limits=Limits(7.95 * INCH, 8.25 * INCH)
         )
         return Claim(
-            says="after they have let go of the screwdriver, the fingers feel its end in the rack, 8.1 in over the "
-            "table to within .15 in",
+            says="after letting go of the screwdriver, the fingers feel its end in the rack, 8.1 in over the table "
+            "to within .15 in",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )
 
     def free(self) -> tuple[Claim, ...]:
-        """The rotor over both halves of its turn, both ways."""
+        """Return the claims that the rotor turns freely: over each half of a turn, in each direction."""
         found = []
         ways: tuple[tuple[Literal[1, -1], str], ...] = ((1, "counter-clockwise"), (-1, "clockwise"))
         for sense, way in ways:
@@ -295,7 +299,7 @@ class PumpClaims:
         return tuple(found)
 
     def bearing(self) -> Claim:
-        """The end of the crank pin over the face of the base."""
+        """Return the claim that the end of the crank pin is at its height over the face of the base."""
         radius = dimensions()("rotor.crank_radius")
         circle = Region(
             at=self.places.on_pump(0.0, 0.0),
@@ -311,7 +315,7 @@ class PumpClaims:
         )
 
     def away(self) -> Claim:
-        """The hand at its parking place."""
+        """Return the claim that the hand is at its parking place."""
         park = Region(at=(20 * INCH, 28 * INCH), radius=4 * INCH, height=Limits(6 * INCH, 30 * INCH))
         return Claim(
             says="the last motion takes the hand to its parking place",
@@ -327,7 +331,7 @@ class PumpClaims:
         return Claim(says="the fingers open after their last grip", phases=(opened,), at_first=True)
 
     def gentle(self) -> Claim:
-        """No torque above that of the clutch."""
+        """Return the claim that no drive had a torque stop above the torque of the clutch."""
         strong = Contacted(of=Contact(where=self.places.pump, torque=Limits(TORQUE.high, math.inf)))
         return Claim(
             says="no drive has a torque stop above 45.5 oz-in",

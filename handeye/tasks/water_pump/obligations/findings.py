@@ -28,7 +28,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="base_left", claims=(left,), rests=_SLIDES),
         Obligation(
             finding="base_yaw", claims=(far,),
-            rests="A push against the far block turns the straight edge of the base along the block.",
+            rests="A push against the far block turns the base until its straight edge is along the block.",
         ),
         Obligation(
             finding="base_height", claims=(claims.level(), *map(claims.face, range(4))),
@@ -105,8 +105,10 @@ _LAYERS: Final = (
     "An object under a head raises it. Less than .02 in may remain unnoticed; the referee allows .012 in."
 )
 _CLUTCH: Final = "The clamping force to which a torque leads depends on the friction of thread and head."
-_HOLDER: Final = "A pin that leans, or is not in its hole, ends lower or higher than one that stands in it."
-_RACK: Final = "A screwdriver that leans or hangs on its guides ends lower or higher than one that stands."
+_HOLDER: Final = "If a pin leans or is not in its hole, its end is lower or higher than it should be."
+_RACK: Final = (
+    "If the screwdriver leans or hangs on its guides, its end is lower or higher than it should be."
+)
 _BEARING: Final = (
     "Only the height of the crank pin's end is felt. A bent crank may remain unnoticed, and so may a rotor that is "
     "less than .07 in out of its bearing; the referee allows .004 in."
@@ -116,13 +118,16 @@ _UNSENSED: Final = {
     "screws_hold": "A test of whether a screw holds would loosen the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
-    "tray": "It is a property of the simulation: a screw in its thread exists once.",
+    "tray": (
+        "It is a property of the simulation: while a carrier represents a screw in its thread, the screw's own "
+        "body stays on its tray."
+    ),
     "still": "No step waits to see whether a part comes to rest.",
     "arm_still": "The program does not measure this; the servo ends each motion at rest, or raises an error.",
     "overlap_bores": "It is a property of the simulation: solids do not pass through each other.",
     "overlap": "It is a property of the simulation: solids do not pass through each other.",
     "as_drawn": "It is a property of the simulation: no part changes during a run.",
-    "bonds": "It is a property of the simulation: its constraints are those of the work.",
+    "bonds": "It is a property of the simulation: it opens and closes each bond as the work requires.",
     "held": "It is a property of the simulation: nothing but the arm acts on the parts.",
     "numbers": "It is a property of the simulation: its numbers are finite.",
 }

@@ -1,7 +1,7 @@
 """Regions of the pump's cell in which a touch means something, and the limits of what is felt there.
 
-The places follow from the drawing of the cell, and the limits from docs/care.md: each is a little wider than what the
-careful program asks for, and no wider than what its argument there bears.
+The places follow from the drawing of the cell, and the limits from docs/care.md: each limit is a little wider than
+what the careful program asks for, and no wider than the argument for it on that page allows.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,9 @@ from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, screw_h
 Point = tuple[float, float]
 SOCKET: Final = Limits(3.0 * INCH, 9.0 * INCH)  # heights of a hand that holds the screwdriver over the pump
 TOUCH: Final = Limits(20 * OUNCE_FORCE, 60 * OUNCE_FORCE)
-"""Forces at which a touch ends: more than the errors of the sensed force, less than moves the pump by the fingers."""
+"""Forces at which a touch ends. They exceed the errors of the sensed force, and are too small for the fingers to move
+the pump.
+"""
 PUSH: Final = Limits(40 * OUNCE_FORCE, 80 * OUNCE_FORCE)  # forces that move the pump against its blocks
 SEATED: Final = Limits(
     -0.02 * INCH, 0.02 * INCH

@@ -89,7 +89,7 @@ def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
     filled = [k for k, thread in enumerate(holes) if thread.screw is not None]
     gap = max(
         (abs(measure.head_gap(measured, k)) for k in filled), default=size("screw.length")
-    )  # no screw counts like a screw whose full length stands out
+    )  # if there is none: like a screw whose full length stands out
     aside = max((measure.thread_offset(measured, k) for k in filled), default=0.0)
     length = min((measure.thread_length(measured, k) for k in filled), default=0.0)
     size_off = max(

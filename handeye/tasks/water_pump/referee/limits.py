@@ -9,8 +9,8 @@ BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
 LAYER_HEIGHT: Final = 0.3
-"""Greatest deviation from the nominal height at each screw hole (mm). Half of it would already show a lost chip
-under the layer; assembly study.
+"""Greatest deviation from the nominal height at each screw hole (mm). A deviation of half this limit would already
+reveal a lost chip under the layer; assembly study.
 """
 
 SCREW_GAP: Final = 0.2
@@ -18,9 +18,9 @@ SCREW_GAP: Final = 0.2
 SCREW_CLAMP: Final = 40.0
 """Least clamping force of a screw (N), more than the 19 N with which a hand pulls. Seated screws end at 56 to 298 N."""
 SCREW_TURNED: Final = 400.0
-"""Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most
-250 N. The driver's clutch, .32 N m, gives up to 357 N with the least friction of thread and head in any world;
-twice the clutch's torque gives 530 to 560 N.
+"""Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most 250 N.
+With the least friction of thread and head in any world, the torque of the driver's clutch, .32 N m, makes this force
+at most 357 N; twice the torque makes it 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
 """Greatest force under a head at the end (N). It may exceed SCREW_TURNED, because screws that are tightened later
@@ -91,7 +91,7 @@ its stand draw it along before they lift it: by 3.3 mm in the world of seed 0. T
 lifted; at 6.4 mm its holes would not let the fingers of the next run in.
 """
 APART_TURN: Final = 3.0
-"""Turn (degrees) that moves the end of a part as long as the base by half of the fingers' clearance."""
+"""Turn (degrees) of a part. If the part is as long as the base, its end moves by half of the fingers' clearance."""
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0

@@ -17,7 +17,9 @@ from handeye.tasks.stanford_cell.dimensions import base_top, dimensions
 from handeye.tasks.water_pump.referee.limits import ROTOR_TORQUE
 
 _SWING: Final = 8.0
-"""Time (s) for a full turn one way, back through the start to a full turn the other way, and back."""
+"""Time (s) of the whole swing: a full turn one way, then back through the start to a full turn the other way, then
+back to the start.
+"""
 _BEHIND: Final = radians(2.0)  # lag behind the set-point at which the greatest permitted torque is applied
 _GAIN: Final = ROTOR_TORQUE / _BEHIND  # N m/rad
 _DAMPING: Final = 0.04  # N m s/rad: with the rotor's inertia, there is no overshoot
@@ -30,7 +32,7 @@ Mask = NDArray[np.bool_]
 
 
 def head_force(measured: SettledState, hole: int) -> float:
-    """Return the force of the screw head at a hole on the part beneath it (N)."""
+    """Return the force that the screw head at a hole exerts on the part beneath the head (N)."""
     model, data = measured.model, measured.data
     contact, head = data.contact, model.geom(f"head{hole}").id
     tree = model.body_rootid[model.geom_bodyid[contact.geom]]
@@ -172,9 +174,7 @@ def rotor_torque(measured: SettledState) -> float:
 
 
 def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return a copy of the cell in which only the rotor has contacts with solid shapes, friction and
-    constraints.
-    """
+    """Return a copy of the cell in which only the rotor has friction, constraints, and contacts with solid shapes."""
     model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
     crank = model.geom_bodyid == rotor
     solid = (model.geom_contype | model.geom_conaffinity) != 0

@@ -91,7 +91,7 @@ def _screw_inertia(density: float) -> tuple[float, float, tuple[float, float, fl
     and its principal moments of inertia (kg m2).
     """
     volume, centre, moments = solids.volume_moments(_screw())
-    across, _, along = (density * moments).tolist()  # the slot makes the two across differ by .5 %
+    across, _, along = (density * moments).tolist()  # the slot makes the two transverse ones differ by .5 %
     return density * volume, float(centre[2]), (across, across, along)
 
 

@@ -20,7 +20,7 @@ from handeye.tasks.stanford_cell.dimensions import Point, base_top, dimensions, 
 Surface = tuple[Array, NDArray[np.int32]]  # vertices, shape (n, 3), m, and triangles, shape (m, 3)
 
 _ROUND = 96
-TORN_HOLE = 5  # index of the screw hole around which a torn gasket is missing
+TORN_HOLE = 5  # index of the screw hole that a torn gasket lacks
 
 
 def disc(radius: float, x: float = 0.0, y: float = 0.0, segments: int = _ROUND) -> CrossSection:

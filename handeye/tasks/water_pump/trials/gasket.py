@@ -31,8 +31,8 @@ SHIFTED: Final = "shifted .3"
 ABSENT: Final = "absent"
 DOUBLED: Final = "doubled"
 REJECTED: Final = (SHIFTED, ABSENT)
-"""Cases that vision must reject. `DOUBLED` is not one of them: two gaskets on each other look like one, and the hand
-detects them by their height.
+"""Cases that vision must reject. `DOUBLED` is not one of them: a gasket on top of another looks like a single one, and
+the hand detects the two by their height.
 """
 SHIFT: Final = 0.3 * INCH
 BASE_OFF_IN: Final = 0.03  # to either side, and .3 deg: the play of the base between the blocks
