@@ -1,18 +1,16 @@
 """Writes an MCAP file while a run goes on. Everything written before a sync survives a crash of the program."""
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any, Final, cast
+from typing import Any, Final
 
 import msgspec
-from mcap.writer import Writer
+from mcap.records import Attachment, Channel, Metadata, Schema
 from zstandard import compress
 
 from handeye.core.errors import CannotWrite
-from handeye.core.files import settle
+from handeye.core.files import settle, write_whole
 from handeye.core.versions import HANDEYE
 from handeye.program.events import RunStarted
 from handeye.trace.channels import (
@@ -26,50 +24,31 @@ from handeye.trace.channels import (
     channels_of,
     nanoseconds,
 )
+from handeye.trace.mcap_encoder import McapEncoder
 
 CHUNK: Final = 1 << 20  # bytes of messages after which a chunk is closed
 _HARDEST: Final = 19
 """Compression level of a plan. It takes a few tenths of a second, and leaves a tenth of the size."""
 
 
-@dataclass(slots=True)
-class _Sink:
-    """Output of the MCAP writer. It writes every byte immediately, without a buffer, or raises OSError."""
-
-    handle: int
-    count: int = 0
-
-    def write(self, data: bytes) -> int:
-        view = memoryview(data)
-        while view:
-            view = view[os.write(self.handle, view) :]
-        self.count += len(data)
-        return len(data)
-
-    def tell(self) -> int:
-        return self.count
-
-    def flush(self) -> None:
-        """Do nothing, because there is no buffer."""
-
-
 class GrowingFile:
     """A trace that is being written. The first write error raises CannotWrite.
 
     A chunk ends after `CHUNK` bytes, after the start of the run, and at the end of each stage. Equal messages
-    therefore give equal bytes, unless a sync ends a chunk early. In that case the file is marked as `uneven`.
+    therefore give equal bytes. A sync writes parts of the chunk in progress, which the whole chunk replaces later.
     """
 
     def __init__(self, file: Path) -> None:
         """Create the file, or empty it."""
         self.file = file
-        self.uneven = False  # True if a sync has ended a chunk early
         self.broken = False  # something could not be written; the file ends there
         self.released = False
-        self._pending = 0  # bytes in the chunk in progress
-        with self._complaining():
-            self._sink = _Sink(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666))
-        self._writer = Writer(cast(IO[Any], self._sink), chunk_size=1 << 62, enable_data_crcs=True)
+        self._encoder = McapEncoder()
+        self._pending = 0  # bytes of messages in the chunk in progress
+        self._partly = False  # the file ends with parts of the chunk in progress
+        self._complaining = _Complaining(self)
+        with self._complaining:
+            self._handle = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
 
     def begin(self, head: RunStarted, plan: bytes, *, thinned: bool = False) -> None:
         """Write everything that precedes the messages. `thinned` means that the file will contain only some of
@@ -83,21 +62,22 @@ class GrowingFile:
             **({THINNED: "yes"} if thinned else {}),
             **_flat(said),
         }
-        with self._complaining():
-            self._writer.start(library=f"handeye {HANDEYE}")
-            self._writer.add_metadata(METADATA, {key: str(value) for key, value in metadata.items()})
-            time = nanoseconds(head.time)
-            if thinned:
-                self._writer.add_attachment(
-                    0, time, PACKED_PLAN, "application/zstd", compress(plan, _HARDEST)
-                )
-            else:
-                self._writer.add_attachment(0, time, PLAN, "application/json", plan)
-            for channel in channels_of(head.system):
-                schema = self._writer.register_schema(
-                    channel.schema_name, channel.schema_encoding, channel.schema
-                )
-                self._writer.register_channel(channel.topic, channel.encoding, schema)
+        time = nanoseconds(head.time)
+        attachment = (
+            Attachment(0, time, PACKED_PLAN, "application/zstd", compress(plan, _HARDEST))
+            if thinned
+            else Attachment(0, time, PLAN, "application/json", plan)
+        )
+        channels = [
+            (
+                Schema(number, channel.schema, channel.schema_encoding, channel.schema_name),
+                Channel(number, channel.topic, channel.encoding, {}, number),
+            )
+            for number, channel in enumerate(channels_of(head.system), 1)
+        ]
+        described = Metadata(METADATA, {key: str(value) for key, value in metadata.items()})
+        with self._complaining:
+            self._append(self._encoder.front(f"handeye {HANDEYE}", described, attachment, channels))
 
     def write(self, topic: str, time: int, data: bytes, *, boundary: bool = False) -> None:
         """Write a message; `time` is in ns. A `boundary` ends the chunk. After a failed write, nothing more is
@@ -105,8 +85,8 @@ class GrowingFile:
         """
         if self.broken:
             return
-        with self._complaining():
-            self._writer.add_message(NUMBERS[topic], time, data, time)
+        with self._complaining:
+            self._encoder.add(NUMBERS[topic], time, data)
             self._pending += len(data)
             if self._pending >= CHUNK or boundary:
                 self._end_chunk()
@@ -115,49 +95,67 @@ class GrowingFile:
         """Flush everything written so far to the disk."""
         if self.broken:
             return
-        with self._complaining():
-            if self._pending:
-                self.uneven = True
-                self._end_chunk()
-            settle(self._sink.handle)
+        with self._complaining:
+            if part := self._encoder.part():
+                self._partly = True
+                self._append(part)
+            settle(self._handle)
 
     def finish(self) -> None:
         """Write the summary, which completes the file. If the summary cannot be written, the messages can still
         be read.
         """
-        with self._complaining():
-            self._writer.finish()
-            settle(self._sink.handle)
+        with self._complaining:
+            self._end_chunk()
+            self._append(self._encoder.end())
+            settle(self._handle)
 
     def release(self) -> None:
         """Close the file without completing it."""
         if not self.released:
-            os.close(self._sink.handle)
+            os.close(self._handle)
         self.released = True
 
     def move(self, file: Path) -> None:
         """Rename the file. A file that has the new name is replaced."""
-        with self._complaining():
+        with self._complaining:
             os.replace(self.file, file)
         self.file = file
 
     def _end_chunk(self) -> None:
-        self._pending = 0
-        self._writer.flush()
+        """Write the chunk in progress. Parts of it that were written stay until the chunk is on the disk."""
+        whole, chunk, self._pending = self._encoder.size, self._encoder.chunk(), 0
+        if not self._partly:
+            self._append(chunk)
+            return
+        self._partly = False
+        write_whole(self.file, self.file.read_bytes()[:whole] + chunk)
+        os.close(self._handle)
+        self._handle = os.open(self.file, os.O_WRONLY | os.O_APPEND)
 
-    @contextmanager
-    def _complaining(self) -> Iterator[None]:
-        """Within this context, turn an error of the operating system into a CannotWrite. After such an error,
-        nothing more is written.
-        """
-        try:
-            yield
-        except OSError as error:
-            self.broken = True
-            raise CannotWrite(f"{self.file} cannot be written: {error.strerror}") from None
-        except BaseException:  # Ctrl-C in the middle of a chunk: the chunk may be incomplete
-            self.broken = True
-            raise
+    def _append(self, data: bytes) -> None:
+        """Write every byte immediately, without a buffer, or raise OSError."""
+        view = memoryview(data)
+        while view:
+            view = view[os.write(self._handle, view) :]
+
+
+@dataclass(frozen=True, slots=True)
+class _Complaining:
+    """A context that turns an error of the operating system into a CannotWrite. After any exception, nothing more is
+    written: after Ctrl-C, the chunk may be incomplete.
+    """
+
+    about: GrowingFile
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, _: object, error: BaseException | None, __: object) -> None:
+        if error is not None:
+            self.about.broken = True
+        if isinstance(error, OSError):
+            raise CannotWrite(f"{self.about.file} cannot be written: {error.strerror}") from None
 
 
 def _flat(fields: dict[str, Any], before: str = "") -> dict[str, Any]:

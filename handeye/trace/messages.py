@@ -1,6 +1,7 @@
 """Encodes the typed messages of a trace, including the marks on pictures. Times are in ns on the cell's clock."""
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -14,7 +15,9 @@ from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.Point2_pb2 import Point2
 from foxglove_schemas_protobuf.PointsAnnotation_pb2 import PointsAnnotation
+from foxglove_schemas_protobuf.Quaternion_pb2 import Quaternion
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
+from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 from google.protobuf.timestamp_pb2 import Timestamp
 from numpy.typing import NDArray
 
@@ -28,6 +31,7 @@ GAP: Final = "gap"  # name under which the opening of the fingers (m) is listed 
 CAMERA: Final = "camera"  # name of the frame of the pictures
 LEVEL: Final = 255 // 15  # grey levels in an image for one step of the camera's digitiser
 SECOND: Final = 10**9
+_SETS: Final = 32  # sets of frames whose messages are kept
 
 Poses = NDArray[np.float32]
 """Poses in W, shape (n, 7): position (m), then a unit quaternion w, x, y, z. Single precision, a ten-thousandth of
@@ -60,20 +64,29 @@ class JointMessage:
 
 
 class FramesMessage:
-    """Poses of frames in W. Like `JointMessage`, one object is reused for all messages."""
+    """Poses of frames in W. Like `JointMessage`, one object is reused for all messages about the same frames."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
-        self._frames = [FrameTransform(parent_frame_id=WORLD, child_frame_id=name) for name in names]
+        self._names = names
+        self._message = lru_cache(maxsize=_SETS)(self._empty)
 
-    def filled(self, time: int, which: list[int], poses: Poses) -> bytes:
-        """Encode the poses of the frames with the numbers `which`. The shape of `poses` is (len(which), 7)."""
+    def filled(self, time: int, which: list[int], poses: list[list[float]]) -> bytes:
+        """Encode the poses of the frames with the numbers `which`, seven figures each as in `Poses`."""
         seconds, nanos = divmod(time, SECOND)
-        frames = [self._frames[number] for number in which]
-        for frame, pose in zip(frames, poses.tolist(), strict=True):
-            frame.timestamp.seconds, frame.timestamp.nanos = seconds, nanos
-            place, turn = frame.translation, frame.rotation
+        message, frames = self._message(tuple(which))
+        for (when, place, turn), pose in zip(frames, poses, strict=True):
+            when.seconds, when.nanos = seconds, nanos
             place.x, place.y, place.z, turn.w, turn.x, turn.y, turn.z = pose
-        return FrameTransforms(transforms=frames).SerializeToString()
+        return message.SerializeToString()
+
+    def _empty(
+        self, which: tuple[int, ...]
+    ) -> tuple[FrameTransforms, list[tuple[Timestamp, Vector3, Quaternion]]]:
+        """Return a message about some frames, and what is to be filled in for each."""
+        names = (self._names[number] for number in which)
+        frames = [FrameTransform(parent_frame_id=WORLD, child_frame_id=name) for name in names]
+        message = FrameTransforms(transforms=frames)
+        return message, [(frame.timestamp, frame.translation, frame.rotation) for frame in message.transforms]
 
 
 def picture(time: int, levels: Picture) -> bytes:

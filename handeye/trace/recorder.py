@@ -108,7 +108,7 @@ class Recorder:
             return
         self._catch_up()
         if isinstance(event, StepStarted):
-            self._writing.frames(event.time, self._frames.poses(), self._frames.there(), anew=True)
+            self._writing.frames(event.time, self._frames.poses(), self._frames.there())
         if isinstance(event, PictureTaken):
             self._writing.picture(event, self._looks.picture(event.picture))
         if isinstance(event, PartSeen | PartInspected | PartMatched):
@@ -133,8 +133,11 @@ class Recorder:
 
     def cut(self, events: int) -> None:
         """Remove everything after the first `events` events."""
-        if not self._writing.file.broken:
-            self._rewrite(events)
+        old = self._writing
+        if not old.file.broken:
+            old.file.sync()
+            self._writing = self._copied(read_whole(old.file.file), events, old.head)
+            old.file.release()
         self._waiting.clear()
 
     def close(self) -> None:
@@ -145,8 +148,6 @@ class Recorder:
             return
         try:
             self._catch_up()
-            if self._writing.file.uneven and not self._writing.file.broken:
-                self._rewrite(None)
             if self._writing.head is not None and not self._writing.file.broken:
                 self._writing.file.finish()
                 self._writing.file.move(self._path)
@@ -159,19 +160,10 @@ class Recorder:
 
     def _catch_up(self) -> None:
         waiting, self._waiting = self._waiting, []
-        for period, poses, there in waiting:
-            self._writing.period(period)
-            self._writing.frames(period.sensed.time, poses, there)
+        if waiting:
+            self._writing.periods(waiting)
 
-    def _rewrite(self, events: int | None) -> None:
-        """Replace the file by a new one with the same content up to event number `events`, or with all of it if
-        `events` is None."""
-        old = self._writing
-        old.file.sync()
-        self._writing = self._copied(read_whole(old.file.file), events, old.head)
-        old.file.release()
-
-    def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> TraceWriter:
+    def _copied(self, old: bytes, events: int, head: RunStarted | None) -> TraceWriter:
         """Begin a new file with the content of an old one up to event number `events`. The new file replaces
         the old one."""
         file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))

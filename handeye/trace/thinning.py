@@ -142,4 +142,4 @@ class _Frames:
         which = np.flatnonzero(~np.isnan(now[:, 0]) & (now != self._told).any(axis=1))
         if which.size:
             self._told[which] = now[which]
-            yield RawMessage(FRAMES, time, self._message.filled(time, which.tolist(), now[which]))
+            yield RawMessage(FRAMES, time, self._message.filled(time, which.tolist(), now[which].tolist()))

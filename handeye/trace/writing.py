@@ -28,14 +28,10 @@ from handeye.trace.frames import Frames, Mask
 from handeye.trace.hand_message import channels_message, hand_message
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses, annotations
+from handeye.trace.moved_frames import Figures, MovedFrames
 from handeye.trace.records import RawMessage, event_data
 from handeye.trace.sentences import level_of, measures_of, sentence
 from handeye.vision.marks import Mark
-
-MOVED: Final = 1e-6  # least change of a pose that is written: m, or of a quaternion component
-PUT_AWAY: Final = (
-    -1.0
-)  # height (m), below the floor; a lower part is hidden there, because another body represents it
 
 BOUNDARIES: Final = (RunStarted, StageFinished)  # events after which a run may be resumed
 
@@ -56,9 +52,7 @@ class TraceWriter:
         self._reader = EventReader()
         self._place = "", 0  # required file and line of the step under way
         self._taken: dict[str, int] = {}  # when the picture of each name was taken last, ns
-        self._sent: Poses = np.full(
-            (len(frames.names), 7), np.nan, dtype=np.float32
-        )  # as last written; NaN: never
+        self._moved = MovedFrames(len(frames.names))
         self._joint_message = messages.JointMessage(frames.joints)
         self._frames_message = messages.FramesMessage(frames.names)
 
@@ -96,7 +90,14 @@ class TraceWriter:
         """Write the marks for what vision found in a picture. The event of the finding follows."""
         self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))
 
-    def period(self, period: ServoPeriod) -> None:
+    def periods(self, waiting: Sequence[tuple[ServoPeriod, Poses, Mask]]) -> None:
+        """Write servo periods, and the poses of the frames that have moved in each."""
+        periods, poses, there = zip(*waiting, strict=True)
+        for period, moved in zip(periods, self._moved.next(np.stack(poses), np.stack(there)), strict=True):
+            self._period(period)
+            self._poses(period.sensed.time, *moved)
+
+    def _period(self, period: ServoPeriod) -> None:
         """Write the readings and commands of a servo period, and the force on the hand."""
         time = nanoseconds(period.sensed.time)
         self.file.write(JOINTS, time, self._joint_message.filled(time, period.sensed, period.effort))
@@ -104,24 +105,14 @@ class TraceWriter:
         if period.sensed.channels:
             self.file.write(MACHINES, time, channels_message(period.sensed))
 
-    def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
-        """Write the poses of the frames that have moved since they were last written or have never been written;
-        with `anew`, those of all frames.
+    def frames(self, time: float, poses: Poses, there: Mask) -> None:
+        """Write the poses of all frames."""
+        ((numbers, figures),) = self._moved.next(poses[None], there[None], anew=True)
+        self._poses(time, numbers, figures)
 
-        Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
-        has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
-        """
-        sent = self._sent
-        gone = ~there & ~np.isnan(sent[:, 0])
-        if gone.any():
-            poses = poses.copy()
-            poses[gone, 2] = 2 * PUT_AWAY
-        moved = (np.abs(poses - sent) > MOVED).any(axis=1)  # false for what was never written
-        away = (poses[:, 2] < PUT_AWAY) & (sent[:, 2] < PUT_AWAY)
-        which = np.flatnonzero((moved & ~away) | (there & (anew | np.isnan(sent[:, 0]))))
-        if which.size:
-            sent[which] = poses[which]
-            message = self._frames_message.filled(nanoseconds(time), which.tolist(), poses[which])
+    def _poses(self, time: float, numbers: list[int], figures: Figures) -> None:
+        if numbers:
+            message = self._frames_message.filled(nanoseconds(time), numbers, figures)
             self.file.write(FRAMES, nanoseconds(time), message)
 
     def _note(self, event: Event) -> None:
@@ -141,4 +132,4 @@ class TraceWriter:
             for frame in FrameTransforms.FromString(message.data).transforms:
                 place, turn = frame.translation, frame.rotation
                 pose = (place.x, place.y, place.z, turn.w, turn.x, turn.y, turn.z)
-                self._sent[self._frames.names.index(frame.child_frame_id)] = pose
+                self._moved.written[self._frames.names.index(frame.child_frame_id)] = pose

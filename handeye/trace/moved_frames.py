@@ -1,0 +1,55 @@
+"""Chooses the frames to write: those that have moved since they were last written, or were never written."""
+
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from handeye.trace.frames import Mask
+from handeye.trace.messages import Poses
+
+MOVED: Final = 1e-6  # least change of a pose that is written: m, or of a quaternion component
+PUT_AWAY: Final = (
+    -1.0
+)  # height (m), below the floor; a lower part is hidden there, because another body represents it
+
+Figures = list[list[float]]
+"""Poses, seven figures each."""
+
+
+class MovedFrames:
+    """The poses of `n` frames as last written."""
+
+    def __init__(self, n: int) -> None:
+        self.written: Poses = np.full((n, 7), np.nan, dtype=np.float32)  # NaN: never
+
+    def next(self, poses: Poses, there: Mask, *, anew: bool = False) -> list[tuple[list[int], Figures]]:
+        """Return the numbers and poses of the frames to write at each of `m` times; with `anew`, of all frames. The
+        shape of `poses`, which is changed, is (m, n, 7), and that of `there` is (m, n).
+
+        Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
+        has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
+
+        Each pose is compared with the last one written, which depends on the comparisons before it. The loop
+        assumes that nothing was written, and repeats the comparisons with what they show until nothing changes. Each
+        round settles at least one more time; frames that rest, or that move all the time, take at most three.
+        """
+        poses[~there, 2] = 2 * PUT_AWAY
+        rows = np.concatenate([self.written[None], poses])
+        times = np.arange(1, len(rows))[:, None]
+        last = np.zeros(rows.shape[:2], dtype=np.intp)  # the row last written up to each row
+        some = np.arange(rows.shape[1])  # frames that are not settled
+        while some.size:
+            now, sent = rows[1:, some], rows[last[:-1, some], some]
+            moved = (np.abs(now - sent) > MOVED).any(axis=2)  # false for what was never written
+            away = (now[..., 2] < PUT_AWAY) & (sent[..., 2] < PUT_AWAY)
+            chosen = (moved & ~away) | (there[:, some] & (anew | np.isnan(sent[..., 2])))
+            found = np.maximum.accumulate(np.where(chosen, times, 0))
+            changed = (found != last[1:, some]).any(axis=0)
+            last[1:, some] = found
+            some = some[changed]
+        self.written = rows[last[-1], np.arange(rows.shape[1])]
+        chosen = last[1:] == times
+        numbers, figures = np.nonzero(chosen)[1].tolist(), poses[chosen].tolist()
+        ends = chosen.sum(axis=1).cumsum().tolist()
+        return [(numbers[first:end], figures[first:end]) for first, end in pairwise([0, *ends])]
