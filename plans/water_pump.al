@@ -157,6 +157,8 @@ TT:     SKIPN   6               ;high at all places: it is the head that stands 
         JUMP    HIGH
         FIND    H NR
         SEAT
+        SKIPN   23              ;the harder push slides the socket off the edge of a head
+        JUMP    EDGE
         HEIGHT  H .085 2
         SKIPE   9
         JUMP    EDGE

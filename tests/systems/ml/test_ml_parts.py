@@ -22,7 +22,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.ml.bench.arm import RESOLVED
 from handeye.systems.ml.bench.bars import DENSITY, LONG, WIDE, after, off_attitude, turned
-from handeye.systems.ml.bin.hopper import BOXES, DEEP, HIGH, PADS
+from handeye.systems.ml.bin.hopper import BOXES, DEEP, HIGH
 from handeye.systems.ml.bin.task import BIN, LIGHT, NARROW, Bin, Poured
 from handeye.systems.ml.machine.spec import CYCLE, GRAM_FORCE, LINEAR
 from handeye.systems.ml.orient.task import ASKED, ORIENT
@@ -154,7 +154,8 @@ def test_the_limits_of_width_and_weight_follow_from_the_errors_of_part_potentiom
     grams = DENSITY * WIDE**2 * LONG * 1000
     light, doubtful = numbers_of(text, "443", "445")
     assert (light + doubtful) / 2 == pytest.approx(grams * (1 + LIGHT) / 2, abs=0.5)
-    for kind in (most, least, lowest, highest, light, doubtful):  # the typewriter has the same limits
+    softer = 3  # ML units by which 400 g bend the pads of the typewriter more
+    for kind in (most - softer, least - softer, lowest - softer, highest - softer, light, doubtful):
         assert f" {kind}\n" in job_plan("typewriter").text
 
 
@@ -173,10 +174,15 @@ def test_the_fingers_hold_a_part_with_twice_the_force_that_it_needs() -> None:
     sigma = {name: arm[name].distribution.spread for name in ("parts.size", *GAUGE_ERRORS)}
     (rise,) = numbers_of(text, "400")
     servo, damping = 2 * np.pi * 50, 0.8  # rad/s and damping ratio, scenes/rectilinear_arm/README.md
-    start = np.exp(-damping * np.arccos(damping) / np.sqrt(1 - damping**2)) * servo * rise * LINEAR / CYCLE
-    load = DENSITY * (WIDE + 2 * sigma["parts.size"] * 1e-3) ** 2 * LONG * (9.81 + start)
+    start = (
+        np.exp(-damping * np.arccos(damping) / np.sqrt(1 - damping**2)) * servo * LINEAR / CYCLE
+    )  # m/s2 a unit
+    part = DENSITY * (WIDE + 2 * sigma["parts.size"] * 1e-3) ** 2 * LONG
+    loads = part * np.array(
+        [9.81 + start * rise, np.hypot(9.81, start * 79)]
+    )  # N: lifted, carried at full speed
     corner = np.hypot(LONG / 2, WIDE / 2)
-    force = np.hypot(load / 2 / slide, load * corner / 2 / turn)
+    forces = np.hypot(loads / 2 / slide, loads * corner / 2 / turn)
     finger, drive = model.joint("left_x").stiffness[0], model.actuator("separation").gainprm[0]
     left = 1 / (1 + finger / 2 / drive)  # share of the force that is left after a freeze
     gain, drift, noise = (2 * sigma[name] for name in GAUGE_ERRORS)
@@ -185,22 +191,22 @@ def test_the_fingers_hold_a_part_with_twice_the_force_that_it_needs() -> None:
     )  # N: the zero is the mean of 8 readings, 10 s ago
     (grams,) = numbers_of(text, "730")
     assert left == pytest.approx(2 / 3)
-    assert grams * GRAM_FORCE / (force / left * (1 + gain) + hidden) == pytest.approx(2, abs=0.02)
+    factors = grams * GRAM_FORCE / (forces / left * (1 + gain) + hidden)
+    assert factors == pytest.approx([2, 1.2], abs=0.02)
     assert "600" not in re.findall(r"LOAD 32 (\d+)", text)  # no other force
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("impedance", "least", "most"), [(PADS, 0.95, 1), ([0.95, 0.99, 0.0005, 0.5, 2], 0, 0.5)]
-)
+@pytest.mark.parametrize(("usual", "least", "most"), [(False, 0.95, 1), (True, 0, 0.5)])
 def test_a_part_that_is_held_aslant_does_not_creep_out_of_the_fingers(
-    impedance: list[float], least: float, most: float
+    usual: bool, least: float, most: float
 ) -> None:
     """With the arm's usual contacts, the fingers lose over half of their force in a second, in which the part turns."""
     model = BIN.station(1, BIN.world(WorldSpec(seed=7))).bench.model
     model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    for name in ("left_bar", "left_pad", "right_bar", "right_pad"):
-        model.geom(name).solimp[:] = impedance
+    if usual:
+        for name in ("left_bar", "left_pad", "right_bar", "right_pad"):
+            model.geom(name).solimp[:] = model.geom("table").solimp
     model.body_gravcomp[model.body("part_1").id] = 1
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

@@ -23,7 +23,7 @@ from handeye.systems.ml.bench.reporting import Printed, ReportingHardware
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld, quantity
 from handeye.systems.ml.bin.faults import EMPTY, FAULTS, TROUBLES
-from handeye.systems.ml.bin.hopper import BOXES, ORIGIN, RIM, TRAY, add_boxes, add_hopper
+from handeye.systems.ml.bin.hopper import BOXES, ORIGIN, RIM, TRAY, add_boxes, add_hopper, hold_firmly
 from handeye.systems.ml.machine.spec import LINEAR
 from handeye.systems.ml.run.hardware import Hardware, Tell
 from handeye.tasks.interface import Words
@@ -129,6 +129,7 @@ class Bin(ArmTask):
         spec = scene(world, wand=False)
         add_hopper(spec, world.value(SMOOTH))
         add_boxes(spec)
+        hold_firmly(spec)
         if world.fault(EMPTY) is not None:
             parts = 0
         return Station(spec, world, at={4: BOXES["good"]}, others=(poured(spec, world, parts),))
