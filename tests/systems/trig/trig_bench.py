@@ -1,6 +1,7 @@
 """TRIG sessions for tests with physics: the Purbrick arm, and a desk at which a text sits."""
 
 from collections.abc import Callable
+from functools import cache
 
 import msgspec
 from trig_sessions import PALLETISE, typed
@@ -69,7 +70,13 @@ def low_palletiser(blocks: int) -> str:
 
 def low_job(blocks: int, seed: int) -> Runner:
     """The palletiser with the arm no higher than it takes few blocks, taught in the world of a seed."""
-    return Runner(low_setup(blocks, seed))
+    return Runner(_low_taught(blocks, seed))
+
+
+@cache
+def _low_taught(blocks: int, seed: int) -> Checkpoint:
+    """The state in which it has been taught: typing the script moves the arm, which takes most of the time."""
+    return Runner(low_setup(blocks, seed)).checkpoint()
 
 
 def low_setup(blocks: int, seed: int) -> Checkpoint:
