@@ -65,7 +65,11 @@ def taught(text: str, table: str) -> Bench:
 def low_palletiser(blocks: int) -> str:
     """The palletiser for few blocks, with the arm no higher and no farther out than it takes them."""
     low = PALLETISE.replace("Z 260", "Z 45").replace("Z 270 X", "Z 55 X").replace("Z 270", "Z 60")
-    near = low.replace("X 150", "X 60").replace("Y 150 Z 200", "Y 60 Z 60").replace("X -50 Y -100", "X -20 Y -40")
+    near = (
+        low.replace("X 150", "X 60")
+        .replace("Y 150 Z 200", "Y 60 Z 60")
+        .replace("X -50 Y -100", "X -20 Y -40")
+    )
     return near.replace("STACK 20", f"STACK {blocks}")
 
 
