@@ -12,6 +12,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import settings
+from kept_measurements import keep_measurements
 from kept_plans import keep_plans
 from kept_scenes import keep_scenes
 
@@ -55,7 +56,9 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+        gc.set_threshold(7_000, 5, 3)  # old objects hold cells, and are searched about as often as by default
         keep_scenes()
+        keep_measurements()
 
 
 @pytest.fixture
