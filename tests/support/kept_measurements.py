@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
+from hashlib import sha256
 from typing import TYPE_CHECKING, Final
 
 from handeye.core.mutable_records import copied
@@ -18,7 +19,9 @@ from handeye.core.packed import encoded
 from handeye.tasks import task
 
 if TYPE_CHECKING:
+    from handeye.cell.simulated import SimulatedCell
     from handeye.cell.state import CellState
+    from handeye.execution.context import ExecutionContext
     from handeye.execution.state import DriveState
     from handeye.systems.stanford.executor_run import RunningPlan
 
@@ -31,12 +34,44 @@ Measure = Callable[["RunningPlan"], float]
 
 @dataclass(frozen=True)
 class Measured:
-    """A measurement: the cell before and after it, the drive after it, and the time that it took (s)."""
+    """The cell and the drive behind a measurement, and the time that it took (s)."""
 
-    before: CellState
-    after: CellState
+    cell: CellState
     drive: DriveState
     seconds: float
+
+
+class Measurements:
+    """Measurements by all that they depend on."""
+
+    def __init__(self) -> None:
+        self._kept: dict[bytes, Measured] = {}
+
+    def behind(
+        self, world: object, cell: SimulatedCell, run: ExecutionContext, measure: Callable[[], float]
+    ) -> float:
+        """Put a run behind the measurement of its joints, and return the time that this took (s).
+
+        Args:
+            world: what the cell was built from, as a record.
+            measure: measures them, if nothing is kept of this world with this state, or if the run is halted.
+        """
+        before = encoded((world, cell.capture(), run.state.drive))
+        key = sha256(before).digest()
+        found = self._kept.pop(key, None)
+        if found is None or run.drive.halt():
+            seconds = measure()
+            found = Measured(cell.capture(), copied(run.state.drive), seconds)
+            if run.state.unable is not None:
+                return seconds
+        state = copied(run.state)
+        state.drive = copied(found.drive)
+        cell.restore(found.cell)  # after a measurement too, so that both go on from the same
+        run.restore(state)
+        self._kept[key] = found
+        if len(self._kept) > MOST:
+            del self._kept[next(iter(self._kept))]
+        return found.seconds
 
 
 def keep_measurements() -> None:
@@ -51,8 +86,7 @@ def keep_measurements() -> None:
 
 def keeping(measure: Measure) -> Measure:
     """The same, which measures in worlds that are not among the last ones, and where a test halts or replaces it."""
-    kept: dict[bytes, Measured] = {}
-    run = sys.modules[RUN]
+    run, kept = sys.modules[RUN], Measurements()
     genuine = run.measure_joints
 
     @wraps(measure)
@@ -60,20 +94,7 @@ def keeping(measure: Measure) -> Measure:
         ours = type(task(self._setup.task)).__module__.startswith("handeye.")
         if not (ours and self.plan.program.feels and run.measure_joints is genuine):
             return measure(self)
-        key = encoded((self._setup.task, self._setup.world, self._cell.renderer, self.state.drive))
-        before, found = self._cell.capture(), kept.pop(key, None)
-        if found is None or not before.equals(found.before) or self._halt():
-            seconds = measure(self)
-            found = Measured(before, self._cell.capture(), copied(self.state.drive), seconds)
-        else:
-            state = copied(self.state)
-            state.drive = copied(found.drive)
-            self._cell.restore(found.after)
-            self.context.restore(state)
-        if self.trouble is None:
-            kept[key] = found
-        if len(kept) > MOST:
-            del kept[next(iter(kept))]
-        return found.seconds
+        world = self._setup.task, self._setup.world, self._cell.renderer
+        return kept.behind(world, self._cell, self.context, lambda: measure(self))
 
     return measured
