@@ -4,12 +4,15 @@ import ast
 import re
 import subprocess
 import sys
+import tomllib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 import pytest
 from import_reading import imported, imports, makers, run_time_imports
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 PACKAGE = Path(__file__).parent.parent / "handeye"
 
@@ -236,6 +239,22 @@ def test_the_working_phase_needs_nothing_but_arithmetic_from_outside() -> None:
     """Nothing that could look into the simulator: no files, no processes, no foreign functions."""
     found = {module: outside(module) - ARITHMETIC for module in among(*(WORKING_PHASE - {"al"}))}
     assert {module: names for module, names in found.items() if names} == {}
+
+
+PEERS = {"pandas", "roboticstoolbox"}
+"""What handeye hands tables to, or is measured beside, where somebody has it; elsewhere it says so."""
+PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
+"""Packages whose modules have other names."""
+
+
+def test_what_the_package_imports_and_what_it_asks_for_are_the_same() -> None:
+    project = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    del extras["notebooks"]  # which runs the notebooks, and is imported by none of the package
+    wanted = [Requirement(text) for texts in (project["dependencies"], *extras.values()) for text in texts]
+    foreign = set().union(*map(outside, MODULES)) - sys.stdlib_module_names - PEERS
+    asked = {canonicalize_name(each.name) for each in wanted}
+    assert {canonicalize_name(PACKAGE_OF.get(name, name)) for name in foreign} == asked
 
 
 def test_nothing_stands_in_the_wall_but_what_ports_are_made_of() -> None:
