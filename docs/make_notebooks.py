@@ -15,6 +15,7 @@ from pathlib import Path
 
 import jupytext
 import nbformat
+from jupyter_client import AsyncKernelManager
 from nbclient import NotebookClient
 from nbformat import NotebookNode
 from PIL import Image
@@ -41,17 +42,29 @@ def notebook(script: Path) -> NotebookNode:
     return made
 
 
-def carried_out(made: NotebookNode, folder: Path) -> NotebookNode:
+def environment() -> dict[str, str]:
+    """What a kernel finds in its environment: it imports handeye from here."""
+    return {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")])),
+    }
+
+
+def carried_out(made: NotebookNode, folder: Path, kernel: AsyncKernelManager | None = None) -> NotebookNode:
     """The notebook with the output of its cells; its runs stay in the folder.
+
+    Args:
+        kernel: executes the cells, in the folder where it was started; without it, a new one does, in `folder`.
 
     Raises:
         CellExecutionError: a cell fails that is not marked as failing.
     """
-    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     client = NotebookClient(
-        made, timeout=PATIENCE, record_timing=False, resources={"metadata": {"path": str(folder)}}
+        made, kernel, timeout=PATIENCE, record_timing=False, resources={"metadata": {"path": str(folder)}}
     )
-    client.execute(env={**os.environ, "PYTHONPATH": path})
+    client.execute(env=environment())
+    if kernel is not None:
+        client.kc.stop_channels()  # those of a kernel of its own are closed with it
     made.metadata["language_info"] = {"name": "python"}  # without its version, which would change the file
     return made
 

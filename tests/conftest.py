@@ -12,6 +12,8 @@ from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import settings
+from kept_measurements import keep_measurements
+from kept_plans import keep_plans
 from kept_scenes import keep_scenes
 
 from benchmarks import __main__ as benchmarks
@@ -29,6 +31,9 @@ if "PYTEST_XDIST_WORKER" not in os.environ:  # else it is the folder of the proc
     # a world is calibrated once a session; calibrations of the user's runs are not for tests, nor theirs for the user
     _CACHE = TemporaryDirectory(prefix="handeye-tests-")
     os.environ["HANDEYE_CACHE"] = _CACHE.name
+    _PLANS = TemporaryDirectory(prefix="handeye-tests-")
+    os.environ["HANDEYE_TESTS_PLANS"] = _PLANS.name
+keep_plans(Path(os.environ["HANDEYE_TESTS_PLANS"]))
 os.environ["HANDEYE_RUNS"] = ""  # no test leaves a run that it has not named
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # hundreds of processes would each compile the package anew
 sys.dont_write_bytecode = False  # nor would each session rewrite the assertions of all tests anew
@@ -51,7 +56,9 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+        gc.set_threshold(7_000, 5, 3)  # old objects hold cells, and are searched about as often as by default
         keep_scenes()
+        keep_measurements()
 
 
 @pytest.fixture

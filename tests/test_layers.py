@@ -4,11 +4,15 @@ import ast
 import re
 import subprocess
 import sys
+import tomllib
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 import pytest
-from import_reading import imports, run_time_imports
+from import_reading import imported, imports, makers, run_time_imports
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 PACKAGE = Path(__file__).parent.parent / "handeye"
 
@@ -41,6 +45,7 @@ UPWARDS: dict[str, set[str]] = {}
 """Imports that break the order today; each is a debt, and none may be added."""
 
 MODULES = sorted(".".join(p.relative_to(PACKAGE).with_suffix("").parts) for p in PACKAGE.rglob("*.py"))
+KNOWN = frozenset(MODULES)
 SKILLS = {"arm", "vision", "touch", "al"}
 WORKING_PHASE = {"execution", "planning", *SKILLS}
 ARITHMETIC = {
@@ -79,16 +84,53 @@ def source(module: str) -> str:
     return (PACKAGE / (module.replace(".", "/") + ".py")).read_text(encoding="utf-8")
 
 
+@dataclass(frozen=True)
+class Reading:
+    """What these rules ask of a module. Its nodes themselves would take half a gigabyte for all modules."""
+
+    imported: set[str]
+    """Full names of what it imports."""
+    made: set[str]
+    """What it uses that imports under a name made at run time."""
+    called: set[str]
+    """Names of the methods that it calls."""
+    systems: set[str]
+    """Its classes that derive from those of a system."""
+    asked: set[str]
+    """Names in the second argument of its calls of `isinstance`."""
+
+
 @cache
+def read(module: str) -> Reading:
+    """A module, parsed once for all rules."""
+    nodes = list(ast.walk(ast.parse(source(module))))
+    calls = [node for node in nodes if isinstance(node, ast.Call)]
+    kinds = [
+        call.args[1] for call in calls if isinstance(call.func, ast.Name) and call.func.id == "isinstance"
+    ]
+    return Reading(
+        imported=imported(nodes, module),
+        made=set(makers(nodes)),
+        called={call.func.attr for call in calls if isinstance(call.func, ast.Attribute)},
+        systems={
+            node.name
+            for node in nodes
+            if isinstance(node, ast.ClassDef)
+            and {ast.unparse(base) for base in node.bases} & {"System", "RunningSystem", "SystemState"}
+        },
+        asked={name.id for kind in kinds for name in ast.walk(kind) if isinstance(name, ast.Name)},
+    )
+
+
 def outside(module: str) -> set[str]:
     """Packages that are not ours and that a module imports."""
-    return {name.split(".")[0] for name in imports(source(module), module)} - {"handeye"}
+    return {name.split(".")[0] for name in read(module).imported} - {"handeye"}
 
 
 @cache
 def own(module: str) -> set[str]:
     """Modules of ours that a module imports."""
-    return owned(imports(source(module), module))
+    return owned(read(module).imported)
 
 
 def owned(names: set[str]) -> set[str]:
@@ -97,17 +139,10 @@ def owned(names: set[str]) -> set[str]:
     for name in names:
         if name.split(".")[0] == "handeye":
             parts = name.split(".")[1:]
-            while parts and ".".join(parts) not in MODULES and ".".join([*parts, "__init__"]) not in MODULES:
+            while parts and ".".join(parts) not in KNOWN and ".".join([*parts, "__init__"]) not in KNOWN:
                 parts.pop()
-            result.add(".".join(parts) if ".".join(parts) in MODULES else ".".join([*parts, "__init__"]))
+            result.add(".".join(parts) if ".".join(parts) in KNOWN else ".".join([*parts, "__init__"]))
     return result
-
-
-def called(module: str) -> set[str]:
-    """Names of the methods that a module calls."""
-    tree = ast.parse(source(module))
-    calls = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
-    return {function.attr for function in calls if isinstance(function, ast.Attribute)}
 
 
 def among(*rooms: str) -> list[str]:
@@ -173,7 +208,7 @@ def test_a_planted_upward_import_is_seen() -> None:
 
 
 def test_modules_named_at_run_time_are_those_listed() -> None:
-    found = {module: run_time_imports(source(module)) for module in MODULES}
+    found = {module: read(module).made for module in MODULES}
     assert {module: names for module, names in found.items() if names} == MAKERS
 
 
@@ -206,6 +241,22 @@ def test_the_working_phase_needs_nothing_but_arithmetic_from_outside() -> None:
     assert {module: names for module, names in found.items() if names} == {}
 
 
+PEERS = {"pandas", "roboticstoolbox"}
+"""What handeye hands tables to, or is measured beside, where somebody has it; elsewhere it says so."""
+PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
+"""Packages whose modules have other names."""
+
+
+def test_what_the_package_imports_and_what_it_asks_for_are_the_same() -> None:
+    project = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    del extras["notebooks"]  # which runs the notebooks, and is imported by none of the package
+    wanted = [Requirement(text) for texts in (project["dependencies"], *extras.values()) for text in texts]
+    foreign = set().union(*map(outside, MODULES)) - sys.stdlib_module_names - PEERS
+    asked = {canonicalize_name(each.name) for each in wanted}
+    assert {canonicalize_name(PACKAGE_OF.get(name, name)) for name in foreign} == asked
+
+
 def test_nothing_stands_in_the_wall_but_what_ports_are_made_of() -> None:
     assert {o for m in among("ports") for o in own(m) if room(o) not in {"core", "ports"}} == set()
 
@@ -232,7 +283,7 @@ def test_the_referee_speaks_only_to_tasks_results_trials_exercises_and_benches()
 
 
 def test_the_referee_is_asked_by_the_results_alone() -> None:
-    assert {m for m in MODULES if "judge" in called(m)} == {"results.judging"}
+    assert {m for m in MODULES if "judge" in read(m).called} == {"results.judging"}
 
 
 def test_only_the_environments_know_gymnasium() -> None:
@@ -248,7 +299,7 @@ def test_the_included_policies_know_the_cell_by_what_they_observe() -> None:
         m: others - {arithmetic, drawings} for m, others in seen.items() if others - {arithmetic, drawings}
     } == {}
     truthful = {"truth", "capture", "setup", "values", "reset"}
-    assert {m: called(m) & truthful for m in policies if called(m) & truthful} == {}
+    assert {m: calls for m in policies if (calls := read(m).called & truthful)} == {}
 
 
 def test_cell_and_referee_know_no_task() -> None:
@@ -283,22 +334,11 @@ def test_no_system_is_named_outside_of_its_folder() -> None:
 
 
 def test_nobody_asks_of_which_class_a_system_is() -> None:
-    classes = {"System", "RunningSystem", "Listing", "ExecutionState"}
-    for module in among("systems"):
-        for node in ast.walk(ast.parse(source(module))):
-            bases = {ast.unparse(base) for base in node.bases} if isinstance(node, ast.ClassDef) else set()
-            if isinstance(node, ast.ClassDef) and bases & {"System", "RunningSystem", "SystemState"}:
-                classes.add(node.name)
-    asked = {
-        (module, name.id)
-        for module in MODULES
-        if room(module) != "systems"
-        for node in ast.walk(ast.parse(source(module)))
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance"
-        for name in ast.walk(node.args[1])
-        if isinstance(name, ast.Name) and name.id in classes
-    }
-    assert asked == set()
+    classes = {"System", "RunningSystem", "Listing", "ExecutionState"}.union(
+        *(read(module).systems for module in among("systems"))
+    )
+    outsiders = [module for module in MODULES if room(module) != "systems"]
+    assert {m: asked for m in outsiders if (asked := read(m).asked & classes)} == {}
 
 
 def test_what_shows_runs_drives_none() -> None:

@@ -1,13 +1,15 @@
 """The notebooks run from beginning to end, are what their scripts are, and keep to what they may use."""
 
 import ast
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
 import nbformat
 import pytest
+from jupyter_client import AsyncKernelManager
 from nbformat import NotebookNode
-from running_notebooks import SCRIPTS, notebook_maker, runs_to_its_end
+from running_notebooks import SCRIPTS, kernel, notebook_maker, runs_to_its_end
 
 LARGEST = 1_500_000
 """Bytes of all notebooks together."""
@@ -19,6 +21,13 @@ each = pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
 @pytest.fixture(scope="module")
 def maker() -> ModuleType:
     return notebook_maker()
+
+
+@pytest.fixture(scope="module")
+def emptied() -> Iterator[AsyncKernelManager]:
+    """A kernel that forgets all names before each notebook."""
+    with kernel() as manager:
+        yield manager
 
 
 def stored(script: Path) -> NotebookNode:
@@ -34,9 +43,9 @@ def sources(notebook: NotebookNode) -> list[tuple[str, str, list[str]]]:
 @pytest.mark.slow
 @pytest.mark.render
 @pytest.mark.parametrize("script", SCRIPTS[1:], ids=lambda path: path.stem)
-def test_it_runs_from_beginning_to_end(script: Path, tmp_path: Path) -> None:
+def test_it_runs_from_beginning_to_end(script: Path, tmp_path: Path, emptied: AsyncKernelManager) -> None:
     """That the first does is shown where its pump is looked at, in `execution/test_whole_run.py`."""
-    runs_to_its_end(script, tmp_path)
+    runs_to_its_end(script, tmp_path, emptied)
 
 
 @each

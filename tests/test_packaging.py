@@ -17,7 +17,6 @@ from hatchling.builders.sdist import SdistBuilder
 from hatchling.builders.wheel import WheelBuilder
 from hatchling.metadata.plugin.interface import MetadataHookInterface
 from hatchling.plugin.utils import load_plugin_from_script
-from import_reading import imports
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -27,16 +26,8 @@ ROOT = Path(__file__).parent.parent
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 DEPENDENCIES = [Requirement(text) for text in PROJECT["dependencies"]]
-EXTRAS = [
-    Requirement(text)
-    for extra, texts in PROJECT["optional-dependencies"].items()
-    if extra != "notebooks"  # which runs the notebooks, and is imported by none of the package
-    for text in texts
-]
 BUILDING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["build"]]
 TESTING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["dev"]]
-PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
-"""Packages whose modules have other names."""
 
 
 def locked(name: str) -> set[tuple[str, str]]:
@@ -70,19 +61,6 @@ def test_every_requirement_is_locked_at_versions_it_allows(wanted: Requirement, 
 
 def test_the_package_is_built_with_what_is_locked() -> None:
     assert set(PYPROJECT["build-system"]["requires"]) <= set(map(str, BUILDING))
-
-
-PEERS = {"pandas", "roboticstoolbox"}
-"""What handeye hands tables to, or is measured beside, where somebody has it; elsewhere it says so."""
-
-
-@pytest.mark.slow
-def test_what_the_package_imports_and_what_it_asks_for_are_the_same() -> None:
-    modules = (ROOT / "handeye").rglob("*.py")
-    imported = {name.split(".")[0] for m in modules for name in imports(m.read_text("utf-8"), m.stem)}
-    foreign = imported - sys.stdlib_module_names - PEERS - {"handeye"}
-    asked = {canonicalize_name(wanted.name) for wanted in DEPENDENCIES + EXTRAS}
-    assert {canonicalize_name(PACKAGE_OF.get(name, name)) for name in foreign} == asked
 
 
 @pytest.mark.parametrize(

@@ -1,17 +1,21 @@
 """The server of an agent, used over standard input and output by the client of the protocol's own Python SDK."""
 
+from __future__ import annotations
+
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import anyio
 import pytest
-from mcp import Client, StdioServerParameters, stdio_client
-from mcp.types import CallToolResult
 
 import handeye
 from handeye.agents.tools import TOOLS
+
+if TYPE_CHECKING:
+    from mcp import Client
+    from mcp.types import CallToolResult
 
 pytestmark = pytest.mark.slow
 
@@ -69,6 +73,8 @@ async def pin_task(found: Session) -> None:
 
 
 def connected(folder: Path) -> Client:
+    from mcp import Client, StdioServerParameters, stdio_client  # only where it is used: it takes seconds
+
     words = ["-m", "handeye", "mcp", "--folder", str(folder)]
     return Client(stdio_client(StdioServerParameters(command=sys.executable, args=words)))
 

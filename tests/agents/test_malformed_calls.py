@@ -5,12 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mcp.types import JSONRPCRequest, jsonrpc_message_adapter
 
 from handeye.agents.agent_folder import AgentFolder
 from handeye.agents.call import Call
 from handeye.agents.requests import schema
-from handeye.agents.server import decodable
 from handeye.agents.toolbox import Toolbox
 from handeye.agents.tools import TOOLS, tool_named, used
 
@@ -100,6 +98,10 @@ def test_the_sentence_names_what_is_wrong(toolbox: Toolbox, tool: str, arguments
     ],
 )
 def test_half_of_a_surrogate_pair_does_not_leave_a_client_without_an_answer(sent: str, read: str) -> None:
+    from mcp.types import JSONRPCRequest, jsonrpc_message_adapter  # only where it is used: it takes seconds
+
+    from handeye.agents.server import decodable
+
     asked = '{"jsonrpc":"2.0","id":1,"method":"tools/call","params":{"name":"docs","arguments":{"topic":%s}}}'
     message = jsonrpc_message_adapter.validate_json(decodable(asked % sent))
     assert isinstance(message, JSONRPCRequest)

@@ -29,6 +29,7 @@ pytestmark = pytest.mark.slow
 HALF_OUT = 30
 """Servo periods that a screw is turned out, or left behind, until something hinders the arm."""
 ONE = f"{MACROS}        DRIVER  .25\n        SCREW   S1 H0 Y1 1\n"
+TIGHTEN = "        TIGHTEN H0 1\n"
 
 
 @cache
@@ -38,35 +39,38 @@ def dispensed() -> np.ndarray:
 
 
 @cache
-def finished() -> tuple[CellState, ExecutionState]:
-    """Cell and memory when the screw is in."""
-    run = ready().go()
-    assert run.finished
+def finished() -> tuple[CellState, ExecutionState, int]:
+    """Cell and memory when the screw is in, and the number of steps that took the driver out of its rack."""
+    run = ready().to("ASSIGN  TAKEN 2")
+    taken = len(run.executor.state.done)
+    assert run.go().finished
     assert holes_of(run.cell.truth)[0].screw == 0
-    return run.cell.capture(), copied(run.executor.state)
+    return run.cell.capture(), copied(run.executor.state), taken
 
 
 def ready() -> Bench:
     return bench(ONE, lay=stacked(), felt={"LAID": LAID})
 
 
-def driven() -> Bench:
-    """A screw that is in, and everything as it was then."""
-    run, (cell, state) = ready(), finished()
+def driven(then: str = "") -> Bench:
+    """A screw that is in, and everything as it was then; the program may go on behind it."""
+    run = bench(f"{ONE}{then}", lay=stacked(), felt={"LAID": LAID})
+    cell, state, _ = finished()
     run.cell.restore(cell)
-    run.run.restore(state)
+    run.run.restore(copied(state))
     return run
 
 
-def undo(run: Bench) -> Bench:
-    """Undo all of it, or as much as the guards let."""
-    run.executor.undo(ReversalOrder(left=0, halts=True))
+def undo(run: Bench, left: int | None = None) -> Bench:
+    """Undo all but the taking of the driver, or as much as the guards let."""
+    run.executor.undo(ReversalOrder(left=finished()[2] if left is None else left, halts=True))
     return run.go()
 
 
 @cache
 def taken_out() -> Bench:
-    return undo(driven())
+    """All is undone, and the driver is back in its rack."""
+    return undo(driven(), left=0)
 
 
 def test_a_screw_is_turned_out_and_stands_in_the_dispenser_again() -> None:
@@ -84,21 +88,19 @@ def test_the_magnet_is_on_again_when_the_screw_is_left_behind() -> None:
 
 
 def test_a_screw_that_was_only_tightened_stays_until_the_step_that_drove_it_is_undone() -> None:
-    run = bench(f"{ONE}        TIGHTEN H0 1\n", lay=stacked(), felt={"LAID": LAID}).to("SEARCH  .05 STEPS")
+    run = driven(TIGHTEN)
     before = len(run.executor.state.done)
+    run.executor.state.at = len(ready().run.plan.program.steps)
     assert run.go().finished
-    run.executor.undo(ReversalOrder(left=before, halts=True))
-    run.go()
+    assert len(run.executor.state.done) > before
+    undo(run, left=before)
     assert (run.executor.state.stopped, holes_of(run.cell.truth)[0].screw) == (None, 0)
     assert in_the_dispenser(undo(run))
 
 
 def tightened(dx: float) -> Bench:
     """A driven screw is tightened once more, by a hand that looks for its head `dx` (in) beside it."""
-    run = bench(f"{ONE}        TIGHTEN H0 1\n", lay=stacked(), felt={"LAID": LAID})
-    cell, state = finished()
-    run.cell.restore(cell)
-    run.run.restore(state)
+    run = driven(TIGHTEN)
     found = run.run.state.world.moved
     x, *rest = found["H0"].at
     found["H0"] = replace(found["H0"], at=(x + dx * INCH, *rest))
@@ -118,7 +120,7 @@ def test_the_bit_does_not_turn_on_the_edge_of_a_head(dx: float, places: int) -> 
 def turned_out() -> Bench:
     """A screw that is out, and hangs from the bit."""
     run = driven()
-    run.executor.undo(ReversalOrder(left=0, halts=True))
+    run.executor.undo(ReversalOrder(left=finished()[2], halts=True))
     return run.go(lambda: holes_of(run.cell.truth)[0].screw is None)
 
 
@@ -178,7 +180,7 @@ def test_a_screw_that_is_half_out_when_the_arm_is_stopped_comes_out_later(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     run, check, periods = driven(), Resistance.check, [0]
-    run.executor.undo(ReversalOrder(left=0, halts=True))
+    run.executor.undo(ReversalOrder(left=finished()[2], halts=True))
 
     def hindered(self: Resistance, reading: Reading) -> Trip | None:
         periods[0] += run.run.drive.state.tool < 0

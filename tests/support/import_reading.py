@@ -1,7 +1,7 @@
 """Finds the imports of a module in its source, in every form and at every place."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Final
 
 MAKERS: Final = {"importlib", "runpy", "pkgutil", "imp", "zipimport", "builtins"}
@@ -16,9 +16,14 @@ def imports(source: str, module: str) -> set[str]:
     Args:
         module: its name below `handeye`, as `cell.arm` or `cell.__init__`.
     """
+    return imported(ast.walk(ast.parse(source)), module)
+
+
+def imported(nodes: Iterable[ast.AST], module: str) -> set[str]:
+    """The same, of the nodes of a module that has been parsed."""
     package = ["handeye", *module.split(".")[:-1]]
     found: set[str] = set()
-    for node in ast.walk(ast.parse(source)):
+    for node in nodes:
         match node:
             case ast.Import(names=names):
                 found.update(alias.name for alias in names)
@@ -34,10 +39,11 @@ def imports(source: str, module: str) -> set[str]:
 
 def run_time_imports(source: str) -> set[str]:
     """Everything with which a module imports by a name made at run time."""
-    return set(_makers(ast.walk(ast.parse(source))))
+    return set(makers(ast.walk(ast.parse(source))))
 
 
-def _makers(nodes: Iterator[ast.AST]) -> Iterator[str]:
+def makers(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    """The same, of the nodes of a module that has been parsed."""
     for node in nodes:
         match node:
             case ast.Import(names=names):

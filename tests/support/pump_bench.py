@@ -3,15 +3,18 @@ experimenter may place parts by writing the simulator's state. During the run, t
 the test says so.
 """
 
+import pickle
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Final, TypeVar
 
 import mujoco
 import numpy as np
 import pytest
 from driving import Drive, tick
+from kept_measurements import Measurements
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
@@ -80,6 +83,8 @@ def without(word: str, script: str) -> str:
     return re.sub(rf"(?m)^\s*{word}\b.*\n", "", script)
 
 
+_MEASURED: Final = Measurements()
+"""What the arm has measured of its joints in drawn worlds, with parts laid as they were."""
 LAID: Final = 1.81
 """Height (in) of the gasket on the base, where closed fingers feel it."""
 SEEDS: Final = (None, 1)
@@ -238,12 +243,18 @@ def bench(
         plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append, arithmetic=CompiledArm
     )
     if program.feels and world is not None and world.arm_build.friction.any():
-        found = measure_joints(cell.devices, STANFORD, run.state.drive, arithmetic=CompiledArm)
-        run.state.drive.friction, run.state.drive.links = found.friction, found.links
+        _MEASURED.behind(pickle.dumps(world), cell, run, partial(_measure, run))
     heights = {"TABLE": 0.0} | (felt or {})
     run.state.heights.update({name: height * INCH for name, height in heights.items()})
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
     return Bench(cell=cell, executor=Executor(run=run), events=events, first=first)
+
+
+def _measure(run: ExecutionContext) -> float:
+    """Measure the joints, as a run does."""
+    found = measure_joints(run.cell, STANFORD, run.state.drive, arithmetic=CompiledArm)
+    run.state.drive.friction, run.state.drive.links = found.friction, found.links
+    return 0.0
 
 
 def put(cell: SimulatedCell, part: str, X_WP: Pose) -> None:

@@ -131,7 +131,7 @@ def test_kept_jobs_are_compared_in_their_units_and_filmed(command: Command) -> N
     assert "in the world of seed 3, without stack.place, with 0 blocks" in page
     code, out, _ = command("compare", "3", "4")
     assert (code, "in B" in out) == (0, True)
-    assert "place x of body cross_slide: A 150.490 mm, B 149.990 mm" in out
+    assert "place x of body cross_slide: A 120.487 mm, B 119.987 mm" in out
     assert "Both runs took the same course" in out
     assert "Both runs are identical, to the last bit." in command("compare", "3", "3")[1]
     assert command("video", "3", "--seconds", "1", "--size", "32x24", "--captions")[0] == 0
@@ -200,7 +200,7 @@ def test_a_job_that_is_interrupted_on_its_way_is_resumed_and_dismantled(
     asked = count()
     monkeypatch.setattr(PanicButton, "__call__", lambda _: next(asked) < 0)
     assert command("trig", "palletise", "--blocks", "1", "--out", "whole")[0] == 0
-    for folder, far in (("on", 3500), ("back", next(asked) - 500)):
+    for folder, far in (("on", 2300), ("back", next(asked) - 500)):
         again = count()
         monkeypatch.setattr(PanicButton, "__call__", lambda _, again=again, far=far: next(again) > far)
         code, _, err = command("trig", "palletise", "--blocks", "1", "--out", folder)

@@ -73,12 +73,16 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-@pytest.mark.parametrize("steps", [0, 4, 12])
-def test_a_run_that_is_taken_up_from_disk_leaves_the_same_bytes(
-    tmp_path: Path, whole: Path, steps: int
+def test_a_run_that_is_taken_up_from_disk_again_and_again_leaves_the_same_bytes(
+    tmp_path: Path, whole: Path
 ) -> None:
+    """Before the first step, twice on the way, and while the arm undoes it."""
     folder, start = open_new(tmp_path / "run", low_setup(1, seed=1)), low_setup(1, seed=1)
-    kept(folder, driven(folder, start, again=False, steps=steps) if steps else _only_begun(folder, start))
+    kept(folder, Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)]))
+    for steps in (4, 8):
+        folder, start, faults = open_again(tmp_path / "run")
+        assert not faults
+        kept(folder, driven(folder, start, again=True, steps=steps))
     folder, start, faults = open_again(tmp_path / "run")
     assert not faults
     runner = driven(folder, start, again=True)
@@ -90,10 +94,6 @@ def test_a_run_that_is_taken_up_from_disk_leaves_the_same_bytes(
     runner.finish()
     folder.close()
     assert (tmp_path / "run" / TRACE).read_bytes() == (whole / TRACE).read_bytes()
-
-
-def _only_begun(folder: RunFolder, start: Checkpoint) -> Runner:
-    return Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
 
 
 def test_its_trace_is_verified_by_carrying_it_out_again(tmp_path: Path, whole: Path) -> None:
