@@ -1,5 +1,6 @@
 """Colour photographs of the cell, taken with the cameras of the scene. The arm program never sees them."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -120,20 +121,28 @@ def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco
     return eye
 
 
-def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:
-    """Take a smooth photograph and return it as a PNG file. Raises InvalidInput as `smooth_photograph` does."""
-    return png(smooth_photograph(model, data, camera=camera, width=width, height=height))
-
-
 def smooth_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
     """Take a photograph that is drawn at twice its size and averaged. Raises InvalidInput as `photograph` does, or
     for an impossible size.
     """
+    return next(smooth_photographs(model, data, cameras=[camera], width=width, height=height))
+
+
+def smooth_photographs(
+    model: mujoco.MjModel, data: mujoco.MjData, *, cameras: Sequence[str], width: int, height: int
+) -> Iterator[Photograph]:
+    """Take a smooth photograph with each camera; the scene is loaded once. Raises InvalidInput as
+    `smooth_photograph` does.
+    """
     check_size(width, height)
-    fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
-    return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    for camera in cameras:
+        _number(model, camera)
+    photographer = Photographer(model, width=2 * width, height=2 * height)
+    for camera in cameras:
+        fine = photographer.take(model, data, camera)
+        yield np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)
 
 
 def check_size(width: int, height: int) -> None:

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.photograph import photograph_png
+from handeye.cell.photograph import png, smooth_photographs
 from handeye.cell.posed import as_it_stands
 from handeye.core.errors import BadFile, CannotWrite, Refused
 from handeye.core.files import write_whole
@@ -63,6 +63,8 @@ def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> 
         return
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:
         posed = as_it_stands(runner.task.shown(runner.setup.world, written(runner.setup)), runner.cell.truth)
-        for camera in runner.task.photographs:
-            with suppress(Refused):  # OpenGL may lack the memory for pictures larger than the camera's
-                write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))
+        cameras = runner.task.photographs
+        taken = smooth_photographs(*posed, cameras=cameras, width=1280, height=960)
+        with suppress(Refused):  # OpenGL may lack the memory for pictures larger than the camera's
+            for camera, picture in zip(cameras, taken, strict=True):
+                write_whole(folder / f"end_{camera}.png", png(picture))

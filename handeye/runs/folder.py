@@ -72,6 +72,7 @@ class RunFolder(Observer):
         self.kept = CheckpointStore(path / CHECKPOINTS)
         self._made = made
         self._closed = False
+        self._continued = False  # the run has continued here: what shows its outcome is outdated
         self.lost = 0  # number of events that the trace of a resumed run has lost, with their motions
         self._first: Path | None = None  # the checkpoint that the run begins with, once it is written
         self._runner: Runner | None = None
@@ -164,7 +165,14 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """Remove the files with the outcome, because they are outdated when the run continues."""
+        """Remove the files with the outcome when the run continues, because they are outdated. `close` removes those
+        that other commands write while the run goes on.
+        """
+        if not self._continued:
+            self._remove_outcome()
+        self._continued = True
+
+    def _remove_outcome(self) -> None:
         for name in _outcomes():
             (self.path / name).unlink(missing_ok=True)
 
@@ -190,6 +198,8 @@ class RunFolder(Observer):
             )
 
     def close(self) -> None:
+        if self._continued and not self._closed:
+            self._remove_outcome()
         if self._journal is not None:
             self._journal.close()
         if self._recorder is not None:

@@ -107,7 +107,7 @@ class McapEncoder:
         self._partly = len(self._records)
         out = RecordBuilder()
         chunk.write(out)
-        return out.end()
+        return bytes(out.end())
 
     def chunk(self) -> bytes:
         """End the chunk in progress, and encode it; empty if it contains no message."""
@@ -169,7 +169,7 @@ class McapEncoder:
             offset.write(summary)
         Footer(start, offsets_start, 0).write(summary)
         checked = summary.end()[: -_CRC.size]
-        return data.end() + checked + _CRC.pack(zlib.crc32(checked)) + MCAP0_MAGIC
+        return b"".join([data.end(), checked, _CRC.pack(zlib.crc32(checked)), MCAP0_MAGIC])
 
     def _chunk(self, start: int) -> Chunk | None:
         """Return the chunk in progress from a place on; None if it contains no message there."""

@@ -23,16 +23,17 @@ class MovedFrames:
     def __init__(self, n: int) -> None:
         self.written: Poses = np.full((n, 7), np.nan, dtype=np.float32)  # NaN: never
 
-    def next(self, poses: Poses, there: Mask, *, anew: bool = False) -> list[tuple[list[int], Figures]]:
+    def to_write(self, poses: Poses, there: Mask, *, anew: bool = False) -> list[tuple[list[int], Figures]]:
         """Return the numbers and poses of the frames to write at each of `m` times; with `anew`, of all frames. The
         shape of `poses`, which is changed, is (m, n, 7), and that of `there` is (m, n).
 
         Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
         has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
 
-        Each pose is compared with the last one written, which depends on the comparisons before it. The loop
-        assumes that nothing was written, and repeats the comparisons with what they show until nothing changes. Each
-        round settles at least one more time; frames that rest, or that move all the time, take at most three.
+        A pose is compared with the last one written, and that may be one of these poses. The loop first compares all
+        with the pose written before them. From what this shows, it takes the last pose written before each time, and
+        compares again, until nothing changes. Each round settles at least one more time; frames that rest, or that
+        move all the time, need at most three rounds.
         """
         poses[~there, 2] = 2 * PUT_AWAY
         rows = np.concatenate([self.written[None], poses])

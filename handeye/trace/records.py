@@ -164,8 +164,8 @@ def event_data(event: Event) -> bytes:
     return to_line(event)[:-1]
 
 
-def until(messages: Iterable[RawMessage], events: int) -> Iterator[RawMessage]:
-    """Yield the messages up to event number `events`."""
+def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMessage]:
+    """Yield the messages up to event number `events`, or all messages if `events` is None."""
     if events == 0:
         return
     count = 0

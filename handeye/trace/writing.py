@@ -93,7 +93,9 @@ class TraceWriter:
     def periods(self, waiting: Sequence[tuple[ServoPeriod, Poses, Mask]]) -> None:
         """Write servo periods, and the poses of the frames that have moved in each."""
         periods, poses, there = zip(*waiting, strict=True)
-        for period, moved in zip(periods, self._moved.next(np.stack(poses), np.stack(there)), strict=True):
+        for period, moved in zip(
+            periods, self._moved.to_write(np.stack(poses), np.stack(there)), strict=True
+        ):
             self._period(period)
             self._poses(period.sensed.time, *moved)
 
@@ -107,7 +109,7 @@ class TraceWriter:
 
     def frames(self, time: float, poses: Poses, there: Mask) -> None:
         """Write the poses of all frames."""
-        ((numbers, figures),) = self._moved.next(poses[None], there[None], anew=True)
+        ((numbers, figures),) = self._moved.to_write(poses[None], there[None], anew=True)
         self._poses(time, numbers, figures)
 
     def _poses(self, time: float, numbers: list[int], figures: Figures) -> None:

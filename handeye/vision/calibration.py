@@ -8,6 +8,7 @@ an inch, limits the accuracy of the fit, and shows in the residual.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Final
 
 import numpy as np
@@ -83,19 +84,21 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
     start = np.zeros(6 + 3 * len(drawing.lenses))
 
     def residuals(x: Array) -> Array:
-        model = moved(drawing, x)
+        view_of = cache(moved(drawing, x).view)  # many sightings share a view
         misses = []  # distances of the lamp from the line of sight, along columns and rows, m
         for s in sightings:
-            view = _view(model, s)
+            view = view_of(s.lens, s.pan, s.tilt)
             distance = float(np.linalg.norm(np.array(s.point_W) - view.X_WC[:3, 3]))
-            misses.append(_miss_px(model, s) / view.focal * distance / SIGHT_ERROR)
+            misses.append(_miss_px(view, s) / view.focal * distance / SIGHT_ERROR)
         return np.concatenate([*misses, x])
 
     fit = least_squares(residuals, start, method="trf", xtol=1e-10, ftol=1e-12)
     model = moved(drawing, fit.x)
     return Calibration(
         model=model,
-        residual_px={f: _rms([_miss_px(model, s) for s in sightings if np.isclose(s.lens, f)]) for f in used},
+        residual_px={
+            f: _rms([_miss_px(_view(model, s), s) for s in sightings if np.isclose(s.lens, f)]) for f in used
+        },
         residual_m=_rms(
             [
                 (_view(model, s).back_project(np.array([s.u, s.v]), s.point_W[2])[0] - s.point_W)[:2]
@@ -130,8 +133,8 @@ def _view(model: CameraModel, s: Sighting) -> View:
     return model.view(s.lens, s.pan, s.tilt)
 
 
-def _miss_px(model: CameraModel, s: Sighting) -> Array:
-    return np.asarray(_view(model, s).project(np.array(s.point_W))[0] - (s.u, s.v))
+def _miss_px(view: View, s: Sighting) -> Array:
+    return np.asarray(view.project(np.array(s.point_W))[0] - (s.u, s.v))
 
 
 def _rms(misses: list[Array]) -> float:

@@ -19,7 +19,7 @@ from handeye.runs import folder as folders
 from handeye.runs.advance import AfterStage, advance
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.checkpoint_store import CheckpointStore
-from handeye.runs.folder import RunFolder, open_again, open_new
+from handeye.runs.folder import REPORT, RunFolder, open_again, open_new
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.trace.eventlist import Journal, effective, read_events
@@ -152,6 +152,15 @@ def test_a_run_that_had_ended_ends_again(whole: Path, tmp_path: Path) -> None:
     path = Path(shutil.copytree(whole, tmp_path / "copy"))
     assert gone_on(path).position == 11
     assert (path / "trace.mcap").read_bytes() == (whole / "trace.mcap").read_bytes()
+
+
+def test_a_report_made_while_a_run_went_on_is_taken_away_when_it_is_closed(tmp_path: Path) -> None:
+    runner, folder = recorded(tmp_path / "run", begin())
+    advance(runner, steps=1)
+    (tmp_path / "run" / REPORT).touch()
+    advance(runner, steps=1)
+    folder.close()
+    assert not (tmp_path / "run" / REPORT).exists()
 
 
 def test_going_back_takes_later_checkpoints_away(tmp_path: Path) -> None:

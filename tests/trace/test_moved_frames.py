@@ -13,7 +13,7 @@ def test_a_screw_that_was_driven_out_is_put_away_and_comes_back_when_it_is_drive
     there = np.array([[True, driven] for driven in (False, True, False, False, True)])
     heights = [
         {number: pose[2] for number, pose in zip(*moved, strict=True)}
-        for moved in MovedFrames(2).next(poses, there)
+        for moved in MovedFrames(2).to_write(poses, there)
     ]
     away = 2 * PUT_AWAY
     assert heights == [{base: 0}, {carrier: 0.5}, {carrier: away}, {base: 0.25}, {carrier: 0.75}]
@@ -30,8 +30,8 @@ def test_periods_that_are_compared_together_give_what_they_give_one_by_one() -> 
     one_by_one = [
         moved
         for pose, shown in zip(poses, there, strict=True)
-        for moved in single.next(pose[None].copy(), shown[None])
+        for moved in single.to_write(pose[None].copy(), shown[None])
     ]
-    assert together.next(poses, there) == one_by_one
+    assert together.to_write(poses, there) == one_by_one
     assert np.array_equal(together.written, single.written)
     assert 0 < sum(len(numbers) for numbers, _ in one_by_one) < there.size

@@ -117,6 +117,16 @@ def test_what_was_flushed_within_a_stage_survives_and_changes_no_byte_of_the_end
     assert Recording(path).resume(stop).play(first=stop).close() == uninterrupted
 
 
+def test_every_flush_leaves_all_events_on_the_disk_and_changes_no_byte_of_the_end(
+    path: Path, uninterrupted: bytes
+) -> None:
+    recording = Recording(path).begin()
+    for number in range(1, len(EVENTS) + 1):
+        recording.play(first=number - 1, last=number).recorder.flush()
+        assert _events_in(recording.part) == EVENTS[:number]
+    assert recording.close() == uninterrupted
+
+
 def test_a_run_that_was_stopped_and_closed_goes_on_as_if_never_stopped(
     path: Path, uninterrupted: bytes
 ) -> None:

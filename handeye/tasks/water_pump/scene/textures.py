@@ -48,9 +48,9 @@ def _pixels() -> dict[str, NDArray[np.uint8]]:
 def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int = _SIZE) -> Array:
     """Return noise blurred with Gaussians of these standard deviations (pixels). The noise wraps around at the
     edges and has unit variance."""
-    noise, frequency = rng.standard_normal((size, size)), np.fft.fftfreq(size)
-    window = np.exp(-2 * np.pi**2 * np.add.outer((along_y * frequency) ** 2, (along_x * frequency) ** 2))
-    soft = np.asarray(np.fft.ifft2(np.fft.fft2(noise) * window).real, np.float64)
+    noise, rows, columns = rng.standard_normal((size, size)), np.fft.fftfreq(size), np.fft.rfftfreq(size)
+    window = np.exp(-2 * np.pi**2 * np.add.outer((along_y * rows) ** 2, (along_x * columns) ** 2))
+    soft = np.fft.irfft2(np.fft.rfft2(noise) * window)
     return np.asarray((soft - soft.mean()) / soft.std())
 
 
