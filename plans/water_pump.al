@@ -66,8 +66,7 @@ DEFINE SEAT
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5 .1  ;on from the edge of a head, too
 
-; That screw into a hole, to the torque stop. One that was not on the bit is fetched once more; one that stands wrong,
-; meets no torque, or stops high is driven again, four times in all, from where its hole was felt.
+; That screw into a hole, to the torque stop: fetched once more if it was not on the bit, driven up to four times in all.
 DEFINE SCREW S H ACROSS NR
         ASSIGN  TAKEN 2
         ASSIGN  STAYS 2
@@ -146,9 +145,8 @@ DEFINE FIND H NR
         SKIPN   23
         WAIT    "SCREW {NR} IS GONE: NO HEAD IS UNDER THE SOCKET, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
 
-; A driven screw once more, to the torque stop: one that has worked loose is tight again. On the edge of its head the socket
-; stands .1 in higher than over it: there the bit would turn without torque, and work the driver up in the hand. A screw that is
-; loose by a turn and a half stands .075 in high.
+; A driven screw once more, to the torque stop. On the edge of its head the socket stands .1 in higher than over it, and the
+; bit would turn without torque. A screw that is loose by a turn and a half stands .075 in high.
 DEFINE TIGHTEN H NR
         ASSIGN  N 2
         ASSIGN  STOOD 1
