@@ -31,6 +31,13 @@ class ArmArithmetic(ABC):
     def at_rest(self, q: Array) -> Dynamics:
         """Return the mass matrix, gravity torques and Jacobian of the arm at rest."""
 
+    def statics(self, q: Array) -> tuple[Array, Array]:
+        """Return the gravity torques and the Jacobian of `at_rest`. An implementation may leave out the mass
+        matrix.
+        """
+        there = self.at_rest(q)
+        return there.bias, there.J
+
 
 @dataclass(frozen=True, slots=True)
 class Formulas(ArmArithmetic):

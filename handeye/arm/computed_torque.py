@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from handeye.arm import dynamics
+from handeye.arm.dynamics import Dynamics, moving
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.core.pose import Array
@@ -24,8 +24,8 @@ def torque(
     `M`, shape (n, n), and `bias`, shape (n,), belong to the planned state at the moment when `q` and `qd` are read.
     `exerted` is J^T F, where F is a force that the hand is to exert or a load that it carries.
     """
-    omega = constants(arm).frequency
-    acceleration = qdd_des + 2 * omega * (qd_des - qd) + omega * omega * (q_des - q)
+    k = constants(arm)
+    acceleration = qdd_des + k.rate_gain * (qd_des - qd) + k.position_gain * (q_des - q)
     return np.asarray(M @ acceleration + bias + exerted)
 
 
@@ -56,15 +56,14 @@ def external_wrench(J: Array, unexplained: Array) -> Array:
 class Motion:
     """A precomputed motion: state, mass matrix and torques at the start of each servo period.
 
-    `q`, `qd`, `qdd` and `bias` have shape (N, n), `M` has (N, n, n). `qdd` is the mean acceleration over the
-    period, and `bias` includes friction.
+    `q`, `qd` and `qdd` have shape (N, n). `qdd` is the mean acceleration over the period, and the bias torques of
+    `dynamics` include friction.
     """
 
     q: Array
     qd: Array
     qdd: Array
-    M: Array
-    bias: Array
+    dynamics: Dynamics
 
     def __len__(self) -> int:
         return len(self.q)
@@ -77,6 +76,5 @@ def prepare(arm: ArmModel, q_start: Array, samples: Samples) -> Motion:
     q = np.vstack([q_start, samples.q])[:-1]
     qd = np.vstack([np.zeros(len(q_start)), samples.qd])
     return Motion(
-        q=q, qd=qd[:-1], qdd=np.diff(qd, axis=0) / arm.servo.period,
-        M=dynamics.mass_matrix(arm, q), bias=dynamics.bias(arm, q, qd[:-1]),
-    )  # fmt: skip
+        q=q, qd=qd[:-1], qdd=np.diff(qd, axis=0) / arm.servo.period, dynamics=moving(arm, q, qd[:-1])
+    )

@@ -5,8 +5,11 @@
 from functools import lru_cache
 from typing import Final
 
+import numpy as np
+
 from handeye.arm.model import ArmModel, constants
 from handeye.core.pose import Array
+from handeye.core.small_arrays import limited
 
 SENSE_BITS: Final = 12  # potentiometers, tachometers: "12-bit A/D"
 TORQUE_BITS: Final = 8  # drives: "8 bits or more"
@@ -20,6 +23,11 @@ def position_step(arm: ArmModel) -> Array:
     range of its joint.
     """
     return (arm.upper - arm.lower) / 2**SENSE_BITS
+
+
+@lru_cache(maxsize=16)
+def _half_step(arm: ArmModel) -> Array:
+    return position_step(arm) / 2
 
 
 @lru_cache(maxsize=16)
@@ -42,12 +50,12 @@ def followed(arm: ArmModel, here: Array, moved: Array, reading: Array) -> Array:
     """Return joint positions with a finer resolution than the potentiometers give. Positions `here` advance by
     `moved`, as integrated from the tachometers, and are kept within half a step of the potentiometer `reading`.
     """
-    half = position_step(arm) / 2
-    return (here + moved).clip(reading - half, reading + half)
+    half = _half_step(arm)
+    return np.minimum(np.maximum(here + moved, reading - half), reading + half)
 
 
 def sliding(arm: ArmModel, rate: Array) -> Array:
     """Return the direction in which each joint slides, from -1 to 1, shape (n,). The magnitude is less than 1 if
-    the rate is below one tachometer step.
+    the rate is below one tachometer step. Rates of shape (N, n) give shape (N, n).
     """
-    return (rate / rate_step(arm)).clip(-1.0, 1.0)
+    return limited(rate / rate_step(arm), 1.0)

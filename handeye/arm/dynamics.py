@@ -42,8 +42,7 @@ def gravity(arm: ArmModel, q: Array) -> Array:
 
 def bias(arm: ArmModel, q: Array, qd: Array) -> Array:
     """Return the torques h(q, qd) + damping qd: gravity, Coriolis and viscous friction torques at joint rates `qd`."""
-    qd = np.asarray(qd, dtype=np.float64)
-    return np.asarray(_bias(arm, _links(arm, q), qd) + constants(arm).damping * qd)
+    return _bias(arm, _links(arm, q), np.asarray(qd, dtype=np.float64))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,14 +53,29 @@ class Dynamics:
     bias: Array  # torques that hold or keep moving, (..., n)
     J: Array  # Jacobian at T in world axes, (..., 6, n)
 
+    def at(self, index: int) -> "Dynamics":
+        """Return the dynamics at one of N configurations."""
+        return Dynamics(M=self.M[index], bias=self.bias[index], J=self.J[index])
+
 
 def at_rest(arm: ArmModel, q: Array) -> Dynamics:
     """Compute the mass matrix, gravity torques and Jacobian of an arm at rest, with the link frames computed only
     once. `q` has shape (..., n).
     """
+    return _dynamics(arm, q, None)
+
+
+def moving(arm: ArmModel, q: Array, qd: Array) -> Dynamics:
+    """Compute the mass matrix, the torques of `bias` and the Jacobian of an arm that moves at joint rates `qd`, with
+    the link frames computed only once. `q` and `qd` have shape (..., n).
+    """
+    return _dynamics(arm, q, qd)
+
+
+def _dynamics(arm: ArmModel, q: Array, qd: Array | None) -> Dynamics:
     links = _links(arm, q)
     J = tool_jacobian(arm, links.R, links.p)
-    return Dynamics(M=_mass_matrix(arm, links), bias=_bias(arm, links, None), J=J)
+    return Dynamics(M=_mass_matrix(arm, links), bias=_bias(arm, links, qd), J=J)
 
 
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
@@ -96,17 +110,21 @@ def _links(arm: ArmModel, q: Array) -> _Links:
 
 
 def _bias(arm: ArmModel, links: _Links, qd: Array | None) -> Array:
-    force = np.zeros_like(links.centre)
-    force[..., 2] = GRAVITY
-    turning = None
-    if qd is not None:
-        acceleration, spin = centripetal(arm, links.R, links.p, links.centre, np.arange(qd.shape[-1]), qd)
-        force = force + acceleration
-        omega = (links.angular * qd[..., None, :, None]).sum(axis=-2)
-        momentum = (links.inertia @ omega[..., None])[..., 0]
-        turning = (links.inertia @ spin[..., None])[..., 0] + cross(omega, momentum)
-    force = force * constants(arm).mass[:, None]
-    torque = (links.linear @ force[..., None])[..., 0].sum(axis=-2)
-    if turning is not None:
-        torque = torque + (links.angular @ turning[..., None])[..., 0].sum(axis=-2)
-    return np.asarray(torque)
+    k, acceleration = constants(arm), np.zeros_like(links.centre)
+    acceleration[..., 2] = GRAVITY
+    if qd is None:
+        return _work(links.linear, acceleration * k.mass[:, None])
+    own = np.arange(qd.shape[-1])
+    bend, spin = centripetal(arm, links.R, links.p, links.centre, links.linear, own, qd)
+    omega = (links.angular * qd[..., None, :, None]).sum(axis=-2)
+    momentum = (links.inertia @ omega[..., None])[..., 0]
+    turning = (links.inertia @ spin[..., None])[..., 0] + cross(omega, momentum)
+    forces = _work(links.linear, (acceleration + bend) * k.mass[:, None])
+    return np.asarray(forces + _work(links.angular, turning) + k.damping * qd)
+
+
+def _work(rates: Array, efforts: Array) -> Array:
+    """Return the joint torques that do the work of forces or moments on all links, shape (..., n, 3). `rates` are the
+    velocities of the links per joint rate.
+    """
+    return np.asarray((rates @ efforts[..., None])[..., 0].sum(axis=-2))

@@ -1,6 +1,7 @@
 """Compares the two sensors of each joint, tachometer and potentiometer, over a motion."""
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -135,11 +136,13 @@ class JointAgreement:
     _gain: Array = field(init=False)
     _slack: Array = field(init=False)
     _creep: Array = field(init=False)
+    _two_steps: Array = field(init=False)
 
     def __post_init__(self) -> None:
         slack = np.where(constants(self.arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP)
         self._slack = slack + READING_STEPS * position_step(self.arm)
         self._creep = rate_step(self.arm) / 4 * self.arm.servo.period
+        self._two_steps = 2 * rate_step(self.arm)
         self._clear()
 
     def _clear(self) -> None:
@@ -165,10 +168,10 @@ class JointAgreement:
         changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
         unknown. The unknown parts of different periods are independent, so their squares are added.
         """
-        period, step = self.arm.servo.period, rate_step(self.arm)
-        gone, gain = (self.rate + qd) / 2 * period, qd - self.rate
+        half = self.arm.servo.period / 2
+        gone, gain = (self.rate + qd) * half, qd - self.rate
         self._way, self._path = self._way + gone, self._path + np.abs(gone)
-        self._between = np.hypot(self._between, STRUCK * _unsteady(gain - self._gain, step) / 2 * period)
+        self._between = np.hypot(self._between, STRUCK * self._unsteady(gain) * half)
         self._moving = self._moving + (qd != 0) * self._creep
         self.rate, self._gain = qd, gain
         by_pot = q - self.start
@@ -181,14 +184,13 @@ class JointAgreement:
             joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(self._way[joint])
         )
 
-
-def _unsteady(change: Array, step: Array) -> Array:
-    """Return the part of a change of rate that exceeds two converter steps."""
-    return np.maximum(np.abs(change) - 2 * step, 0.0)
+    def _unsteady(self, gain: Array) -> Array:
+        """Return the part of a change of rate that differs by more than two converter steps from the last change."""
+        return np.maximum(np.abs(gain - self._gain) - self._two_steps, 0.0)
 
 
 def jumped(
-    arm: ArmModel, by_pot: Array, before: Array, after: Array, blow: Array | float = 0.0
+    arm: ArmModel, by_pot: Array, before: Array, after: Array, blow: Array | None = None
 ) -> Disagreement | None:
     """Find the joint whose potentiometer disagrees with its rates before and after a servo period. Returns None if
     all agree.
@@ -196,14 +198,19 @@ def jumped(
     A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on
     the hand may have caused within the period, see `blown`. All arrays have shape (n,).
     """
-    period = arm.servo.period
-    gone = (before + after) / 2 * period
-    struck = STRUCK * (np.abs(after - before) + blow) / 2 * period
-    excess = np.abs(by_pot - gone) / (JUMP_STEPS * position_step(arm) + struck)
+    half, change = arm.servo.period / 2, np.abs(after - before)
+    gone = (before + after) * half
+    struck = STRUCK * (change if blow is None else change + blow) * half
+    excess = np.abs(by_pot - gone) / (_jump(arm) + struck)
     joint = int(excess.argmax())
     if excess[joint] <= 1:
         return None
     return Disagreement(joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(gone[joint]))
+
+
+@lru_cache(maxsize=16)
+def _jump(arm: ArmModel) -> Array:
+    return JUMP_STEPS * position_step(arm)
 
 
 def blown(here: Dynamics, impulse: Array) -> Array:

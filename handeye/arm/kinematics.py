@@ -65,13 +65,14 @@ def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
 
 
 def centripetal(
-    arm: ArmModel, R: Array, p: Array, points: Array, links: NDArray[np.int_], qd: Array
+    arm: ArmModel, R: Array, p: Array, points: Array, linear: Array, links: NDArray[np.int_], qd: Array
 ) -> tuple[Array, Array]:
     """Compute the accelerations of points, shape (..., m, 3), and of their links at joint rates `qd` and zero joint
     accelerations.
 
-    Point k is fixed in link `links[k]`, counted from 0. Returns linear accelerations and angular accelerations,
-    each of shape (..., m, 3).
+    Point k is fixed in link `links[k]`, counted from 0; `linear`, shape (..., m, n, 3), are the velocities of the
+    points per joint rate, zero for joints that do not move the link. Returns linear accelerations and angular
+    accelerations, each of shape (..., m, 3).
     """
     k = constants(arm)
     prismatic = k.prismatic[:, None]
@@ -82,9 +83,8 @@ def centripetal(
     swing = cross(before, axes)  # rate of change of each joint axis
     carried = k.carried[links][:, :, None]  # joints that move link k
 
-    linear, _ = point_jacobian(arm, R, p, points)
     origins, _ = point_jacobian(arm, R, p, p[..., :-1, :])
-    v_point = ((linear * carried) * qd[..., None, :, None]).sum(axis=-2)
+    v_point = (linear * qd[..., None, :, None]).sum(axis=-2)
     v_origin = ((origins * np.tri(len(k.d), k=-1)[:, :, None]) * qd[..., None, :, None]).sum(axis=-2)
     lever = points[..., :, None, :] - p[..., None, :-1, :]
     rate = v_point[..., :, None, :] - v_origin[..., None, :, :]
@@ -124,5 +124,7 @@ def jacobian(arm: ArmModel, q: Array) -> Array:
 def drift(arm: ArmModel, q: Array, qd: Array) -> Array:
     """Return the acceleration of T at joint rates `qd` and zero joint accelerations (dJ/dt qd), shape (..., 6)."""
     R, p = chain(arm, q)
-    linear, angular = centripetal(arm, R, p, p[..., -1:, :], np.full(1, len(arm.joints) - 1), qd)
-    return np.concatenate([linear[..., 0, :], angular[..., 0, :]], axis=-1)
+    tool, last = p[..., -1:, :], np.full(1, len(arm.joints) - 1)
+    linear, _ = point_jacobian(arm, R, p, tool)
+    bend, spin = centripetal(arm, R, p, tool, linear, last, qd)
+    return np.concatenate([bend[..., 0, :], spin[..., 0, :]], axis=-1)

@@ -198,7 +198,7 @@ def _figures(value: object, left_out: tuple[type, ...]) -> object:
 class Constants:
     """The values of an arm model as arrays, computed once. The arrays must not be modified.
 
-    The fields from `prismatic` to `frequency` have shape (n,).
+    The fields from `prismatic` to `rate_gain` have shape (n,).
     """
 
     X_BW: Pose
@@ -217,6 +217,8 @@ class Constants:
     brake: Array
     lag: Array
     frequency: Array
+    position_gain: Array  # acceleration for each unit of position error, in 1/s2
+    rate_gain: Array  # acceleration for each unit of rate error, in 1/s
     mass: Array  # of each link, in kg, fingers included in the last
     centre: Array  # in the DH frame, (n, 3), in m
     inertia: Array  # about the mass centre, DH axes, (n, 3), in kg m2
@@ -243,12 +245,14 @@ def constants(arm: ArmModel) -> Constants:
     mass = np.array([joint.mass for joint in arm.joints])
     centre = np.array([joint.centre for joint in arm.joints])
     inertia = np.array([joint.inertia for joint in arm.joints])
+    frequency = np.array(arm.servo.frequency)
     _add_fingers(arm, mass, centre, inertia)
     return Constants(
         X_BW=inverse(arm.X_WB),
         prismatic=np.array([joint.kind == "prismatic" for joint in arm.joints]),
         cos_alpha=np.cos(alpha), sin_alpha=np.sin(alpha),
-        lag=np.array(arm.servo.lag), frequency=np.array(arm.servo.frequency),
+        lag=np.array(arm.servo.lag), frequency=frequency,
+        position_gain=frequency * frequency, rate_gain=2 * frequency,  # critically damped
         mass=mass, centre=centre, inertia=inertia, carried=np.tri(len(arm.joints)), **columns,
     )  # fmt: skip
 

@@ -17,6 +17,7 @@ from handeye.core.errors import BadArgument
 from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.core.record import Record
+from handeye.core.small_arrays import limited, span
 from handeye.ports.workcell import ArmPort, ArmReading
 
 _LATE: Final = 1e-6  # share of a period lost to rounding
@@ -122,6 +123,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self.watchdog = Watchdog(arm.servo.period)
         self.motors = np.array([model.actuator(name).id for name in names])
         """Ids of the motors, which are actuators of the MuJoCo model."""
+        self._joints, self._rates, self._drives = span(self.qpos), span(self.dofs), span(self.motors)
         self._limits = model.actuator_ctrlrange[self.motors, 1].copy()
         self._friction = model.dof_frictionloss[self.dofs].copy()
         self._brake, self._errors = constants(arm).brake, errors
@@ -166,9 +168,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         if not self._braked:
             wake(self._data, int(self.dofs[0]))
         line, holding = ("brake", self._brake) if self._braked else ("friction", self._friction)
-        self._model.dof_frictionloss[self.dofs] = self._lines.carried_each(line, holding)
-        limits = self._limits
-        self._data.ctrl[self.motors] = 0.0 if torque is None else self._driven(torque).clip(-limits, limits)
+        self._model.dof_frictionloss[self._rates] = self._lines.carried_each(line, holding)
+        driven = 0.0 if torque is None else limited(self._driven(torque), self._limits)
+        self._data.ctrl[self._drives] = driven
 
     def _driven(self, torque: Array) -> Array:
         """Return the torque that the drives produce for a commanded torque, shape (n,)."""
@@ -177,10 +179,10 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             return torque
         torque = self._lines.carried_each("drive", torque)
         force = np.array([self._lines.carried(f"force.{axis}", 0.0) for axis in "xyz"])
-        return np.asarray(torque + jacobian(self._arm, self._data.qpos[self.qpos])[:3].T @ force)
+        return np.asarray(torque + jacobian(self._arm, self._data.qpos[self._joints])[:3].T @ force)
 
     def after(self) -> None:
-        q, qd = self._sensors.read(self._data.qpos[self.qpos], self._data.qvel[self.dofs])
+        q, qd = self._sensors.read(self._data.qpos[self._joints], self._data.qvel[self._rates])
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:

@@ -16,6 +16,7 @@ import numpy as np
 from handeye.cell.looks import LATENT, SEEN
 from handeye.core.errors import BadArgument
 from handeye.core.pose import Array, Pose, inverse, pose
+from handeye.core.small_arrays import span
 
 STRAIGHTENING: Final = 1.33
 """Turn (rad) in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen."""
@@ -35,6 +36,7 @@ class Carriers:
         """Number of carriers."""
         holes = range(self.count)
         self._body = np.array([model.body(f"carrier{k}").id for k in holes])
+        self._bodies = span(self._body)
         bases = {int(model.body_parentid[body]) for body in self._body}
         if len(bases) != 1:
             raise BadArgument(f"all tapped holes of a scene must be in one body, not in {len(bases)}")
@@ -103,12 +105,18 @@ class Carriers:
         """Raise a screw in its thread by some turns, and leave it at rest."""
         self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
+    def leaning(self) -> list[int]:
+        """Return the holes whose carriers do not have the axis of the hole."""
+        places, turns = self._model.body_pos[self._bodies], self._model.body_quat[self._bodies, 1:]
+        off = places != self.mouths
+        if not (off.any() or turns.any()):
+            return []
+        return np.flatnonzero(off.any(axis=1) | turns.any(axis=1)).tolist()
+
     def straighten(self, hole: int, seconds: float) -> None:
         """Let the thread straighten a screw while the screw is turned in for `seconds`."""
         model, body, mouth = self._model, self._body[hole], self.mouths[hole]
         place, lean = model.body_pos[body], model.body_quat[body][1:].copy()
-        if place.tolist() == mouth.tolist() and not any(lean.tolist()):
-            return
         aside = place - mouth
         rate = -float(self._data.qvel[model.jnt_dofadr[self._turn[hole]]])
         left = exp(-max(rate, 0.0) * seconds / STRAIGHTENING)

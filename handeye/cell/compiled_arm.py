@@ -42,12 +42,16 @@ class CompiledArm(ArmArithmetic):
         return bias
 
     def at_rest(self, q: Array) -> Dynamics:
-        model, data, bias = self._model, self._data, self.gravity(q)
-        M, J = np.zeros((self._joints, self._joints)), np.empty((6, self._joints))
-        mujoco.mj_jac(model, data, J[:3], J[3:], self._position, self._tool)
-        mujoco.mj_crb(model, data)
-        mujoco.mj_fullM(model, data, M)
+        bias, J = self.statics(q)
+        M = np.zeros((self._joints, self._joints))
+        mujoco.mj_crb(self._model, self._data)
+        mujoco.mj_fullM(self._model, self._data, M)
         return Dynamics(M=M, bias=bias, J=J)
+
+    def statics(self, q: Array) -> tuple[Array, Array]:
+        bias, J = self.gravity(q), np.empty((6, self._joints))
+        mujoco.mj_jac(self._model, self._data, J[:3], J[3:], self._position, self._tool)
+        return bias, J
 
 
 def _model(arm: ArmModel) -> mujoco.MjModel:

@@ -75,8 +75,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
     @property
     def gap(self) -> float:
         """The true gap between the finger tips, in m."""
+        first, second = self._fingers
         qpos = self._data.qpos
-        return sum(float(qpos[finger]) for finger in self._fingers)
+        return float(qpos[first] + qpos[second])
 
     def read(self) -> HandReading:
         return self._reading
@@ -115,9 +116,10 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         error of the reading, and moved ahead by the lag of the servo.
         """
         model, motor, stiffness = self._model, self._motor, grip / self._hand.grasp.give
+        bias, force = model.actuator_biasprm[motor], model.actuator_forcerange[motor]
         model.actuator_gainprm[motor, 0] = stiffness
-        model.actuator_biasprm[motor, 1:3] = (-stiffness, -stiffness * _LAG)
-        model.actuator_forcerange[motor] = (-grip, grip)
+        bias[1], bias[2] = -stiffness, -stiffness * _LAG
+        force[0], force[1] = -grip, grip
         self._data.act[self._act] = start + rate * _LAG - (self._reading.gap - self.gap)
         self._data.ctrl[motor] = rate
 
@@ -162,7 +164,7 @@ class SimulatedLamp(Mechanism[LampState], LampPort):
     kind = LampState
     changes = ("mat_rgba", "mat_emission")
 
-    _LIT: Final = ((1.0, 0.96, 0.85, 1.0), 1.0)
+    _LIT: Final = (np.array((1.0, 0.96, 0.85, 1.0), dtype=np.float32), 1.0)
 
     def __init__(self, model: mujoco.MjModel, material: str, lines: SignalLines = SOUND) -> None:
         """Make a lamp that is switched off. Its line is `lamp`."""
@@ -170,7 +172,7 @@ class SimulatedLamp(Mechanism[LampState], LampPort):
         self._lines = lines
         self._model = model
         self._material = model.material(material).id
-        self._dark = (tuple(model.mat_rgba[self._material]), 0.0)
+        self._dark = (model.mat_rgba[self._material].copy(), 0.0)
         self._lit = False
 
     def switch(self, lit: bool) -> None:

@@ -36,7 +36,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.cell.contact_memo import ContactMemo
 from handeye.core.errors import PhysicsFailed
+from handeye.core.small_arrays import span
 
 LONGER: Final = 4
 """Number of short steps in a long step. Chosen so that a servo period is a whole number of long steps, and so that
@@ -47,7 +49,6 @@ MIDDLE: Final = 2
 RESTING: Final = 1e-2
 """Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint that friction holds creeps at less than 1e-4."""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
-_KEPT: Final = 1000  # sets of contacts that are remembered
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 
 
@@ -93,7 +94,7 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
     if any(warnings):
         name = mujoco.mjtWarning(next(kind for kind, count in enumerate(warnings) if count)).name
         raise PhysicsFailed(f"the simulated cell broke down ({name})")
-    if data.qvel @ data.qvel < fastest * fastest:  # a quick test: then no single rate is as fast
+    if data.qvel.dot(data.qvel) < fastest * fastest:  # a quick test: then no single rate is as fast
         return
     if not np.abs(data.qvel).max(initial=0.0) < fastest:  # also true for NaN
         raise PhysicsFailed(
@@ -101,7 +102,7 @@ def check_physics(data: mujoco.MjData, fastest: float = np.inf) -> None:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Contacts:
     """What touches, and which steps this allows."""
 
@@ -111,6 +112,10 @@ class _Contacts:
     """True if all pairs are allowed in long steps."""
     delicate: bool
     """True if a pair is not allowed in middle steps."""
+    held: tuple[tuple[int, int], ...]
+    """The free bodies that the hand carries if all pairs are allowed in long steps. Each comes with the place of its
+    pose in the positions of the simulator.
+    """
 
 
 class PhysicsStepper:
@@ -124,6 +129,7 @@ class PhysicsStepper:
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None) -> None:
         """`carrying` gives the contacts that are allowed in longer steps. By default no contacts are allowed."""
         self._model, self._data, self._short = model, data, float(model.opt.timestep)
+        self._option, self._contacts = model.opt, ContactMemo(data, self._judged)
         self._moves = (data.qpos, data.qvel, data.act, data.qacc_warmstart)
         self._kept = [values.copy() for values in self._moves]
         self._hand = 0 if carrying is None else model.body(carrying.hand).id
@@ -132,10 +138,9 @@ class PhysicsStepper:
         delicate = None if carrying is None else carrying.delicate
         self._delicate = ~self._marked(()) if delicate is None else self._marked(delicate)
         resting = () if carrying is None else carrying.resting
-        self._resting = np.array([model.joint(name).dofadr[0] for name in resting], dtype=np.intp)
+        self._resting = span(np.array([model.joint(name).dofadr[0] for name in resting], dtype=np.intp))
         roots = [(int(body), int(model.body_jntadr[body])) for body in model.tree_bodyadr]
         self._free = [(body, int(model.jnt_qposadr[joint])) for body, joint in roots]  # of each tree
-        self._known: dict[bytes, _Contacts] = {}
         self._bends = np.zeros((2, 3, model.nv))
         self._impedances = (model.geom_solimp, model.eq_solimp)
         self._soft = [impedance.copy() for impedance in self._impedances]
@@ -161,9 +166,9 @@ class PhysicsStepper:
 
     def step(self, steps: int) -> None:
         """Advance by `steps` short steps, or by longer steps that cover the same time."""
-        touching = self._touching()
+        touching = self._contacts.now()
         if touching.carried and not steps % LONGER:
-            done = self._smoothly(steps, touching.pairs)
+            done = self._smoothly(steps, touching)
         else:
             done = not (steps % MIDDLE or touching.delicate) and self._midway(steps, touching.of_hand)
         if not done:
@@ -173,32 +178,23 @@ class PhysicsStepper:
         """Make short steps. A subclass may watch them."""
         mujoco.mj_step(self._model, self._data, steps)
 
-    def _touching(self) -> _Contacts:
-        """Return the contacts that the simulator found last."""
-        geoms = self._data.contact.geom
-        key = geoms.tobytes()
-        known = self._known.get(key)  # the same contacts come back again and again
-        if known is None:
-            if len(self._known) >= _KEPT:
-                self._known.clear()
-            known = self._known[key] = self._judged(geoms)
-        return known
-
     def _judged(self, geoms: NDArray[np.int32]) -> _Contacts:
         bodies = np.sort(self._model.geom_bodyid[geoms], axis=1)
         first, second = self._model.body_treeid[bodies].T
+        pairs, carried = _pairs(bodies), bool(self._carried[first, second].all())
         return _Contacts(
-            _pairs(bodies),
-            _pairs(bodies[self._handled[first, second]]),
-            bool(self._carried[first, second].all()),
-            bool(self._delicate[first, second].any()),
+            pairs=pairs,
+            of_hand=_pairs(bodies[self._handled[first, second]]),
+            carried=carried,
+            delicate=bool(self._delicate[first, second].any()),
+            held=self._held(pairs) if carried else (),
         )
 
-    def _smoothly(self, steps: int, touching: BodyPairs) -> bool:
+    def _smoothly(self, steps: int, touching: _Contacts) -> bool:
         """Make long steps. If a contact begins or ends, undo them and return False."""
 
         def same() -> bool:
-            return self._touching().pairs == touching
+            return self._contacts.now().pairs == touching.pairs
 
         def arrived() -> bool:
             mujoco.mj_kinematics(self._model, self._data)
@@ -206,8 +202,8 @@ class PhysicsStepper:
             return same()
 
         done = self._longer(steps, LONGER, same, arrived)
-        if done and touching:
-            self._add_second_order(steps)
+        if done and touching.pairs:
+            self._add_second_order(steps, touching.held)
         return done
 
     def _midway(self, steps: int, of_hand: BodyPairs) -> bool:
@@ -216,13 +212,13 @@ class PhysicsStepper:
         """
 
         def allowed() -> bool:
-            touching = self._touching()
+            touching = self._contacts.now()
             return touching.of_hand == of_hand and not touching.delicate
 
         return self._at_rest() and self._longer(steps, MIDDLE, allowed, self._at_rest)
 
     def _at_rest(self) -> bool:
-        return not self._resting.size or float(np.abs(self._data.qvel[self._resting]).max()) < RESTING
+        return all(abs(rate) < RESTING for rate in self._data.qvel[self._resting].tolist())
 
     def _longer(
         self,
@@ -237,7 +233,7 @@ class PhysicsStepper:
         model, data, began = self._model, self._data, self._data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
             kept[:] = values
-        model.opt.timestep = self._short * times
+        self._option.timestep = self._short * times
         self._set_impedances(self._stiff[times])
         try:
             for _ in range(steps // times):
@@ -248,7 +244,7 @@ class PhysicsStepper:
             else:
                 done = at_the_end()
         finally:
-            model.opt.timestep = self._short
+            self._option.timestep = self._short
             self._set_impedances(self._soft)
         if not done:
             for kept, values in zip(self._kept, self._moves, strict=True):
@@ -260,16 +256,19 @@ class PhysicsStepper:
         for impedance, value in zip(self._impedances, values, strict=True):
             impedance[:] = value
 
-    def _held(self) -> set[int]:
-        """Return the trees of bodies that the hand carries, directly or by way of other carried bodies."""
-        pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in self._touching().pairs]
-        reached, before = {int(self._model.body_treeid[self._hand])}, 0
+    def _held(self, touching: BodyPairs) -> tuple[tuple[int, int], ...]:
+        """Return the bodies that the hand carries while these pairs of bodies touch, directly or by way of other
+        carried bodies; see `_Contacts`.
+        """
+        pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in touching]
+        hand = int(self._model.body_treeid[self._hand])
+        reached, before = {hand}, 0
         while len(reached) > before:
             before = len(reached)
             reached = reached.union(*(pair for pair in pairs if reached & pair))
-        return reached - {int(self._model.body_treeid[self._hand])}
+        return tuple(self._free[tree] for tree in sorted(reached - {hand}))
 
-    def _add_second_order(self, steps: int) -> None:
+    def _add_second_order(self, steps: int, held: tuple[tuple[int, int], ...]) -> None:
         """Add to the carried bodies the second-order term that Euler's method leaves out when the hand moves along
         an arc: half the velocity-dependent acceleration, times the square of the long step. The long steps cover
         the time of `steps` short steps.
@@ -278,8 +277,7 @@ class PhysicsStepper:
         mujoco.mj_comPos(model, data)
         mujoco.mj_comVel(model, data)
         late = LONGER * self._short * steps * self._short / 2.0  # s2: half a step, over all of them
-        for tree in sorted(self._held()):
-            body, start = self._free[tree]
+        for body, start in held:
             mujoco.mj_jacDot(model, data, self._bends[0], self._bends[1], data.xpos[body], self._hand)
             way, turn = late * (self._bends @ data.qvel)
             data.qpos[start : start + 3] += way

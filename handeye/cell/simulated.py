@@ -65,7 +65,8 @@ class SimulatedCell(Clock, SnapshotCell):
             clock=self, arm=arm, hand=hand, screwdriver=screwdriver, lamp=lamp, camera=camera
         )
         """The devices of the cell, as the working phase knows them."""
-        self._most = max(1, round(_HELD / model.opt.timestep))
+        self._step = float(model.opt.timestep)
+        self._most = max(1, round(_HELD / self._step))
         self._stepper = stepper or PhysicsStepper(model, data)
         mujoco.mj_forward(model, data)
         self._read()
@@ -100,7 +101,7 @@ class SimulatedCell(Clock, SnapshotCell):
         """Let time pass. Raises BadArgument unless `seconds` is a whole number of physics steps, and PhysicsFailed
         if the simulation fails.
         """
-        data, step = self._data, self._model.opt.timestep
+        data, step = self._data, self._step
         left = whole_steps(seconds, step)
         while left:
             steps = min(left, self._most)

@@ -65,6 +65,6 @@ def figures(values: Array) -> tuple[float, ...]:
 
 def finite(values: V, what: str) -> V:
     """Return the values. Raises InvalidInput if a value is not finite; `what` names the values in the message."""
-    if not all(map(math.isfinite, values)):
+    if not all(map(math.isfinite, values.tolist() if isinstance(values, np.ndarray) else values)):
         raise BadFile(f"{what} holds a value that is not a finite number")
     return values

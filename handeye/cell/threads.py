@@ -26,8 +26,10 @@ from typing import Annotated, Final, Protocol
 import msgspec
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.cell.carriers import Carriers
+from handeye.cell.contact_memo import ContactMemo
 from handeye.cell.mechanism import Mechanism, scene_for
 from handeye.cell.physics_stepper import wake
 from handeye.cell.signal_lines import SOUND, SignalLines
@@ -142,6 +144,7 @@ class Threads(Mechanism[ThreadsState]):
         self._drive, self._spindle = model.actuator("drive").id, model.actuator("spindle").id
         self._spin = int(model.joint("spindle").dofadr[0])
         self._magnet = model.actuator("magnet").id
+        self._seats = ContactMemo(data, self._of_heads)
         self._attract()
 
     @property
@@ -160,8 +163,11 @@ class Threads(Mechanism[ThreadsState]):
         self._attract()
         if speed != 0:
             wake(data, self._spin)
-        for hole, thread in enumerate(self.holes):
-            if thread.screw is not None and not thread.crossed:
+        turned = {
+            hole for hole, thread in enumerate(self.holes) if thread.screw is not None and not thread.crossed
+        }
+        if turned:
+            for hole in turned.intersection(self._carriers.leaning()):
                 self._carriers.straighten(hole, seconds)
         if speed > 0:
             self._engage(seconds)
@@ -304,14 +310,19 @@ class Threads(Mechanism[ThreadsState]):
 
     def _under_bit(self) -> int | None:
         """Return the hole whose screw has the bit in its slot, or None if there is none."""
-        filled = (k for k, thread in enumerate(self.holes) if thread.screw is not None)
-        return next(filter(self._on, filled), None)
+        places, filled = (
+            self._data.geom_xpos,
+            [k for k, thread in enumerate(self.holes) if thread.screw is not None],
+        )
+        if not filled:
+            return None
+        bit = places[self._bit].tolist()
+        near = (k for k in filled if dist(places[self._carriers.head[k]].tolist(), bit) <= NEAR)
+        return next(filter(self._on, near), None)
 
     def _on(self, hole: int) -> bool:
-        """Return True if the bit stands upright on the head of the screw in a hole, over the slot."""
+        """Return True if the bit, which is near, stands upright on the head of the screw in a hole, over the slot."""
         data, head = self._data, self._carriers.head[hole]
-        if dist(data.geom_xpos[head].tolist(), data.geom_xpos[self._bit].tolist()) > NEAR:
-            return False
         apart = data.geom_xpos[head] - data.geom_xpos[self._bit]
         aside = (apart @ data.geom_xmat[self._bit].reshape(3, 3))[:2]
         if np.hypot(*aside) > ON_HEAD:
@@ -345,11 +356,14 @@ class Threads(Mechanism[ThreadsState]):
 
     def head_force(self, hole: int) -> float:
         """Return the force (N) of the head of the screw in a hole on the part beneath."""
-        contact, head = self._data.contact, self._carriers.head[hole]
-        pairs = contact.geom
-        mine = (pairs == head).any(axis=1) & ~np.isin(pairs, self._driver_geoms).any(axis=1)
-        rows = contact.efc_address[mine & (contact.efc_address >= 0)]
-        return float(self._data.efc_force[rows].sum())  # elliptic cones: a contact's first row is its normal
+        rows = self._data.contact.efc_address[self._seats.now()[hole]]
+        forces = self._data.efc_force[rows[rows >= 0]]
+        return float(forces.sum())  # elliptic cones: a contact's first row is its normal
+
+    def _of_heads(self, geoms: NDArray[np.int32]) -> list[NDArray[np.intp]]:
+        """Return the contacts of each head, except those with the driver."""
+        others = ~np.isin(geoms, self._driver_geoms).any(axis=1)
+        return [np.flatnonzero((geoms == head).any(axis=1) & others) for head in self._carriers.head]
 
 
 def holes_of(truth: Truth) -> tuple[Thread, ...]:

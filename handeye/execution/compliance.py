@@ -11,6 +11,7 @@ import numpy as np
 
 from handeye.arm.model import ComplianceModel
 from handeye.core.pose import Array
+from handeye.core.small_arrays import limited
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,12 +45,12 @@ class Course:
         if self.force is None:
             return self.speed * min(1.0, (tick + 1) / self.compliance.ramp)
         felt, k = float(-wrench[:3] @ self.direction), self.compliance
-        return float(np.clip((self.force - felt) * k.gain, -k.speed, k.speed))
+        return min(max((self.force - felt) * k.gain, -k.speed), k.speed)
 
     def yielding(self, wrench: Array) -> Array:
         """Return the velocity (m/s) with which the hand yields to a wrench, shape (3,)."""
         k = self.compliance
-        return np.clip(_beyond(self.free * wrench[:3], self.friction[:3]) * k.gain, -k.speed, k.speed)
+        return limited(_beyond(self.free * wrench[:3], self.friction[:3]) * k.gain, k.speed)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
         """Return the rotation vector of the hand (rad, shape (3,)) at the end of a servo period (s) that began
@@ -61,7 +62,7 @@ class Course:
         if wanted:
             axis = self.moment / wanted
             missing += axis * (wanted + float((felt - missing) @ axis))
-        turn = turn + np.clip(missing * k.turn_gain, -k.turn_speed, k.turn_speed) * period
+        turn = turn + limited(missing * k.turn_gain, k.turn_speed) * period
         return turn * (k.turn_limit / max(float(np.linalg.norm(turn)), k.turn_limit))
 
 

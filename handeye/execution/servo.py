@@ -13,13 +13,14 @@ import numpy as np
 
 from handeye.arm.arithmetic import ArmArithmetic, Formulas
 from handeye.arm.computed_torque import felt_wrench, torque
-from handeye.arm.converters import followed
+from handeye.arm.converters import followed, sliding
 from handeye.arm.dynamics import Dynamics
 from handeye.arm.joint_agreement import Disagreement, blown, jumped
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
 from handeye.core.pose import Array, Pose
 from handeye.core.record import Record
+from handeye.core.small_arrays import limited
 from handeye.execution.state import DriveState
 from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
@@ -102,13 +103,19 @@ class Servo:
         """Return the mass matrix, bias torques and Jacobian at rest at the present set-point."""
         return self.chain.at_rest(self.state.q)
 
-    def _reading(self, direction: Array) -> Reading:
+    def _reading(self, sensed: Sensed, direction: Array) -> Reading:
         """Return the sensor readings for the guards."""
-        sensed = self.sensed
+        exerted = -self.state.wrench
         return Reading(
-            force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
+            force=exerted[:3], moment=exerted[3:], direction=direction,
             tool_torque=sensed.tool_torque, touch=sensed.touch,
         )  # fmt: skip
+
+    def _rubbing(self, rate: Array) -> Array:
+        """Return the known friction of joints that slide at a rate, shape (..., n). Friction of joints that hardly
+        slide is reduced; see `sliding`.
+        """
+        return np.asarray(self.state.friction * sliding(self.arm, rate))
 
     # -- one servo period ------------------------------------------------------------------------------
 
@@ -119,7 +126,7 @@ class Servo:
         *,
         estimate: bool,
         taring: bool = False,
-        sense: Array | float = 0.0,
+        friction: Array | float = 0.0,
         dither: Array | float = 0.0,
         guards: tuple[ActiveGuard, ...] = (),
     ) -> Motion[Array]:
@@ -127,7 +134,7 @@ class Servo:
         qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
         spare = yield from self._servo(
             here, self.state.q, qd, rest,
-            estimate=estimate, taring=taring, sense=sense, dither=dither, guards=guards,
+            estimate=estimate, taring=taring, friction=friction, dither=dither, guards=guards,
         )  # fmt: skip
         self.state.q = q
         return spare
@@ -142,30 +149,28 @@ class Servo:
         estimate: bool,
         guards: tuple[ActiveGuard, ...],
         taring: bool = False,
-        sense: Array | float = 0.0,
+        friction: Array | float = 0.0,
         dither: Array | float = 0.0,
     ) -> Motion[Array]:
         """Run one servo period. At its beginning, the arm should be at `q` and move with rates `qd`.
 
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
-        `taring` is True, for the tare. `sense` is the direction in which each joint slides, from -1 to 1; friction
-        against this direction is compensated, so that friction is not sensed as force. `dither` are torques in
-        addition to those of the servo. Returns the torque residual, shape (n,), beyond weight, inertia and load; it
-        includes friction.
+        `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
+        friction is not sensed as force. `dither` are torques in addition to those of the servo. Returns the torque
+        residual, shape (n,), beyond weight, inertia and load; it includes friction.
         """
         q_was, before = self.state.here, self.sensed
         load = here.J[2] * self.state.load
-        friction = self.state.friction * sense
         bias = here.bias + friction
         tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, before.qd, exerted=load + dither)
-        effort = constants(self.arm).effort
-        tau = tau.clip(-effort, effort)  # else torque that the drives cannot give would be sensed as force
+        # else torque that the drives cannot give would be sensed as force
+        tau = limited(tau, constants(self.arm).effort)
 
         def feel(after: Sensed) -> None:
             # gravity and Jacobian where the arm is, not at its set-point: under a force it gives way
-            there = self.chain.at_rest((q_was + self.state.here) / 2)
-            bias_so = here.bias + there.bias - self.chain.gravity(q) + friction
-            felt = felt_wrench(here.M, bias_so, there.J, tau, before.qd, after.qd, self.period)
+            weight, J = self.chain.statics((q_was + self.state.here) / 2)
+            bias_so = here.bias + weight - self.chain.gravity(q) + friction
+            felt = felt_wrench(here.M, bias_so, J, tau, before.qd, after.qd, self.period)
             self.state.wrench = felt - self.state.tare
 
         after = yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
@@ -196,7 +201,7 @@ class Servo:
         self.put_out(tau)
         yield periods * self.period
         sensed = self.sensed
-        moved = (before.qd + sensed.qd) / 2 * self.period
+        moved = (before.qd + sensed.qd) * (self.period / 2)
         if periods == 1 and self.state.jump is None:
             self.state.jump = self._jumped(tau, before, sensed)
         self.state.here = followed(self.arm, self.state.here, moved, sensed.q)

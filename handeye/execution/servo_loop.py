@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from handeye.arm.computed_torque import prepare
-from handeye.arm.converters import sliding
 from handeye.arm.dynamics import Dynamics
 from handeye.arm.exertion import Exertion
 from handeye.arm.ik import solve
@@ -25,6 +24,7 @@ from handeye.core import errors
 from handeye.core.pose import Array, Pose, displaced, translated
 from handeye.execution.compliance import Course
 from handeye.execution.servo import Motion, Servo
+from handeye.ports.workcell import Sensed
 from handeye.program.diagnosis.cause_record import JointName
 from handeye.program.diagnosis.causes import Cause, HandAstray, HandStuck, JointBehind
 from handeye.program.diagnosis.sense_causes import (
@@ -56,6 +56,7 @@ that is stopped is off only on one side. Chosen.
 """
 PRESS_TIME = 10.0
 """Time (s) after which a pressing motion ends if it neither advances nor trips its guard. Chosen."""
+_SIDES = np.array([[1.0], [-1.0]])  # signs of deviations to either side of a set-point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,32 +136,28 @@ class ServoLoop(Servo):
                 return zeroed
         motion = prepare(self.built, self.state.q, samples)
         count, n = motion.q.shape
-        felt = guard is not None or self.state.load
-        J = jacobian(self.arm, motion.q) if felt else np.zeros((count, 6, n))  # without effect
         directions = np.broadcast_to(np.zeros(3) if direction is None else direction, (count, 3))
-        sensors, off = self._sensors(), np.zeros(len(self.state.q))
-        met, swing = np.zeros(n), np.zeros((2, n))
-        for i in range(len(motion)):
-            here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), directions[i]
-            q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
-            guards = _active(guard, along)
-            sense = sliding(self.arm, qd)
+        friction, sensors = self._rubbing(motion.qd), self._sensors()
+        off, met, swing = np.zeros(n), np.zeros(n), np.zeros((2, n))
+        for i in range(count):
+            here, q, along = motion.dynamics.at(i), motion.q[i], directions[i]
             beside(i)
             spare = yield from self._servo(
-                here, q, qd, qdd, estimate=guard is not None, sense=sense, guards=guards
-            )
+                here, q, motion.qd[i], motion.qdd[i],
+                estimate=guard is not None, friction=friction[i], guards=_active(guard, along),
+            )  # fmt: skip
             met = met + _FRESH * (spare - met)
             if self.state.cut:
                 return CUT
-            self.state.q = samples.q[i]
+            self.state.q, sensed = samples.q[i], self.sensed
             if taken is not None:
-                taken.append(Exertion(q, spare, here.bias, self.sensed.qd))
-            failed = self._doubted(sensors) or self._behind(met, swing)
+                taken.append(Exertion(q, spare, here.bias, sensed.qd))
+            failed = self._doubted(sensors, sensed) or self._behind(met, swing)
             if failed is not None:
                 return failed
-            if len(motion) <= 3 * i < 2 * len(motion):
-                off += 3 * (self.state.here - self.state.q) / len(motion)
-            trip = guard.check(self._reading(along)) if guard is not None else None
+            if count <= 3 * i < 2 * count:
+                off += 3 * (self.state.here - self.state.q) / count
+            trip = guard.check(self._reading(sensed, along)) if guard is not None else None
             if trip is not None:
                 self._freeze(along)
                 return Outcome(trip=trip)
@@ -207,7 +204,7 @@ class ServoLoop(Servo):
         if zeroed.error is not None:
             return zeroed
         X_start, sensors = self.chain.forward(self.state.q), self._sensors()
-        sense, met = self._sense(X_start, course), np.zeros(len(self.state.q))
+        friction, met = self._on_course(X_start, course), np.zeros(len(self.state.q))
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(round(PRESS_TIME / self.period), self.period)):
             if gone >= course.distance:
@@ -224,15 +221,16 @@ class ServoLoop(Servo):
                 return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
             guards = _active(guard, course.direction)
             spare = yield from self._approach(
-                self.dynamics(), step.q, estimate=True, sense=sense, guards=guards
+                self.dynamics(), step.q, estimate=True, friction=friction, guards=guards
             )
             met = met + _FRESH * (spare - met)
             if self.state.cut:
                 return CUT
-            doubted = self._doubted(sensors)
+            sensed = self.sensed
+            doubted = self._doubted(sensors, sensed)
             if doubted is not None:
                 return doubted
-            trip = guard.check(self._reading(course.direction)) if guard is not None else None
+            trip = guard.check(self._reading(sensed, course.direction)) if guard is not None else None
             if trip is not None:
                 self._freeze(course.direction)
                 return Outcome(trip=trip)
@@ -240,13 +238,11 @@ class ServoLoop(Servo):
             return REACHED
         return Outcome(error=errors.SERVO_LAG, cause=HandStuck(moved=round(gone, 6)))
 
-    def _sense(self, X_WT: Pose, course: Course) -> Array:
-        """Return the direction in which each joint slides on a course that begins at a pose, shape (n,); see
-        `sliding`.
-        """
+    def _on_course(self, X_WT: Pose, course: Course) -> Array:
+        """Return the known friction of the joints on a course that begins at a pose, shape (n,)."""
         ahead = solve(self.arm, translated(X_WT, course.speed * self.period * course.direction), self.state.q)
         goal = self.state.q if ahead.q is None else ahead.q
-        return sliding(self.arm, (goal - self.state.q) / self.period)
+        return self._rubbing((goal - self.state.q) / self.period)
 
     def shifting(self, here: Dynamics, X_WT: Pose, *, feeling: bool = False) -> Motion[Outcome]:
         """Move for one servo period towards a nearby pose. If `feeling` is True, the force on the hand is estimated
@@ -256,8 +252,8 @@ class ServoLoop(Servo):
         step = solve(self.arm, X_WT, self.state.q)
         if step.q is None:
             return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
-        sense = sliding(self.arm, (step.q - self.state.q) / self.period)
-        yield from self._approach(here, step.q, estimate=feeling, sense=sense)
+        friction = self._rubbing((step.q - self.state.q) / self.period)
+        yield from self._approach(here, step.q, estimate=feeling, friction=friction)
         return CUT if self.state.cut else REACHED
 
     def holding(self, ticks: int) -> Motion[Array]:
@@ -364,18 +360,18 @@ class ServoLoop(Servo):
         """Start a comparison of the sensors of all joints."""
         return JointAgreement(arm=self.arm, start=self.sensed.q, rate=self.sensed.qd)
 
-    def _doubted(self, sensors: JointAgreement) -> Outcome | None:
-        """Compare the sensors of the joints. If they disagree, return the error, and make the measured position of
-        the arm the set-point.
+    def _doubted(self, sensors: JointAgreement, sensed: Sensed) -> Outcome | None:
+        """Compare the sensors of the joints at the end of a servo period. If they disagree, return the error, and make
+        the measured position of the arm the set-point.
         """
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
         leapt, self.state.jump = self.state.jump, None
         if self.state.tool:
-            sensors.begin_anew(self.sensed.q, self.sensed.qd)
+            sensors.begin_anew(sensed.q, sensed.qd)
             found = leapt or rested
         else:
-            found = leapt or rested or sensors.step(self.sensed.q, self.sensed.qd)
+            found = leapt or rested or sensors.step(sensed.q, sensed.qd)
         if found is None:
             return None
         self.state.q = self.state.here.copy()
@@ -409,8 +405,7 @@ class ServoLoop(Servo):
         `swing`, shape (2, n), records the largest ratio of each joint to either side.
         """
         off = (self.state.here - self.state.q) / constants(self.arm).lag
-        for side, by in zip(swing, (off, -off), strict=True):
-            np.maximum(side, by, out=side)
+        np.maximum(swing, off * _SIDES, out=swing)
         joint = int(np.abs(off).argmax())
         return joint, abs(float(off[joint]))
 

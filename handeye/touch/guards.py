@@ -56,7 +56,7 @@ class Monitor(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(slots=True, kw_only=True, eq=False)
 class VectorMonitor:
     """Trips when the force (N) that the hand exerts along `vector`, or the moment (N m) about it, exceeds the
     length of `vector`, shape (3,), in world axes.
@@ -64,16 +64,20 @@ class VectorMonitor:
 
     guard: GuardKind
     vector: Array
+    _limit: float = field(init=False)
+    _active: tuple[ActiveGuard, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._limit = float(np.linalg.norm(self.vector))
+        self._active = (ActiveGuard(guard=self.guard, limit=self._limit, axis=self.vector / self._limit),)
 
     def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
-        limit = float(np.linalg.norm(self.vector))
-        return (ActiveGuard(guard=self.guard, limit=limit, axis=self.vector / limit),)
+        return self._active
 
     def check(self, reading: Reading) -> Trip | None:
         felt = reading.force if self.guard is GuardKind.FORCE else reading.moment
-        limit = float(np.linalg.norm(self.vector))
-        value = float(felt @ self.vector) / limit
-        return Trip(guard=self.guard, value=value, limit=limit) if value > limit else None
+        value = float(felt @ self.vector) / self._limit
+        return Trip(guard=self.guard, value=value, limit=self._limit) if value > self._limit else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

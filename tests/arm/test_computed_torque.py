@@ -47,7 +47,16 @@ def second() -> Motion:
 
 def at(motion: Motion, i: int, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
     """Torques of a period of a motion."""
-    return torque(STANFORD, motion.M[i], motion.bias[i], motion.q[i], motion.qd[i], motion.qdd[i], q, qd)
+    return torque(
+        STANFORD,
+        motion.dynamics.M[i],
+        motion.dynamics.bias[i],
+        motion.q[i],
+        motion.qd[i],
+        motion.qdd[i],
+        q,
+        qd,
+    )
 
 
 def test_a_second_of_motion_is_prepared_as_sixty_periods_that_begin_where_the_arm_stands() -> None:
@@ -105,7 +114,7 @@ def test_the_hand_feels_the_force_on_it_and_no_other() -> None:
         before, tau = arm.state, at(motion, i, *arm.state)
         arm.tick(tau, wrench=on)
         acceleration = (arm.data.qvel - before[1]) / PERIOD
-        unexplained = motion.M[i] @ acceleration + motion.bias[i] - tau
+        unexplained = motion.dynamics.M[i] @ acceleration + motion.dynamics.bias[i] - tau
         felt = external_wrench(jacobian(STANFORD, motion.q[i]), unexplained)
         np.testing.assert_allclose(felt[:3], on[:3], atol=0.2)
 

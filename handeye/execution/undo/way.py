@@ -4,6 +4,7 @@ On disk, the path is stored in whole millionths of a radian or metre, because th
 numbers compress to less than a byte each.
 """
 
+import math
 import zlib
 from dataclasses import dataclass, field
 from typing import Final
@@ -46,7 +47,8 @@ class Track:
 
     def felt(self, wrench: Array) -> None:
         """Record the wrench on the hand, shape (6,)."""
-        self.force = max(self.force, float(np.linalg.norm(wrench[:3])))
+        force = wrench[:3]
+        self.force = max(self.force, math.sqrt(force.dot(force)))
 
     def way(self, q: Array, gap: float) -> RecordedPath | None:
         """Return the recorded path, ending at the given set-points, or None if neither the arm nor the fingers

@@ -20,6 +20,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.cell.contact_memo import ContactMemo
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.physics_stepper import allow
 from handeye.cell.threads import Threads
@@ -61,10 +62,10 @@ class Clamping(Mechanism[ClampingState]):
         self._friction = float(model.geom_friction[self._lands, 0].max())
         root = model.body_rootid[model.geom_bodyid]
         self._of_layer = [root == layer for layer in self._layers]
-        self._layered = self._of_layer[0] | self._of_layer[1]
         shanks = [model.geom(f"shank{k}").id for k in range(len(threads.holes))]
         self._foreign = ~np.isin(root, [self._base, *self._layers])
         self._foreign[shanks] = True
+        self._pressing = ContactMemo(data, self._of_outsiders)
         self._bits = model.geom_contype[self._lands].copy(), model.geom_conaffinity[self._lands].copy()
         self._clamped = False
         if allowed:
@@ -101,27 +102,36 @@ class Clamping(Mechanism[ClampingState]):
     def _slips(self, clamp: float) -> bool:
         """Return True if a force on a layer exceeds the friction under a clamping force `clamp` (N), or lifts
         the layer."""
-        first, second = self._data.contact.geom.T
-        if not (
-            (self._layered[first] & self._foreign[second]) | (self._layered[second] & self._foreign[first])
-        ).any():
-            return False
-        for layer in self._of_layer:
-            x, y, z = self._pushed(layer)
+        for contacts in self._pressing.now():
+            x, y, z = self._pushed(contacts)
             if np.hypot(x, y) > self._friction * clamp or z > clamp:
                 return True
         return False
 
-    def _pushed(self, layer: NDArray[np.bool_]) -> Array:
-        """Return the total force in W (N, shape (3,)) on a layer from all bodies outside the stack that touch
-        it."""
+    def _of_outsiders(self, geoms: NDArray[np.int32]) -> list[list[tuple[int, float]]]:
+        """Return, for each layer that bodies outside the stack touch, these contacts. The force on the layer is that
+        of the contact, times the sign.
+        """
+        first, second = geoms.T
+        touched = [
+            [
+                (int(contact), sign)
+                for into, other, sign in (
+                    (second, first, 1.0),
+                    (first, second, -1.0),
+                )  # the force is on the second
+                for contact in np.flatnonzero(layer[into] & self._foreign[other])
+            ]
+            for layer in self._of_layer
+        ]
+        return [contacts for contacts in touched if contacts]
+
+    def _pushed(self, contacts: list[tuple[int, float]]) -> Array:
+        """Return the total force in W (N, shape (3,)) on a layer from these contacts."""
         model, data, total, found = self._model, self._data, np.zeros(3), np.zeros(6)
-        first, second = data.contact.geom.T
-        for into, sign in ((second, 1.0), (first, -1.0)):  # a contact's force is that on its second geom
-            other = first if into is second else second
-            for contact in np.flatnonzero(layer[into] & self._foreign[other]):
-                mujoco.mj_contactForce(model, data, int(contact), found)
-                total += sign * found[:3] @ data.contact.frame[contact].reshape(3, 3)
+        for contact, sign in contacts:
+            mujoco.mj_contactForce(model, data, contact, found)
+            total += sign * found[:3] @ data.contact.frame[contact].reshape(3, 3)
         return total
 
     def _join(self) -> None:

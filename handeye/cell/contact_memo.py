@@ -1,0 +1,32 @@
+"""Remembers what follows from the contacts of a scene, because the same contacts come back again and again."""
+
+from collections.abc import Callable
+from typing import Final, Generic, TypeVar
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+T = TypeVar("T")
+_KEPT: Final = 1000  # sets of contacts that are remembered
+
+
+class ContactMemo(Generic[T]):
+    """What a function finds about the contacts of a scene. The function is called once for each set of contacts."""
+
+    def __init__(self, data: mujoco.MjData, judge: Callable[[NDArray[np.int32]], T]) -> None:
+        """`judge` is given the numbers of the geoms that touch, shape (n, 2). Its result must depend on nothing else
+        that changes.
+        """
+        self._contact, self._judge = data.contact, judge
+        self._known: dict[bytes, T] = {}
+
+    def now(self) -> T:
+        """Return what follows from the contacts that the simulator found last."""
+        geoms = self._contact.geom
+        key = geoms.tobytes()
+        if key not in self._known:
+            if len(self._known) >= _KEPT:
+                self._known.clear()
+            self._known[key] = self._judge(geoms)
+        return self._known[key]
