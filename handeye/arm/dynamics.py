@@ -6,6 +6,7 @@ motion.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -45,8 +46,7 @@ def bias(arm: ArmModel, q: Array, qd: Array) -> Array:
     return _bias(arm, _links(arm, q), np.asarray(qd, dtype=np.float64))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Dynamics:
+class Dynamics(NamedTuple):
     """Mass matrix, gravity torques and Jacobian of an arm at given joint positions."""
 
     M: Array  # mass matrix, (..., n, n)

@@ -59,7 +59,8 @@ class JointSensors:
     def read(self, q: Array, qd: Array) -> tuple[Array, Array]:
         """Return the sensor readings for true positions and rates, shape (n,), in rad or m, and rad/s or m/s."""
         n, lines = self._joints, self._lines
-        told = np.concatenate((self._errors.readings(q), qd))
+        told = np.empty(2 * n)
+        told[:n], told[n:] = self._errors.readings(q), qd
         told += self._sigma * self._noise.standard_normal(2 * n)
         if lines.defects:
             told[:n] = lines.carried_each("potentiometer", told[:n])
@@ -145,12 +146,12 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
 
     def drive(self, torque: Array | None) -> None:
         if torque is not None:
-            joints = len(self.dofs)
-            if np.shape(torque) != (joints,):
+            torque, joints = np.array(torque, dtype=float), len(self.dofs)  # a copy of its own
+            if torque.shape != (joints,):
                 raise BadArgument(
-                    f"torques of shape {np.shape(torque)} were sent to an arm of {counted(joints, 'joint')}"
+                    f"torques of shape {torque.shape} were sent to an arm of {counted(joints, 'joint')}"
                 )
-            torque = finite(np.array(torque, dtype=float), "the torque")  # a copy of its own
+            finite(torque, "the torque")
             if not self._lines.carried("servo", 1.0):
                 return
         self._torque = torque

@@ -189,7 +189,7 @@ class Bench(Clock, Mechanism[BenchTime]):
                 act()
             if self._ending or self._before_event() <= 0:
                 break
-        check_physics(self.data, fastest=FASTEST)
+        check_physics(self.data.warning.number, self.data.qvel, fastest=FASTEST)
 
     # -- state ----------------------------------------------------------------------------------------
 

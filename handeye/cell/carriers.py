@@ -109,7 +109,7 @@ class Carriers:
         """Return the holes whose carriers do not have the axis of the hole."""
         places, turns = self._model.body_pos[self._bodies], self._model.body_quat[self._bodies, 1:]
         off = places != self.mouths
-        if not (off.any() or turns.any()):
+        if not (np.count_nonzero(off) or np.count_nonzero(turns)):
             return []
         return np.flatnonzero(off.any(axis=1) | turns.any(axis=1)).tolist()
 

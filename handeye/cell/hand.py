@@ -83,9 +83,10 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         return self._reading
 
     def drive(self, gap: float, grip: float) -> None:
+        if self._command == (gap, grip):
+            return
         finite([gap, grip], "the gap or the grip")
-        if self._command != (gap, grip):
-            wake(self._data, self._dof)
+        wake(self._data, self._dof)
         self._command = gap, grip
 
     def before(self, seconds: float) -> None:
@@ -239,8 +240,9 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         return self._torque
 
     def drive(self, speed: float) -> None:
-        finite([speed], "the speed of the screwdriver")
-        self._command = speed
+        if speed != self._command:
+            finite([speed], "the speed of the screwdriver")
+            self._command = speed
 
     def attract(self, on: bool) -> None:
         self.magnet = on
@@ -250,7 +252,8 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
             self._command = 0.0
 
     def after(self) -> None:
-        true = -float(sum(self._data.actuator_force[motor] for motor in self._motors))
+        forces = self._data.actuator_force
+        true = -float(sum([forces[motor] for motor in self._motors]))
         told = float(true + self._torque_noise * self._noise.standard_normal())
         self._torque = self._lines.carried("screwdriver.current", told)
 

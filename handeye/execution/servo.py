@@ -190,7 +190,7 @@ class Servo:
 
         Returns the readings at the end.
         """
-        halted = self.halt()
+        halted, period = self.halt(), self.period
         if halted:
             tau, self.state.tool = None, 0.0
         before = self.sensed
@@ -199,9 +199,9 @@ class Servo:
         if tau is not None:
             self.track.note(self.state.q, self.state.gap)
         self.put_out(tau)
-        yield periods * self.period
+        yield periods * period
         sensed = self.sensed
-        moved = (before.qd + sensed.qd) * (self.period / 2)
+        moved = (before.qd + sensed.qd) * (period / 2)
         if periods == 1 and self.state.jump is None:
             self.state.jump = self._jumped(tau, before, sensed)
         self.state.here = followed(self.arm, self.state.here, moved, sensed.q)
@@ -210,8 +210,8 @@ class Servo:
             self.state.current = max(self.state.current, abs(sensed.tool_torque))
             if len(self.state.starting) < FAST_PERIODS:
                 self.state.starting = [*self.state.starting, abs(sensed.tool_torque)]
-            self.state.lately = [*self.state.lately, abs(sensed.tool_torque)][-round(PLATEAU / self.period) :]
-        reach = self.arm.hand.gap_speed * periods * self.period
+            self.state.lately = [*self.state.lately, abs(sensed.tool_torque)][-round(PLATEAU / period) :]
+        reach = self.arm.hand.gap_speed * periods * period
         if self.state.leapt is None and leapt(sensed.gap - before.gap, reach):
             self.state.leapt = GapJumped(
                 gap=round(sensed.gap, 6),

@@ -6,7 +6,8 @@ import pytest
 from arm_in_mujoco import build, postures
 from robots import ROBOTS
 
-from handeye.arm.dynamics import GRAVITY, bias, gravity, mass_matrix
+from handeye.arm.dynamics import GRAVITY, bias, gravity, mass_matrix, moving
+from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.units import INCH
@@ -127,3 +128,13 @@ def test_digest_tells_nothing_of_figures_that_no_plan_rests_on() -> None:
     yielding = replace(STANFORD.compliance, gain=0.1)
     gentle = replace(STANFORD.hand, grasp=replace(STANFORD.hand.grasp, settle=1))
     assert digest(STANFORD) == digest(replace(STANFORD, compliance=yielding, hand=gentle))
+
+
+@ARMS
+def test_a_moving_arm_has_the_bytes_that_its_parts_have_alone(arm: ArmModel) -> None:
+    q = postures(arm, 5)
+    qd = np.random.default_rng(4).normal(size=q.shape)
+    found = moving(arm, q, qd)
+    assert found.M.tobytes() == mass_matrix(arm, q).tobytes()
+    assert found.bias.tobytes() == bias(arm, q, qd).tobytes()
+    assert found.at(3).J.tobytes() == jacobian(arm, q)[3].tobytes()

@@ -31,8 +31,10 @@ def arm(request: pytest.FixtureRequest) -> ArmModel:
         lambda it, q: it.at_rest(q).M,
         lambda it, q: it.at_rest(q).bias,
         lambda it, q: it.at_rest(q).J,
+        lambda it, q: it.statics(q)[0],
+        lambda it, q: it.statics(q)[1],
     ],
-    ids=["forward", "gravity", "inertia", "bias", "jacobian"],
+    ids=["forward", "gravity", "inertia", "bias", "jacobian", "weight alone", "jacobian alone"],
 )
 def test_it_agrees_with_the_formulas_wherever_the_arm_stands(
     arm: ArmModel, found: Callable[..., np.ndarray]

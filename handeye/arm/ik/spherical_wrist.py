@@ -51,10 +51,11 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
     found = []
     for side in (1.0, -1.0):
         q123 = _shoulder(np, arm, w, side)
-        a, b = _roll_direction(np, q123, rows)
+        finger, approach = _from_boom(np, q123, rows)
+        a, b, _ = approach
         for flip in (1.0, -1.0):
             q4 = np.where(np.hypot(a, b) < _COLLINEAR, left, np.atan2(flip * b, flip * a))
-            found.append(np.stack([*q123, q4, *_bend_and_roll(np, q123, q4, rows)], axis=-1))
+            found.append(np.stack([*q123, q4, *_bend_and_roll(np, q4, finger, approach)], axis=-1))
     q = np.stack(found, axis=-2)
     turned = np.where(constants(arm).prismatic, q, np.pi - np.mod(np.pi - q, 2 * np.pi))
     exists = np.hypot(w[0], w[1]) >= arm.joints[1].d - WRITTEN[0]
@@ -99,11 +100,12 @@ def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> lis
     found = []
     for side in (1.0, -1.0):
         q123 = _shoulder(math, arm, w, side)
-        a, b = _roll_direction(math, q123, rows)
+        finger, approach = _from_boom(math, q123, rows)
+        a, b, _ = approach
         in_line = math.hypot(a, b) < _COLLINEAR
         for flip in (1.0,) if in_line else (1.0, -1.0):
             q4 = near[3] if in_line else math.atan2(flip * b, flip * a)
-            q5, q6 = _bend_and_roll(math, q123, q4, rows)
+            q5, q6 = _bend_and_roll(math, q4, finger, approach)
             ways = shared(arm.joints[3], arm.joints[5], math.cos(q5), q4, q6) if in_line else ()
             for one, other in ways or ((q4, q6),):
                 q = (*q123, one, q5, other)
@@ -131,20 +133,20 @@ def _shoulder(m: ModuleType, arm: ArmModel, w: Any, side: float) -> Any:
     return m.atan2(y, x) - m.atan2(d2, u), m.atan2(u, z), m.sqrt(u * u + z * z)
 
 
-def _roll_direction(m: ModuleType, q123: Any, rows: Any) -> Any:
-    """Return the components of the approach direction perpendicular to the boom, which determine joint 4."""
-    (_, _, ax, _), (_, _, ay, _), (_, _, az, _) = rows
+def _from_boom(m: ModuleType, q123: Any, rows: Any) -> Any:
+    """Return the finger line and the approach direction in the frame of the boom, whose z axis is along the boom."""
     c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
-    return c2 * (c1 * ax + s1 * ay) - s2 * az, -s1 * ax + c1 * ay
-
-
-def _bend_and_roll(m: ModuleType, q123: Any, q4: Any, rows: Any) -> Any:
-    """Return q5 and q6 for a given q4."""
     (_, ox, ax, _), (_, oy, ay, _), (_, oz, az, _) = rows
-    c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
+    return tuple(
+        (c2 * (c1 * x + s1 * y) - s2 * z, -s1 * x + c1 * y, s2 * (c1 * x + s1 * y) + c2 * z)
+        for x, y, z in ((ox, oy, oz), (ax, ay, az))
+    )
+
+
+def _bend_and_roll(m: ModuleType, q4: Any, finger: Any, approach: Any) -> Any:
+    """Return q5 and q6 for a given q4, from the directions of `_from_boom`."""
+    (o1, o2, o3), (a1, a2, a3) = finger, approach
     c4, s4 = m.cos(q4), m.sin(q4)
-    a1, a2, a3 = c2 * (c1 * ax + s1 * ay) - s2 * az, -s1 * ax + c1 * ay, s2 * (c1 * ax + s1 * ay) + c2 * az
-    o1, o2, o3 = c2 * (c1 * ox + s1 * oy) - s2 * oz, -s1 * ox + c1 * oy, s2 * (c1 * ox + s1 * oy) + c2 * oz
     q5 = m.atan2(c4 * a1 + s4 * a2, a3)
     s6 = -m.cos(q5) * (c4 * o1 + s4 * o2) + m.sin(q5) * o3
     return q5, m.atan2(s6, c4 * o2 - s4 * o1)

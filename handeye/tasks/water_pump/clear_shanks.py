@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.physics_stepper import Carrying, PhysicsStepper
+from handeye.core.small_arrays import span
 from handeye.tasks.water_pump.clamping import LAYERS, Clamping
 
 MARGIN: Final = 1e-4
@@ -28,6 +29,7 @@ class ClampedStepper(PhysicsStepper):
         super().__init__(model, data, carrying)
         self._clamping, self._base = clamping, model.body("base").id
         self._shanks = np.array([model.geom(f"shank{k}").id for k in range(screws)])
+        self._shank_span = span(self._shanks)
         holes = [[model.site(f"{layer}_hole{k}").id for k in range(screws)] for layer in LAYERS]
         self._mouths = np.array(holes)  # sites, (layers, screws)
         self._radii = model.geom_size[self._shanks, 0].copy()
@@ -49,13 +51,15 @@ class ClampedStepper(PhysicsStepper):
 
     def _clear(self) -> NDArray[np.intp]:
         """Return the geoms of the shanks whose axes pass through the holes of both layers with play to spare."""
-        data, mouths = self._data, self._mouths
-        up = data.site_xmat[mouths][..., 2::3]  # axes of the holes, (layers, screws, 3)
-        along = data.geom_xmat[self._shanks][:, 2::3]
-        upright = (up * along).sum(axis=-1)
-        apart = data.geom_xpos[self._shanks] - data.site_xpos[mouths]
-        way = (self._ends - (up * apart).sum(axis=-1)) / upright  # along the shank to both ends of a hole
+        data, mouths, shanks = self._data, self._mouths, self._shank_span
+        up = data.site_xmat.take(mouths, axis=0)[..., 2::3]  # axes of the holes, (layers, screws, 3)
+        along = data.geom_xmat[shanks, 2::3]
+        upright = np.add.reduce(up * along, axis=-1)
+        apart = data.geom_xpos[shanks] - data.site_xpos.take(mouths, axis=0)
+        way = (
+            self._ends - np.add.reduce(up * apart, axis=-1)
+        ) / upright  # along the shank to both ends of a hole
         aside = apart + way[..., np.newaxis] * along - self._ends[..., np.newaxis] * up
         wider = self._radii * (1 / np.abs(upright) - 1)
-        clear = (np.sqrt((aside * aside).sum(axis=-1)) + wider < self._play).all(axis=(0, 1))
+        clear = (np.sqrt(np.add.reduce(aside * aside, axis=-1)) + wider < self._play).all(axis=(0, 1))
         return np.asarray(self._shanks[clear])
