@@ -148,8 +148,8 @@ def _friction() -> Iterator[Quantity]:
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
-        unsourced="the friction of the other joints is inferred from the paper, in which they hold their weight when "
-            f"the arm is released, but joint 1 carries no weight. {DOUBLED}",
+        unsourced="the friction of the other joints is inferred from the paper: they hold their weight when the arm "
+            f"is released. The paper gives no such check for joint 1, which carries no weight. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
