@@ -77,7 +77,7 @@ CODES: Final[dict[str, Code]] = {
         phase="strict",
     ),
     "finding-undecided": _proof(
-        "the prover cannot decide whether the program always notices if a finding of the referee does not hold",
+        "the prover cannot decide whether the program always notices when a finding of the referee does not hold",
         "HERE A\nPARK\nMOVE A",
     ),
     "finding-unnoticed": _proof(

@@ -34,7 +34,7 @@ class Pace(Observer):
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
-    """The factor that limits the pace, and the wall-clock time and cell time (s) since which it does so."""
+    """The factor that limits the pace, and the wall-clock time and cell time (s) at which it began to do so."""
 
     def __str__(self) -> str:
         if self.factor is None:

@@ -32,7 +32,7 @@ TOUCH: Final = PinExercise(
         ),
         (
             "pressed too hard",
-            "Let STOP end the motion, and move more slowly: the force of a blow grows with speed.",
+            "Let STOP end the motion, and move more slowly: the force of an impact grows with the speed.",
         ),
         ("called the operator", "A motion with a STOP must be long enough to meet the plate in every world."),
     ),
@@ -59,8 +59,8 @@ FIND: Final = PinExercise(
 GENTLY: Final = PinExercise(
     name="gently",
     session=2,
-    title="find the hole without a blow",
-    brief="The program of 1973 strikes the plate at 1 in/s. The force of a blow grows with the speed. Change the "
+    title="find the hole without hitting the plate hard",
+    brief="The program of 1973 strikes the plate at 1 in/s. The force of an impact grows with the speed. Change the "
     "program so that the pin still finds its hole, and the force between pin and plate stays small.",
     start="gently.al",
     worlds=(PinWorlds(seeds=range(20), told=_USUAL, set={}),),

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 
 SearchPattern = Callable[[int], tuple[float, float] | None]
-"""Function that returns the offset of place k, from 0, in search steps along x and y of the table, or None after
-the last place.
+"""Function that returns the offset of place k, counted from 0, in search steps along x and y of the table, or None
+after the last place.
 """
 
 

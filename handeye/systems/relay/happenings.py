@@ -42,7 +42,7 @@ OF_LEGS: Final[Mapping[type, type[SystemEvent]]] = {
     if "leg" in entry.can and entry.events
     for kind in loaded(entry.events)
 }
-"""For each kind of event of a system that can do legs: the kind that stands for it in a relay."""
+"""Kinds of events in a relay. The key is the kind of event of the system that does the leg."""
 EVENTS: Final[tuple[Any, ...]] = (LegStarted, *OF_LEGS.values())
 
 

@@ -83,11 +83,11 @@ def arm() -> Iterator[Quantity]:
             "Amplitude of the periodic error of the position reading. It limits the distance over which a saved "
             "correction is valid.",
             unsourced="no data sheet of 1974 gives this amplitude. Today's data sheets give the greatest deviation "
-                      "from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for "
-                      "conductive plastic: Bourns 3400 to 3590, 6537 to 6639). They do not say whether this deviation "
-                      "is periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg "
-                      "for joint 4, .57 deg for joint 5; each of these alone would explain the error of .1 in of the "
-                      "whole arm (layout study, section 4)."),
+            "from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for "
+            "conductive plastic: Bourns 3400 to 3590, 6537 to 6639). They do not say whether this deviation is "
+            "periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg for joint 4, "
+            ".57 deg for joint 5; each of these alone would explain the whole arm's error of .1 in (layout study, "
+            "section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",
@@ -126,8 +126,8 @@ def arm() -> Iterator[Quantity]:
             unsourced="the masses were published without a tolerance. To correct this error, the arm weighs its links. "
                 f"{DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-            "Relative deviation of the true distance between a link's centre of mass and its joint from the "
-            "controller's value.", least=-90.0,
+            "Distance between a link's centre of mass and its joint: relative deviation of the true value from the "
+            "controller's.", least=-90.0,
             unsourced="the centres of mass were also published without a tolerance. To correct this error, the arm "
                 "weighs its links. "
                 f"{DOUBLED}"),
@@ -148,8 +148,8 @@ def _friction() -> Iterator[Quantity]:
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
-        unsourced="the friction of the other joints is inferred from the paper, in which they hold their weight when "
-            f"the arm is released, but joint 1 carries no weight. {DOUBLED}",
+        unsourced="the friction of the other joints is inferred from the paper: they hold their weight when the arm "
+            f"is released. The paper gives no such check for joint 1, which carries no weight. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],

@@ -1,5 +1,5 @@
 """Tries the mutants of a program. The proof comes first. If it does not refuse a mutant, the mutant is run with the
-faults for which the missing check exists.
+faults that the missing check is meant to notice.
 """
 
 from collections import Counter
@@ -33,8 +33,8 @@ Outcome = Literal["refused", "caught", "unnoticed", "silent", "not run"]
 - caught: the mutant stopped in at least one run, and was silent in none
 - unnoticed: in all runs, the mutant went on to its end, and the work is right
 - silent: in a run, the work is wrong, but the mutant reported success
-- not run: the proof does not refuse the mutant, but no fault is known for which the check exists, or no runs were
-  requested
+- not run: the proof does not refuse the mutant, but no fault is known that the check is meant to notice, or no runs
+  were requested
 """
 
 

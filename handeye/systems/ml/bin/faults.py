@@ -29,7 +29,7 @@ FAULTS: Final = Catalogue(
     arm_fault("motor.separation.dead", _SHUT),
     arm_fault(
         "motor.separation.weak", _LEFT, _LOST,
-        harmless="To close the fingers takes less force than even the weak motor has.",
+        harmless="Even the weak motor has enough force to close the fingers.",
     ),
     arm_fault("potentiometer.x.stuck"),
     planted(EMPTY, "No parts were poured into the bin.", _MISSING),

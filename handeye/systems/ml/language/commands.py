@@ -122,9 +122,11 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     "sense": (
         ("CALIB", "[s ...]", "Take the mean of the last eight readings as the new zero of these sensors, or of all "
                              "analog sensors.", "20 CALIB 5 6 7"),
-        ("SENSOR", "[s [lo hi]]", "Clear the flag of a sensor, and guard the sensor: if its reading is no longer above "
-                                  "lo and below hi, the flag comes on and all motors freeze. Without limits, the "
-                                  "sensor may read anything; without s, this applies to all sensors.",
+        ("SENSOR", "[s [lo hi]]", (
+            "Clear the flag of a sensor, and guard the sensor: when its reading leaves the range between lo and "
+            "hi, the flag comes on and all motors freeze. Without limits, the sensor may read anything; without s, "
+            "this applies to all sensors."
+        ),
          "200 SENSOR 5 -178 450"),
         ("WAND", "[s]", "Assign the wand to sensor s, by default sensor 1. From then on, the flag of this sensor comes "
                        "on if the wand touches something.", "10 WAND"),

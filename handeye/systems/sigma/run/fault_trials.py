@@ -119,7 +119,7 @@ MAL_FAULTS: Final = Sweep(
         "right": "right", "named": "right", "stopped": "wrong", "misnamed": "wrong", "endless": "wrong",
         "silent": "silent",
     },
-    success="right, or stopped and the faulty part named by DIAGNOSE",
+    success="right, or stopped with the faulty part named by DIAGNOSE",
     noun="fault",
     sentence=_sentence,
     summary=_summary,

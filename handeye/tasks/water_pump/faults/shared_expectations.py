@@ -28,12 +28,12 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls of the operator for a joint that has read wrong from the beginning. These calls name neither table nor
+"""Calls to the operator for a joint that has read wrong from the beginning. These calls name neither table nor
 blocks. The joint's two sensors agree, and the camera is calibrated with the wrong readings, so only the parts in
 the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
-"""Calls of the operator for a place that is not where it should be, or not where it was, and for a hole or pin
+"""Calls to the operator for a place that is not where it should be, or not where it was, and for a hole or pin
 that is not found. Either the place is wrong, or the gear or the potentiometer of a joint is faulty.
 """
 UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
@@ -64,7 +64,7 @@ PUMP_CHANGED: Final = (
     "THE PUMP IS NOT WHERE IT WAS PUT: IT HAS MOVED SINCE IT WAS FELT, OR THE CAMERA OR THE LIGHT HAS CHANGED"
 )
 OR_PUMP: Final = "{what}, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
-"""Calls of the operator if the hand does not feel a part of the pump at its earlier place. The part or
+"""Calls to the operator if the hand does not feel a part of the pump at its earlier place. The part or
 the pump has moved, or a joint of the arm reads wrong.
 """
 SCREW_IN_NO_HOLE: Final = (
@@ -79,8 +79,8 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Each of these errors counts as the calls listed with it. The careful program names the fault with one of these
-calls; a program that tries every step only once, like that of 1973, reports it with the error. Error and call
+"""Each of these errors counts the same as the calls listed with it. The careful program names the fault with one of
+these calls; a program that tries every step only once, like that of 1973, reports it with the error. Error and call
 count as one name.
 """
 
