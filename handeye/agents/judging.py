@@ -116,7 +116,7 @@ def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]
     if outcome != "stopped":
         return "silent", "it reported success, but the work is impossible in this world"
     if re.search(wanted, message):
-        return "accepted", f"it stopped, as it must in this world ({message})"
+        return "accepted", "it stopped, as it must in this world"
     return "stopped", message
 
 
