@@ -47,6 +47,15 @@ def test_a_topic_prints_its_page(command: Command, topic: str, page: str) -> Non
     assert (code, out) == (0, (DOCS / page).read_text(encoding="utf-8"))
 
 
+@pytest.mark.parametrize(("topic", "linked"), [("agents_bench", "mcp"), ("mcp", "agents_bench"), ("ml", "")])
+def test_a_printed_page_says_how_to_open_a_linked_page(command: Command, topic: str, linked: str) -> None:
+    err = command("docs", topic)[2]
+    assert err.startswith(f"to open a linked page: `handeye docs {linked}")
+    opened = re.findall("`handeye docs (.*)`", err)[0]
+    assert command("docs", opened)[0] == 0
+    assert Path(err.rstrip().rpartition(" from ")[2]).samefile(DOCS)
+
+
 def test_a_path_is_one_that_can_be_opened(command: Command) -> None:
     code, out, _ = command("docs", "faults", "--path")
     assert (code, Path(out.strip()).samefile(DOCS / "faults.md")) == (0, True)

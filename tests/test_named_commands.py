@@ -29,6 +29,17 @@ OF_CLUSTERS = {
     "--cpus-per-task",
 }
 """Those of `dask` and `srun`."""
+OF_THE_INSPECTOR = {
+    "--cli",
+    "--config",
+    "--connect-timeout",
+    "--method",
+    "--server",
+    "--strict",
+    "--tool-arg",
+    "--tool-name",
+}
+"""Those of the inspector of the model context protocol."""
 
 
 def options(commands: App) -> Iterator[str]:
@@ -64,7 +75,7 @@ def test_every_command_a_page_names_exists(page: Path) -> None:
 def test_every_option_a_page_names_exists(page: Path) -> None:
     named = set(OPTION.findall(page.read_text(encoding="utf-8")))
     former = set(FORMER) if page.name == "CHANGELOG.md" else set()
-    assert named - every_option() - WITH_PYTEST - OF_CLUSTERS - former == set()
+    assert named - every_option() - WITH_PYTEST - OF_CLUSTERS - OF_THE_INSPECTOR - former == set()
 
 
 def leaves(commands: App, before: tuple[str, ...] = ()) -> Iterator[tuple[str, App]]:

@@ -7,16 +7,13 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, Literal
 
+from handeye.agents.bench_feedback import FEEDBACK, Feedback, feedback
 from handeye.agents.bench_task import BUILT_IN, BenchTask
 from handeye.agents.call import Call
 from handeye.agents.judging import Verdict, judged
 from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
 from handeye.core.files import write_whole
-
-Feedback = Literal["verdict", "errors", "trace"]
-FEEDBACK: Final = "feedback.md"  # file that the entrant finds after its first round
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +42,7 @@ def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effor
     feedback in FEEDBACK. If the solution is accepted in all public worlds, the rounds end early. Raises InvalidInput
     if the folder cannot be written, or if the command cannot be started.
     """
-    _laid_out(task, folder)
+    lay_out(task, folder)
     if entrant.command in BUILT_IN:
         for name, data in task.solution(entrant.command).items():
             write_whole(folder / name, data)
@@ -113,32 +110,25 @@ def _in_every_order(task: BenchTask, folder: Path) -> Verdict:
     """Judge a solution in every order of its tasks."""
     seed, problems = task.file.public[0], task.problems(folder)
     if not problems:
-        return Verdict(seed=seed, outcome="accepted")
+        return Verdict(seed=seed, outcome="accepted", listed=False)
     silent, told = problems[0]
     if silent:
-        return Verdict(seed=seed, outcome="silent", rejected=(told,))
-    return Verdict(seed=seed, outcome="stopped", message=told)
+        return Verdict(seed=seed, outcome="silent", rejected=(told,), listed=False)
+    return Verdict(seed=seed, outcome="stopped", message=told, listed=False)
 
 
-def feedback(found: Sequence[Verdict], kind: Feedback) -> str:
-    """Write the feedback on a solution: verdicts alone, or with the errors, or also with what each step did."""
-    lines = ["# Your solution in the public worlds", ""]
-    for each in found:
-        lines.append(f"- seed {each.seed}: {each.outcome if kind == 'verdict' else each.told}")
-    if kind == "trace":
-        for each in found:
-            if each.outcome != "accepted":
-                lines += ["", f"## Seed {each.seed}: the last steps", "", "```", *each.steps, "```"]
-    return "\n".join(lines) + "\n"
-
-
-def _laid_out(task: BenchTask, folder: Path) -> None:
+def lay_out(task: BenchTask, folder: Path) -> list[str]:
+    """Put the brief and the given files of a task into a new folder. Returns their names. Raises CannotWrite if the
+    folder exists or cannot be created.
+    """
     try:
         folder.mkdir(parents=True)
     except OSError as error:
         raise CannotWrite(f"the folder {folder} cannot be created: {error.strerror}") from None
-    for name, data in task.given().items():
+    given = task.given()
+    for name, data in given.items():
         write_whole(folder / name, data)
+    return [*given]
 
 
 def _run(entrant: Entrant, folder: Path) -> None:

@@ -72,7 +72,7 @@ def scored(
         score=score_of(found),
         rounds=rounds,
         wall_s=wall_s,
-        verdicts=tuple(msgspec.structs.replace(each, steps=()) for each in found),
+        verdicts=tuple(msgspec.structs.replace(each, steps=(), measured=()) for each in found),
     )
 
 

@@ -18,6 +18,7 @@ from handeye.agents.bench_right import Right
 from handeye.agents.hidden_seeds import commitment
 from handeye.agents.judging import setup_of
 from handeye.agents.scripts import Scripts
+from handeye.api.diagnostic import Diagnostic
 from handeye.core.diagnostics import has_errors, quoted, suggestion
 from handeye.core.entries import entry_of_file, loaded
 from handeye.core.errors import BadFile, NoSuchName
@@ -29,7 +30,7 @@ from handeye.program.language import own_language
 from handeye.runs.setup import Setup
 from handeye.tasks import any_task
 
-PROTOCOL: Final = 2  # version of docs/agents_bench.md; results of different versions cannot be compared
+PROTOCOL: Final = 3  # version of docs/agents_bench.md; results of different versions cannot be compared
 BUILT_IN: Final = (REFERENCE, TRIVIAL)  # solutions that each task has
 PASSED: Final = 0.9  # least score with which a task is passed
 BRIEF: Final = "brief.md"
@@ -189,9 +190,8 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         self._check_kept(source.text)
         found = [] if language is None else language.check(source)
         if has_errors(found):
-            raise BadFile(
-                f"{self.program}: {next(each.message for each in found if each.severity == 'error')}"
-            )
+            first = Diagnostic.of(next(each for each in found if each.severity == "error"), source)
+            raise BadFile(f"{first.file}, line {first.line}: {first.message}")
         return source.text
 
     def _check_kept(self, text: str) -> None:

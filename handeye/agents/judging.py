@@ -36,8 +36,10 @@ class Verdict(Record, frozen=True, kw_only=True):
     outcome: Outcome
     message: str = ""  # why the program stopped
     rejected: tuple[str, ...] = ()  # findings that the referee rejects, in words
+    measured: tuple[str, ...] = ()  # what the referee measured on an accepted program, in words
     seconds: float = 0.0  # simulated
     steps: tuple[str, ...] = ()  # the last steps, and what each did
+    listed: bool = True  # False if there is no one list of steps, because every order was judged
 
     @property
     def told(self) -> str:
@@ -65,6 +67,7 @@ def judged(setup: Setup, call: Call, right: Right = USUAL) -> Verdict:
     """Run a program to its end, or to the limits of time and steps, and judge it by what is `right` in its world.
     Raises Refused if the call is cancelled.
     """
+    runner = None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -75,7 +78,8 @@ def judged(setup: Setup, call: Call, right: Right = USUAL) -> Verdict:
     except HandeyeError as error:
         if call.cancelled.is_set():
             raise
-        return Verdict(seed=setup.world.seed, outcome="stopped", message=str(error))
+        steps = () if runner is None else _last_steps(runner)
+        return Verdict(seed=setup.world.seed, outcome="stopped", message=str(error), steps=steps)
 
 
 def _judged(runner: Runner, call: Call, right: Right) -> Verdict:
@@ -89,15 +93,22 @@ def _judged(runner: Runner, call: Call, right: Right) -> Verdict:
     outcome, message = outcome_of(result), late or ("" if result.completed else result.message)
     if right.stops and not late:
         outcome, message = _stopped(outcome, message, right.stops)
-    shown = step_summaries(runner.events, runner.listing, runner.task.measures)[-TRACED:]
+    accepted = outcome == "accepted"
     return Verdict(
         seed=runner.setup.world.seed,
         outcome=outcome,
         message=message,
-        rejected=tuple(check.told for check in result.checks if check.refuses and outcome != "accepted"),
+        rejected=tuple(check.told for check in result.checks if check.refuses and not accepted),
+        measured=tuple(check.told for check in result.checks if check.unit and accepted),
         seconds=result.timing.working_s,
-        steps=tuple(f"{each.line or '-'} {each.text}: {each.outcome}".rstrip(": ") for each in shown),
+        steps=_last_steps(runner),
     )
+
+
+def _last_steps(runner: Runner) -> tuple[str, ...]:
+    """Return the last steps of a run, and what each did."""
+    shown = step_summaries(runner.events, runner.listing, runner.task.measures)[-TRACED:]
+    return tuple(f"{each.line or '-'} {each.text}: {each.outcome}".rstrip(": ") for each in shown)
 
 
 def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]:
@@ -105,7 +116,7 @@ def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]
     if outcome != "stopped":
         return "silent", "the program reported success, but the work is impossible in this world"
     if re.search(wanted, message):
-        return "accepted", f"the program stopped, as it must in this world ({message})"
+        return "accepted", "the program stopped, as it must in this world"
     return "stopped", message
 
 

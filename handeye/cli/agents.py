@@ -65,6 +65,13 @@ def bench_agents(
             "its program. The entrants `reference` and `trivial` are included with handeye."
         ),
     ] = None,
+    brief: Annotated[
+        Path | None,
+        Parameter(
+            help="Instead of --command: a new folder for the brief and the given files, without judging. For all "
+            "tasks, the folder gets a folder for each task."
+        ),
+    ] = None,
     attempt: Annotated[
         Path | None,
         Parameter(
@@ -91,8 +98,8 @@ def bench_agents(
         Literal["verdict", "errors", "trace"] | None,
         Parameter(
             help="What the entrant learns between two rounds about its program in the public worlds. verdict: the "
-            "verdict in each world; errors: also the errors; trace: also what each step did. Default: verdict, or "
-            "errors with --try."
+            "verdict in each world; errors: also the errors, and what the referee measured where the program is "
+            "accepted; trace: also what each step did. Default: verdict, or errors with --try."
         ),
     ] = None,
     rounds: Annotated[
@@ -133,10 +140,14 @@ def bench_agents(
         for each in chosen:
             say(f"{each.name:<20} {each.file.language:<6} {each.file.tier:<9} {each.file.title}")
         return 0
-    if [command is not None, solutions is not None, attempt is not None, check].count(True) != 1:
+    given = [command is not None, solutions is not None, attempt is not None, brief is not None, check]
+    if given.count(True) != 1:
         raise BadArgument(
-            "give one of --command, --solutions, --try and --check; `handeye bench agents --list` lists the tasks"
+            "give one of --command, --solutions, --try, --brief and --check; `handeye bench agents --list` lists the "
+            "tasks"
         )
+    if brief is not None:
+        return _lay_out(chosen, brief)
     if check:
         return _check(chosen, json=json)
     if attempt is not None:
@@ -164,9 +175,20 @@ def bench_agents(
     return 3 if any(each.silent for each in scores) else 0
 
 
+def _lay_out(chosen: "list[BenchTask]", folder: Path) -> int:
+    """Put the brief and the given files of tasks into a new folder."""
+    from handeye.agents.bench_entrant import lay_out
+
+    for task in chosen:
+        place = folder if len(chosen) == 1 else folder / task.name
+        say(f"{place}: {', '.join(lay_out(task, place))}")
+    return 0
+
+
 def _try(chosen: "list[BenchTask]", folder: Path, kind: 'Literal["verdict", "errors", "trace"]') -> int:
     """Judge one program in the public worlds, and print the feedback."""
-    from handeye.agents.bench_entrant import feedback, verdicts
+    from handeye.agents.bench_entrant import verdicts
+    from handeye.agents.bench_feedback import feedback
     from handeye.agents.call import Call
 
     if len(chosen) != 1:

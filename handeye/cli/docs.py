@@ -1,12 +1,13 @@
 """The command that lists and prints the pages of the documentation, which every installation includes."""
 
+from pathlib import Path
 from textwrap import fill
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import put, say, screen
-from handeye.core.pages import INDEX, page_named, sections
+from handeye.cli.common import note, put, say, screen
+from handeye.core.pages import INDEX, linked_pages, page_named, sections
 
 
 def docs(
@@ -44,7 +45,16 @@ def docs(
         screen.print(Markdown(file.read_text(encoding="utf-8")))
     else:
         put(file.read_bytes())
+    if topic is not None and not path:
+        _say_where_links_lead(file, folder)
     return 0
+
+
+def _say_where_links_lead(page: Path, folder: Path) -> None:
+    """Say how to open a page to which this page links, if there is one."""
+    linked = next(linked_pages(page, folder), None)
+    if linked is not None:
+        note(f"to open a linked page: `handeye docs {linked}`; all links lead on from {page.parent}")
 
 
 def _list(index: str) -> None:

@@ -1,5 +1,6 @@
 """The pages of the documentation, by topic, and their index."""
 
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,6 +11,8 @@ from handeye.core.errors import NoSuchName
 
 INDEX: Final = "README.md"
 _ENTRY: Final = re.compile(r"^- \[.*?\]\((?P<page>[\w/.-]+\.md)\): (?P<sentence>.*)$", re.MULTILINE)
+
+_LINK: Final = re.compile(r"\]\(([\w/.-]+\.md)(?:#[^)]*)?\)")
 
 
 def pages(folder: Path) -> dict[str, Path]:
@@ -41,6 +44,14 @@ def sections(index: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
         entries = [(_topic(found["page"]), _plain(found["sentence"])) for found in _ENTRY.finditer(section)]
         if entries:
             yield section.partition("\n")[0], entries
+
+
+def linked_pages(page: Path, folder: Path) -> Iterator[str]:
+    """The topics of the pages to which a page links, in the order of the links."""
+    topics = {file: topic for topic, file in pages(folder).items()}
+    for found in _LINK.finditer(page.read_text(encoding="utf-8")):
+        if (topic := topics.get(Path(os.path.normpath(page.parent / found[1])))) is not None:
+            yield topic
 
 
 def _topic(page: str) -> str:

@@ -97,7 +97,7 @@ class Check(Record, frozen=True, kw_only=True):
             relation=found.relation,
             limit=float(found.limit),
             unit=found.unit,
-            sentence=f"{found.subject} ({found.relation} {found.limit:g} {found.unit})",
+            sentence=f"{found.subject} ({f'{found.relation} {found.limit:g} {found.unit}'.rstrip()})",
             caution=found.caution,
         )
 

@@ -11,7 +11,8 @@ import pytest
 from conftest import Command
 from cyclopts import CycloptsError
 
-from handeye.agents.bench_entrant import FEEDBACK, Entrant, lost, solved, verdicts
+from handeye.agents.bench_entrant import Entrant, lost, solved, verdicts
+from handeye.agents.bench_feedback import FEEDBACK, feedback
 from handeye.agents.bench_page import bench_page
 from handeye.agents.bench_result import BenchResult, scored, to_json
 from handeye.agents.bench_task import BenchTask, bench_task, bench_tasks
@@ -216,6 +217,39 @@ def test_the_bench_goes_on_after_an_entrant_that_blocks_its_feedback(
     assert "something other than a file in the place of feedback.md" in err
 
 
+def test_a_brief_can_be_read_without_a_command(command: Command) -> None:
+    code, out, _ = command("bench", "agents", "tower", "--brief", "mine")
+    assert (code, out) == (0, "mine: brief.md, solution.trig\n")
+    for name, data in bench_task("tower").given().items():
+        assert Path("mine", name).read_bytes() == data
+    code, _, err = command("bench", "agents", "tower", "--brief", "mine")
+    assert (code, "the folder mine cannot be created: File exists" in err) == (2, True)
+    assert command("bench", "agents", "--brief", "all")[1].count("\n") == len(TASKS)
+    assert Path("all/pin/brief.md").is_file()
+
+
+def test_feedback_says_what_was_measured_and_why_no_step_was_made() -> None:
+    good = Verdict(seed=0, outcome="accepted", measured=("tilt (at most 3 deg): 0.5",), steps=("1 OPEN",))
+    bad = [Verdict(seed=seed, outcome="stopped", message="no hole") for seed in (1, 2)]
+    orders = Verdict(seed=3, outcome="stopped", message="deadlock", listed=False)
+    told = feedback([good, *bad, orders], "trace")
+    assert told.endswith(
+        "- seed 0: accepted\n  - tilt (at most 3 deg): 0.5\n- seed 1: stopped: no hole\n- seed 2: stopped: no hole\n"
+        "- seed 3: stopped: deadlock\n\n## No steps (seed 1, 2)\n\nThe program did not make a step: no hole\n"
+    )
+    assert "tilt" in feedback([good], "errors")
+    assert "tilt" not in feedback([good], "verdict")
+
+
+@pytest.mark.slow
+def test_an_accepted_program_learns_how_close_it_was_to_the_limits(tmp_path: Path) -> None:
+    task = bench_task("stand_gently")
+    solved(task, Entrant(command="reference"), tmp_path / "a", Call())
+    (found,) = verdicts(task, tmp_path / "a", [0], Call())
+    assert found.outcome == "accepted"
+    assert any("greatest force between pin and plate (at most 30 N): " in each for each in found.measured)
+
+
 def test_one_program_can_be_tried(command: Command, tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine/solution.mal").write_text("10 PRINT 1\n")
@@ -291,8 +325,8 @@ def test_a_commitment_depends_on_salt_task_and_order() -> None:
     [
         (("nix",), "the bench has no task `nix`"),
         (("pin", "--command", "false", "--hidden", "none.json"), "none.json: there is no such file"),
-        (("pin",), "give one of --command, --solutions, --try and --check"),
-        (("pin", "--check", "--try", "."), "give one of --command, --solutions, --try and --check"),
+        (("pin",), "give one of --command, --solutions, --try, --brief and --check"),
+        (("pin", "--check", "--try", "."), "give one of --command, --solutions, --try, --brief and --check"),
         (("--try", "."), "--try needs the name of one task"),
         (("pin", "--try", "nowhere"), "nowhere: there is no such folder"),
         (("pin", "--command", "no-such-program"), "--command cannot be started: No such file or directory"),

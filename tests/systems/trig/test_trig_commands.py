@@ -136,7 +136,7 @@ def test_driving_the_arm_leaves_the_program_as_it_is() -> None:
 
 @pytest.mark.trig_row(36)
 def test_a_guarded_way_asks_for_threshold_and_vector_and_tells_how_it_ended() -> None:
-    typist = Typist("FREE\nX 0 Y 0 Z 100 RECORD\nHERE UP\nFREE\nZ 5 RECORD\nHERE DOWN\nGOPOS UP")
+    typist = Typist("FREE\nX 0 Y 0 Z 100 RECORD\nHERE UP\nFREE\nZ 5 RECORD\nHERE DOWN\nGOPOS UP\nGOGRASP")
     typist.type("GOGPOS DOWN\n2\n(0 0 1)\nGOPOS UP\n* STACK 3 X 0 Y 0\nGOGPOS DOWN\n2\n(0 0 1)")
     assert typist.told == [
         "reached X 0 Y 0 Z 5",
@@ -235,7 +235,10 @@ def test_the_kill_switch_records_nothing() -> None:
         ("M B\nX 500 RECORD", "X would be 500 mm; its range is -200 to 200 mm"),
         ("M B\nX 500 RECORD\nM C", "X would be 500 mm; its range is -200 to 200 mm"),
         ("M B\nRECORD X 3", "RECORD ends the work with the teach box; remove `X` after it"),
-        ("M A\nperhaps", "`perhaps` is not an answer; type Yes or No"),
+        (
+            "M A\nperhaps",
+            "TRIG asks “Move to the predefined location?”, but `perhaps` is not an answer; type Yes or No",
+        ),
     ],
 )
 def test_a_line_that_is_wrong_is_refused_in_a_sentence_that_helps(line: str, sentence: str) -> None:

@@ -22,7 +22,9 @@ from handeye.systems.trig.language.trig_arm import (
 from handeye.systems.trig.language.trig_arm import told_obstacle as told
 from handeye.touch.senses import as_before
 
-AT_A_BLOCK = "* STACK 2 X 100 Y 0\nM OVER\nX 100 Z 60 RECORD\nMG ON\nZ 2 RECORD\n2\n(0 0 1)\nGOPOS OVER\n"
+AT_A_BLOCK = (
+    "* STACK 2 X 100 Y 0\nGOGRASP\nM OVER\nX 100 Z 60 RECORD\nMG ON\nZ 2 RECORD\n2\n(0 0 1)\nGOPOS OVER\n"
+)
 GRASPED = "* STACK 2 X 100 Y 0\nM AT\nX 100 Z 18 RECORD\nGRASP\nMR UP\nZ BY 20 RECORD\nUNGRASP\n"
 
 

@@ -20,7 +20,8 @@ ArmKind = Annotated[
     Literal["none", "purbrick"],
     Parameter(
         name="--arm",
-        help="The arm: `none` is an imaginary arm without physics; `purbrick` is the paper's arm, simulated.",
+        help="The arm: `none` is an ideal arm without physics; `purbrick` is the paper's arm, simulated. A script can "
+        "take other branches on another arm.",
     ),
 ]
 TrigFile = Annotated[
@@ -95,11 +96,13 @@ def show(
     file: TrigFile,
     /,
     *,
+    arm: ArmKind = "none",
     width: Annotated[
         WholeNumber, Parameter(help="Characters per line. Default: the width of the terminal.")
     ] = 0,
 ) -> int:
-    """Show both displays of a program: the whole program in miniature, and its steps in full.
+    """Show both displays of a program: the whole program in miniature, and its steps in full. If FILE is a script, its
+    lines are first typed one by one, as in the editor.
 
     Exit code 0: shown; 2: bad input.
     """
@@ -110,7 +113,7 @@ def show(
     if width and not 20 <= width <= 1000:
         raise BadArgument(f"a display must be 20 to 1000 characters wide, not {width}")
     with PanicButton() as panic:
-        program = opened("none", file, panic).program
+        program = opened(arm, file, panic).program
     symbols, wide = symbols_for(sys.stdout.encoding), width or screen.width
     height = max(1, len(program.graph.nodes))
     for display in (full_display, partial_display):
@@ -124,11 +127,14 @@ def at_terminal() -> bool:
 
 
 def _piped(session: "Session", halted: Callable[[], bool]) -> int:
-    """Execute the lines of standard input. A refused line is reported, and the next one is read."""
-    from handeye.systems.trig.language.command_input import Script, hear
+    """Execute the lines of standard input, and print each question with its answer. A refused line is reported, and the
+    next one is read.
+    """
+    from handeye.systems.trig.cli.sessions import PipedDesk
+    from handeye.systems.trig.language.command_input import hear
 
     code = 0
-    session.desk = script = Script(iter(sys.stdin.readline, ""), say, halted)
+    session.desk = script = PipedDesk(iter(sys.stdin.readline, ""), say, halted)
     while not session.over and (line := script.next_line()) is not None:
         try:
             hear(session, line)

@@ -14,7 +14,7 @@ from handeye.core.plain_text import counted, printable
 from handeye.core.source import read_source
 from handeye.systems.trig.jobs.benches import ArmName, new_session
 from handeye.systems.trig.language.command_input import Script, type_script
-from handeye.systems.trig.language.desk import Desk
+from handeye.systems.trig.language.desk import Cancelled, Desk, Read
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.storage import ENDING, read_program
 from handeye.systems.trig.language.trig_arm import Halted
@@ -49,6 +49,22 @@ def watched_desk(session: Session, halted: Halted) -> Iterator[Desk]:
     """Yield a user interface that shows progress at the terminal."""
     with notes.status("running") as status:
         yield _ProgressDesk(session, status, halted)
+
+
+class PipedDesk(Script):
+    """A user interface that reads its input from a pipe, and prints each question with its answer."""
+
+    def answer(self, question: str) -> str:
+        try:
+            said = super().answer(question)
+        except Cancelled:
+            self.tell(question.strip())
+            raise
+        self.tell(f"{question.strip()} {said}")
+        return said
+
+    def ask(self, question: str, read: Callable[[str], Read]) -> Read:
+        return read(self.answer(question))
 
 
 class _ProgressDesk(Script):

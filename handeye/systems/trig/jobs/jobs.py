@@ -23,7 +23,7 @@ from handeye.systems.trig.jobs.task import ARRANGE, BUCKET, BUCKET_TASK, PALLET,
 from handeye.systems.trig.jobs.witness import ObservedScene, Witness, stands
 from handeye.systems.trig.jobs.world import WEAK, BlocksWorld
 from handeye.systems.trig.language.axes_arm import AxesArm
-from handeye.systems.trig.language.command_input import Script, type_script
+from handeye.systems.trig.language.command_input import LineRefused, Script, type_script
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.trig_arm import Halted
 
@@ -61,7 +61,10 @@ class _Job(TaughtJob):
     def teach(self, halted: Halted) -> None:
         script = Script(self._script.splitlines(), halted=halted, slip=self._world.slip)
         self.session.desk = script
-        type_script(self.session, script, f"{self.task.name}.trig")
+        try:
+            type_script(self.session, script, "the script")
+        except LineRefused as refused:
+            raise refused.on("the arm of this world") from None
         self._witness.look(self.bench.data, self._table.poses, self.session.program)
 
     def lay(self) -> None:

@@ -16,7 +16,17 @@ from handeye.core.errors import BadArgument, BadFile, InvalidInput, NoSuchName
 from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.arguments import read_arguments
 from handeye.systems.trig.language.command_table import COMMANDS, SYNONYMS, TABLE, TrigCommand
-from handeye.systems.trig.language.desk import ENDS, MARK, Button, Cancelled, Desk, Jog, arrange, buttons
+from handeye.systems.trig.language.desk import (
+    ENDS,
+    MARK,
+    Button,
+    Cancelled,
+    Desk,
+    Jog,
+    Read,
+    arrange,
+    buttons,
+)
 from handeye.systems.trig.language.place import AXES, SIZES
 from handeye.systems.trig.language.session import Session
 from handeye.systems.trig.language.trig_arm import Halted
@@ -115,6 +125,13 @@ class Script(Desk):
             raise Cancelled
         return line.removeprefix(question.strip()).strip()
 
+    def ask(self, question: str, read: Callable[[str], Read]) -> Read:
+        answer = self.answer(question)
+        try:
+            return read(answer)
+        except InvalidInput as error:
+            raise BadArgument(f"TRIG asks “{question.strip()}”, but {error}") from None
+
     def press(self) -> Button:
         while not self._pressed:
             line = self.next_line()
@@ -145,7 +162,11 @@ class LineRefused(BadFile):
 
     def __init__(self, name: str, number: int, why: str) -> None:
         super().__init__(f"{name}, line {number}: {why}")
-        self.number, self.why = number, why
+        self.name, self.number, self.why = name, number, why
+
+    def on(self, arm: str) -> "LineRefused":
+        """Return the error with the arm on which the script was typed."""
+        return LineRefused(self.name, self.number, f"{self.why} (typed on {arm})")
 
 
 def type_script(session: Session, script: Script, name: str) -> int:

@@ -1,8 +1,9 @@
 """An imaginary arm, which reaches every place immediately and exactly.
 
 With imaginary blocks, it serves to try out a program without a real arm. The blocks do not fall, and they exert a
-force only on top: a guarded move stops on top of a block if the force vector of the move responds to upward force.
-All other moves pass through blocks.
+force only on top: if the force vector of a guarded move responds to upward force, a closed hand stops on top of a
+block, and a block in the hand stops on another block or on the table. A block passes between the fingers of an open
+hand. All other moves pass through blocks.
 """
 
 import math
@@ -35,6 +36,14 @@ class Block:
     def under(self, place: Place) -> bool:
         """Return True if a place lies within the outline of the block, seen from above."""
         return max(abs(place.x - self.x), abs(place.y - self.y)) <= BLOCK / 2
+
+    def overlaps(self, other: "Block") -> bool:
+        """Return True if another block lies partly over this one, seen from above."""
+        return max(abs(other.x - self.x), abs(other.y - self.y)) < BLOCK
+
+    def moved(self, way: Place) -> "Block":
+        """Return the block after a hand has carried it by a displacement."""
+        return replace(self, x=self.x + way.x, y=self.y + way.y, z=self.z + way.z)
 
     def between(self, place: Place) -> bool:
         """Return True if a hand that closes at a place grasps the block."""
@@ -115,14 +124,20 @@ class NoArm(TrigArm, Tabletop):
         self.blocks, self.held = [], None
 
     def _met(self, goal: Place) -> float | None:
-        """Return the height of the first block on the way down to a goal (m), or None if there is none."""
-        tops = [block.z for block in self.blocks if block.under(goal) and block is not self.held]
-        return max((z for z in tops if goal.z < z <= self._at.z + _SAME), default=None)
+        """Return the height of the hand at the first contact on the way down to a goal (m), or None if there is
+        none.
+        """
+        if self.held is not None:
+            there, tips = self.held.moved(goal.seen_from(self._at)), self._at.z - self.held.z + HEIGHT
+            below = [block.z for block in self.blocks if block is not self.held and block.overlaps(there)]
+            tops = [top + tips for top in (0.0, *below)]
+        else:
+            tops = [block.z for block in self.blocks if self._closed and block.under(goal)]
+        return max((z for z in tops if goal.z + _SAME < z <= self._at.z + _SAME), default=None)
 
     def _carry(self, goal: Place) -> None:
         if self.held is not None:
-            way = goal.seen_from(self._at)
-            moved = replace(self.held, x=self.held.x + way.x, y=self.held.y + way.y, z=self.held.z + way.z)
+            moved = self.held.moved(goal.seen_from(self._at))
             self.blocks[self.blocks.index(self.held)] = moved
             self.held = moved
         self._at = goal

@@ -3,14 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import zip_longest
 from typing import ClassVar, Final
 
 import msgspec
 
+from handeye.core.diagnostics import quoted
 from handeye.core.errors import BadFile, InvalidInput, Refused
 from handeye.program.operation import Device
 from handeye.systems.trig.jobs.benches import TaughtPlan, new_session, read_taught_plan
-from handeye.systems.trig.language.command_input import Script, type_script
+from handeye.systems.trig.language.command_input import LineRefused, Script, type_script
 from handeye.systems.trig.language.display import Cell, loop_words, step_words
 from handeye.systems.trig.language.graph import NONE, Graph, Node
 from handeye.systems.trig.language.program import TrigProgram
@@ -91,7 +93,7 @@ def imagined(plan: TaughtPlan) -> TrigProgram:
 
 def typed(text: str, name: str) -> TrigProgram:
     """Return the program that results if a script is taught to an imaginary arm. The steps are valid in every
-    world, but the places are not.
+    world, but the places are not. Raises LineRefused.
     """
     session, asked = new_session("none"), 0
 
@@ -104,17 +106,33 @@ def typed(text: str, name: str) -> TrigProgram:
 
     script = Script(text.splitlines(), halted=ask)
     session.desk, session.files = script, False  # checkpoints and traces of any origin contain a plan
-    type_script(session, script, name)
+    try:
+        type_script(session, script, name)
+    except LineRefused as refused:
+        raise refused.on("the ideal arm") from None
     return session.program
 
 
 @lru_cache(maxsize=4)
 def listing(plan: TaughtPlan) -> TaughtListing:
-    program = imagined(plan)
-    graph = program.graph
-    numbers = {node.id: number for number, node in enumerate(graph.steps())}
-    steps = tuple(_step(program, node, numbers) for node in graph.steps())
-    return TaughtListing(name=plan.job, steps=steps, stages=(plan.job,))
+    return TaughtListing(name=plan.job, steps=steps_of(imagined(plan)), stages=(plan.job,))
+
+
+def steps_of(program: TrigProgram) -> tuple[TaughtStep, ...]:
+    """Return the steps of a program in drawing order."""
+    steps = [*program.graph.steps()]
+    numbers = {node.id: number for number, node in enumerate(steps)}
+    return tuple(_step(program, node, numbers) for node in steps)
+
+
+def told_difference(planned: Sequence[TaughtStep], taught: Sequence[TaughtStep]) -> str:
+    """Say where the steps that a script has taught in a world differ from the planned ones."""
+    first = next(one or other for one, other in zip_longest(planned, taught) if one != other)
+    assert first is not None
+    return (
+        "the script teaches other steps in this world than on the ideal arm, on which it is typed first; the first "
+        f"difference is at step {first.line}, {quoted(first.text)}, or in its branches"
+    )
 
 
 def _step(program: TrigProgram, node: Node, numbers: Mapping[int, int]) -> TaughtStep:

@@ -48,7 +48,15 @@ from handeye.systems.trig.language.command_input import Script
 from handeye.systems.trig.language.graph import NONE, TOP
 from handeye.systems.trig.language.place import AXES, is_named
 from handeye.systems.trig.language.trig_arm import told_obstacle
-from handeye.systems.trig.run.plan import TaughtStep, encode, imagined, listing, text_now
+from handeye.systems.trig.run.plan import (
+    TaughtStep,
+    encode,
+    imagined,
+    listing,
+    steps_of,
+    text_now,
+    told_difference,
+)
 from handeye.systems.trig.run.state import CompletedStep, TaughtState, Turn
 
 
@@ -106,8 +114,8 @@ class RunningJob(RunningSystem):
         self.job.bench.set_to_zero()
         session = self.job.session
         session.desk = Script((), halted=self._around.halt)
-        if [node.id for node in session.program.graph.steps()] != [step.node for step in self._steps]:
-            raise Refused("the script teaches different steps in this world")
+        if (taught := steps_of(session.program)) != self._steps:
+            raise Refused(told_difference(self._steps, taught))
         self._look_on()
         session.program.begin()
         self._to(session.program.graph[TOP].sons[0])
