@@ -78,7 +78,7 @@ class Lens:
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
         """Look through a point `at` of the lens, shape (2,), in radii to the right and up. The focus stays
-        unchanged, and the picture is shifted by `shift`, shape (2,), points.
+        unchanged, and the picture is shifted by `shift` (points, shape (2,)).
         """
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at

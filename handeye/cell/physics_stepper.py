@@ -116,8 +116,8 @@ class _Contacts:
 class PhysicsStepper:
     """Advances the physics of a cell.
 
-    If a contact begins or ends during a long step, the long steps of this period are undone, and short steps are
-    made from the last moment before it. Middle steps are undone if the hand gains or loses a contact, or if a
+    If a contact begins or ends during a long step, the long steps of this period are undone, and short steps are made
+    from the last moment before the change. Middle steps are undone if the hand gains or loses a contact, or if a
     delicate contact begins.
     """
 
