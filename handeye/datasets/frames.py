@@ -108,7 +108,7 @@ def _means(values: Array, first: NDArray[np.intp], last: NDArray[np.intp]) -> Ar
 def _last_felt(
     estimated: NDArray[np.bool_], first: NDArray[np.intp], last: NDArray[np.intp]
 ) -> NDArray[np.intp]:
-    """Return, for each frame, its last reading with an estimate of force, or its first reading if there is no estimate."""
+    """Return, for each frame, its last reading with an estimate of force, or its first reading if it has none."""
     newest = np.maximum.accumulate(np.where(estimated, np.arange(len(estimated)), 0))
     return np.maximum(newest[last], first)
 
