@@ -14,8 +14,8 @@ the next step detected the contact, and would throw the part away.
 
 In middle steps all contacts and couplings are made stiffer in the same way, so a change of step changes no force at
 rest. Contacts may begin and end in middle steps, except those of the hand. The task names the *delicate* contacts,
-which need short steps, and the joints that must be at rest, because a screw that is tightened in middle steps clamps
-with less force.
+which need short steps, and the joints that must be at rest in middle steps. A screw that is tightened in middle steps,
+for example, clamps with less force.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. It leaves
 out the second-order term of the motion: half the acceleration times the square of the step. After long steps this
