@@ -103,7 +103,7 @@ class ThreadFigures:
     scarred: Set[int] = frozenset()  # holes in which a screw has been crossed before
     crossing: Set[int] = frozenset()  # holes in which every screw crosses
     slipping: Set[int] = frozenset()
-    """Screws on which the bit slips. No thread takes such a screw, even if a part other than the bit turns it a
+    """Screws on which the bit slips. Such a screw enters no thread, even if a part other than the bit turns it a
     little.
     """
 

@@ -28,7 +28,7 @@ less.
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
 """Change (m) of the gap up to which the hand still holds the same part. Our choice: a part that straightens between
-the fingers changes the gap by up to 1.1 mm / 2 each way.
+the fingers makes the gap up to .55 mm wider or narrower.
 """
 MOST_NAMES: Final = 200
 

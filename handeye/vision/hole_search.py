@@ -143,8 +143,8 @@ SEARCHES: Final = (
     HoleSearch(5, True, 0.20),
     HoleSearch(5, True, 0.20, face=0.4),
 )
-"""Searches, in the order in which they are tried. Starting with a small contrast would find more false holes. The
-last search is for a shadow of the arm across the face, which did not occur in the vision study.
+"""Searches, in the order in which they are tried. Starting with a small contrast would find more false holes. The last
+search is for pictures in which the shadow of the arm falls across the face. The vision study had no such pictures.
 """
 
 
