@@ -344,7 +344,7 @@ class Threads(Mechanism[ThreadsState]):
                 model.dof_frictionloss[self._carriers.friction_of(hole)] = self._torque(thread)
 
     def head_force(self, hole: int) -> float:
-        """Return the force (N) of the head of the screw in a hole on the part beneath."""
+        """Return the force (N) with which the head of a hole's screw presses on the part beneath."""
         contact, head = self._data.contact, self._carriers.head[hole]
         pairs = contact.geom
         mine = (pairs == head).any(axis=1) & ~np.isin(pairs, self._driver_geoms).any(axis=1)

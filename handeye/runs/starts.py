@@ -121,7 +121,9 @@ class StartStates:
 
 
 def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
-    """Return a start in whose world a fault begins with the stage of the fault; until then the two worlds are equal."""
+    """Return a start with one more fault in its world. The fault begins with a stage; until then the two worlds are
+    equal.
+    """
     setup, snapshot = start.setup, start.snapshot
     assert snapshot is not None
     assert snapshot.cell is not None
