@@ -15,7 +15,7 @@ from handeye.vision.camera_model import View
 SKY: Final = 0.1
 """Luminance of the background, where no object is visible. Placeholder."""
 _SMOOTH: Final = 1 / 64
-"""Difference of luminance between neighbouring points up to which one sample will do: a quarter of a grey level."""
+"""If neighbouring points differ in luminance by at most this, one sample is enough: a quarter of a grey level."""
 _SAMPLES: Final = (np.indices((FINE, FINE)).reshape(2, -1).T[:, ::-1] + 0.5) / FINE - 0.5
 """Offsets of the samples of a picture point (u, v) from its middle."""
 

@@ -35,7 +35,7 @@ MOST_NAMES: Final = 200
 Kind = Literal["place", "difference", "height"]
 """A place of the hand or of a part (x, y, z, O, A, T), a difference between two places (x, y, z), or a height (z)."""
 SIZES: Final[dict[Kind, int]] = {"place": 6, "difference": 3, "height": 1}
-"""How many numbers a value has, by kind."""
+"""For each kind of value, how many numbers it has."""
 UNITS: Final = ("m", "rad", "N")
 
 
