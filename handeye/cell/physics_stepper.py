@@ -211,8 +211,8 @@ class PhysicsStepper:
         return done
 
     def _midway(self, steps: int, of_hand: BodyPairs) -> bool:
-        """Make middle steps. If the hand gains or loses a contact, if a delicate contact begins, or if a joint that
-        must rest moves, undo them and return False.
+        """Make middle steps. Undo them and return False if the hand gains or loses a contact, if a delicate contact
+        begins, or if a joint moves that must be at rest.
         """
 
         def allowed() -> bool:

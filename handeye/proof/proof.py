@@ -1,4 +1,6 @@
-"""Proves the obligations of a task for a program, or finds for each the path that avoids it."""
+"""Proves the obligations of a task for a program. For each obligation that it cannot prove, it finds a path that
+avoids it.
+"""
 
 from collections.abc import Iterable, Sequence
 from typing import Literal

@@ -72,8 +72,8 @@ def _sheet(shape: tuple[int, ...], view: View, part: Part, large: list[Array]) -
 
 
 def _screw_holes(part: Part, large: list[Array]) -> list[Array]:
-    """Return the centres of the screw holes (in metres, shape (3,)). The seen large holes give their position and
-    their scale, because the scale of the camera may be off.
+    """Return the centres of the screw holes (in metres, shape (3,)). Their positions and their scale follow from the
+    large holes in the picture, because the scale of the camera may be off.
     """
     first, second = (complex(*place[:2]) for place in large)
     drawn, other = (complex(hole.x, hole.y) for hole in part.holes[:2])

@@ -164,7 +164,9 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Return the least step of intensity at an edge: at least two levels, a few times the noise."""
+        """Return the least step of intensity at an edge: the fraction `contrast` of the difference between the face
+        and a hole, but at least two levels, which are a few times the noise.
+        """
         return max(2.0, search.contrast * (self.face - self.dark))
 
 
