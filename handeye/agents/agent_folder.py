@@ -74,7 +74,7 @@ class AgentFolder:
 
     def path(self, name: str) -> Path:
         """Return the place of a file in the folder, which may not exist yet. Raises BadArgument if the name is not a
-        relative one, or leads out of the folder, also through a link.
+        relative one, or leads out of the folder, directly or through a link.
         """
         parts = name.split("/")
         if len(parts) > _DEEPEST or not all(map(_PART.fullmatch, parts)):

@@ -50,7 +50,7 @@ class TaskFiles:
         return own | made
 
     def text(self, name: str, without: frozenset[str] = frozenset()) -> str:
-        """Return the text of the file `FOLDER/NAME`. The files `without` are derived from this one."""
+        """Return the text of the file `FOLDER/NAME`. `without` names the files that are derived from this one."""
         place = f"{self.folder.name}/{name}"
         if name not in self.derived:
             return read_source(self.folder / name).text

@@ -219,7 +219,9 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
 
 @dataclass(eq=False)
 class _PauseOnRequest(Observer):
-    """Pauses a run after the present step if the panic button is pressed, for steps that take no simulated time."""
+    """Pauses a run after the present step if the panic button is pressed. Steps that take no simulated time need this:
+    they have no servo period in which the button is polled.
+    """
 
     session: DebugSession
     halt: Callable[[], bool]

@@ -119,7 +119,9 @@ def _torque(name: str, given: Command, joints: int) -> tuple[float, ...] | None:
 
 
 def _number(name: str, field: str, given: object, before: float) -> float:
-    """Return a command to a device, or the one before if None is given. Raises BadArgument if it is not finite."""
+    """Return a command to a device; if it is None, return the previous command. Raises BadArgument if it is not
+    finite.
+    """
     try:
         number = float(before if given is None else given)  # type: ignore[arg-type]  # of any type: it comes from a user's function
     except (TypeError, ValueError):

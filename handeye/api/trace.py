@@ -66,7 +66,7 @@ class Trace(recorded.Trace):
                 each can be seen.
             speed: how many times faster than the run the video plays; give this instead of `seconds`.
             first: the stage with which the video begins: its number, its name, or part of its name.
-            last: the stage with which the video ends, given likewise.
+            last: the stage with which the video ends, given in the same way.
             captions: show stage and clock, and pause at each picture that the program takes.
             overwrite: replace an existing video.
 
@@ -130,7 +130,7 @@ def compare(
 
     Args:
         a: the folder of a run that has ended, a `trace.mcap`, or an open trace.
-        b: the other run, likewise.
+        b: the other run, in one of the same forms.
 
     Raises:
         InvalidInput: a run cannot be read, or cannot be compared.

@@ -93,8 +93,8 @@ class Scatter(Record, frozen=True, kw_only=True):
 
 
 def swings_unevenly(arm: ArmModel, M: Array, dither: Array, rates: Array) -> bool:
-    """Return True if the rate readings of a joint, shape (N, n), change from each swing to the next by more than
-    the fraction `UNEVEN` of the swing plus two converter steps.
+    """Return True if the rate readings of a joint, shape (N, n), change from each swing to the next by more than two
+    converter steps plus the fraction `UNEVEN` of the swing.
 
     The torques `dither`, shape (n,), in N m and N, shake the joints, and change sign in each servo period. The swing
     is computed for a joint without friction, from the inertia and from the damping of the servo.

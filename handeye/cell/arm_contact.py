@@ -18,7 +18,7 @@ class ArmContact:
 
     def force(self) -> Array:
         """Return the sum of the forces of all contacts on the arm now (N, in W), shape (3,). A held part presses with
-        its weight, its inertia, and whatever it meets.
+        its weight and its inertia, and with the forces of whatever it meets.
         """
         contact, found, sum_ = self._data.contact, np.zeros(6), np.zeros(3)
         own = self._own[contact.geom]

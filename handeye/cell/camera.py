@@ -113,7 +113,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         """Draw pictures without shadows while the context is open. This idealisation is for pictures of the lamp on
         the arm.
 
-        The lamp is found from two pictures that differ only by the lamp, with or without shadows.
+        The lamp is found from two pictures, one with the lamp on and one with it off. Shadows are the same in both.
         """
         self._renderer.shadows = False
         try:

@@ -78,7 +78,7 @@ class Lens:
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
         """Look through a point `at` of the lens, shape (2,), in radii to the right and up. The focus stays
-        unchanged, and the picture is shifted by `shift`, shape (2,), points.
+        unchanged, and the picture is shifted by `shift` (points, shape (2,)).
         """
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at
@@ -109,7 +109,7 @@ _SEED: Final = 1
 _LIGHT: Final = ((np.arange(256) / 255) ** GAMMA).astype(np.float32)
 """Amount of light for each of the 256 values of a pixel."""
 _PLASTIC: Final = np.array([0.7548776662466927, 0.5698402909980532])
-"""Steps of a sequence that fills a square evenly, from the root of x^3 = x + 1."""
+"""Steps of a sequence that fills a square evenly. They are computed from the root of x^3 = x + 1."""
 Progress = Callable[[int, int], None]
 """Function called before each exposure with the number of the exposure, from 1, and the total number."""
 

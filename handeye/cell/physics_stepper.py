@@ -14,8 +14,8 @@ the next step detected the contact, and would throw the part away.
 
 In middle steps all contacts and couplings are made stiffer in the same way, so a change of step changes no force at
 rest. Contacts may begin and end in middle steps, except those of the hand. The task names the *delicate* contacts,
-which need short steps, and the joints that must be at rest, because a screw that is tightened in middle steps clamps
-with less force.
+which need short steps, and the joints that must be at rest in middle steps. A screw that is tightened in middle steps,
+for example, clamps with less force.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. It leaves
 out the second-order term of the motion: half the acceleration times the square of the step. After long steps this
@@ -123,8 +123,8 @@ class _Contacts:
 class PhysicsStepper:
     """Advances the physics of a cell.
 
-    If a contact begins or ends during a long step, the long steps of this period are undone, and short steps are
-    made from the last moment before it. Middle steps are undone if the hand gains or loses a contact, or if a
+    If a contact begins or ends during a long step, the long steps of this period are undone, and short steps are made
+    from the last moment before the change. Middle steps are undone if the hand gains or loses a contact, or if a
     delicate contact begins.
     """
 
@@ -209,8 +209,8 @@ class PhysicsStepper:
         return done
 
     def _midway(self, steps: int, of_hand: BodyPairs) -> bool:
-        """Make middle steps. If the hand gains or loses a contact, if a delicate contact begins, or if a joint that
-        must rest moves, undo them and return False.
+        """Make middle steps. Undo them and return False if the hand gains or loses a contact, if a delicate contact
+        begins, or if a joint moves that must be at rest.
         """
 
         def allowed() -> bool:

@@ -15,7 +15,7 @@ from handeye.vision.camera_model import View
 SKY: Final = 0.1
 """Luminance of the background, where no object is visible. Placeholder."""
 _SMOOTH: Final = 1 / 64
-"""Difference of luminance between neighbouring points up to which one sample will do: a quarter of a grey level."""
+"""If neighbouring points differ in luminance by at most this, one sample is enough: a quarter of a grey level."""
 _SAMPLES: Final = (np.indices((FINE, FINE)).reshape(2, -1).T[:, ::-1] + 0.5) / FINE - 0.5
 """Offsets of the samples of a picture point (u, v) from its middle."""
 
@@ -113,8 +113,8 @@ def cast(
 
 
 def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
-    """Return an array of the shape of the picture that is True where the picture changes: at both points of each
-    pair of neighbours whose geoms or luminances differ.
+    """Return an array in the shape of the picture. It is True where the picture changes: at both points of each pair
+    of neighbours whose geoms or luminances differ.
     """
     rough = np.zeros(geom.shape, dtype=bool)
     for a, b in (

@@ -105,7 +105,7 @@ class ThreadFigures:
     scarred: Set[int] = frozenset()  # holes in which a screw has been crossed before
     crossing: Set[int] = frozenset()  # holes in which every screw crosses
     slipping: Set[int] = frozenset()
-    """Screws on which the bit slips. No thread takes such a screw, even if a part other than the bit turns it a
+    """Screws on which the bit slips. Such a screw enters no thread, even if a part other than the bit turns it a
     little.
     """
 
@@ -355,7 +355,7 @@ class Threads(Mechanism[ThreadsState]):
                 model.dof_frictionloss[self._carriers.friction_of(hole)] = self._torque(thread)
 
     def head_force(self, hole: int) -> float:
-        """Return the force (N) of the head of the screw in a hole on the part beneath."""
+        """Return the force (N) with which the head of a hole's screw presses on the part beneath."""
         rows = self._data.contact.efc_address[self._seats.now()[hole]]
         forces = self._data.efc_force[rows[rows >= 0]]
         return float(forces.sum())  # elliptic cones: a contact's first row is its normal

@@ -19,8 +19,8 @@ GAMMA: Final = 0.7
 NOISE: Final = 1.0  # sigma, levels
 PEAK: Final = 12.5  # level of the bright parts
 BRIGHT: Final = 97  # percentile that counts as the bright parts
-"""Percentile of the signal that counts as the bright parts. This value and the constants above are those of the
-signal chain in the vision study, section 0.1. They are placeholders that give a realistic picture.
+"""The brightness of the bright parts is taken to be this percentile of the signal. This value and the constants above
+are those of the signal chain in the vision study, section 0.1. They are placeholders that give a realistic picture.
 """
 GAIN_WINDOW: Final = 0.6
 """The target voltage is adjusted to the middle of the picture: to this fraction of its width and of its height.

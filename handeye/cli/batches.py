@@ -220,9 +220,9 @@ def compare_trials(
     """Compare batches of trials with a first batch, world by world: how much a sensor, or an error of the world,
     changes the success rate.
 
-    All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches.
-    `p` is from McNemar's exact test: the probability of differences at least this uneven if neither batch is
-    better.
+    All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
+    is from McNemar's exact test: if neither batch is better, the probability that the differences are at least as
+    uneven as here.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

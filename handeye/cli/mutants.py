@@ -66,7 +66,7 @@ def mutant_trials(
     if not work.obligations(spec):
         raise Refused(f"the task {quoted(work.name)} declares no obligations, so no mutant can be proved")
     if most and checkpoints is None and not listed:
-        raise BadArgument("--checkpoints DIR is needed for the runs; --most 0 only proves")
+        raise BadArgument("the runs need --checkpoints DIR; with --most 0, there are only proofs and no runs")
     plan = plan_or_own(None, world.task)
     made = _chosen(list(mutants(plan.program)), only)
     if listed:

@@ -227,7 +227,7 @@ def left_unsaved(teacher: "Teacher") -> bool:
 
 
 def _kept(file: Path | None) -> str:
-    """Advice for when the program called the operator and no person can be asked."""
+    """Advice if the program has called the operator, but no person can answer."""
     if file is None:
         return "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from the saved cell"
     return f"`handeye do --from {file}` continues from there"

@@ -17,7 +17,7 @@ class HostTimer:
 
     @classmethod
     def of_command(cls) -> Self:
-        """Make a timer that starts when handeye was loaded, so that the imports are included.
+        """Make a timer that counts from the moment when handeye was loaded, so that the imports are included.
 
         The timer does not start with the process, because the process may have installed packages or waited before
         it loaded handeye.

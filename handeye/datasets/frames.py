@@ -108,7 +108,7 @@ def _means(values: Array, first: NDArray[np.intp], last: NDArray[np.intp]) -> Ar
 def _last_felt(
     estimated: NDArray[np.bool_], first: NDArray[np.intp], last: NDArray[np.intp]
 ) -> NDArray[np.intp]:
-    """Return the last reading of each frame in which force was estimated, or any reading if there is none."""
+    """Return, for each frame, its last reading with an estimate of force, or its first reading if it has none."""
     newest = np.maximum.accumulate(np.where(estimated, np.arange(len(estimated)), 0))
     return np.maximum(newest[last], first)
 
@@ -128,7 +128,7 @@ def _step_changes(events: Iterable[AnyEvent]) -> Iterator[tuple[float, str]]:
 
 
 def _in_progress(changes: Iterable[tuple[float, str]], moments: Array) -> tuple[str, ...]:
-    """Return for each moment the text that holds from then on."""
+    """Return, for each moment, the text that applies from that moment on."""
     told = [(-np.inf, ""), *changes]
     numbers = np.searchsorted([time for time, _ in told], moments + CLOCKS, side="right") - 1
     return tuple(told[number][1] for number in numbers.tolist())

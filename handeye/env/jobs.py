@@ -31,13 +31,15 @@ class Job(Record, frozen=True, kw_only=True):
     meaning: str  # sentence that says what has to be done
     task: str
     stages: tuple[int, ...] = (0,)
-    """Stages of the program, from 0, before which an episode may start. If there are several, the seed chooses."""
+    """Numbers of the stages before which an episode may start; the first stage of the program is 0. If there are
+    several, the seed chooses.
+    """
     until: int | None = None  # stage of the program, from 0, before which the job ends; None: its end
     limit_s: float  # time limit of an episode, s on the cell's clock
     goal: tuple[str, ...] = ()
     """Beginnings of the names of the referee's findings that must hold. Empty: all findings must hold."""
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
-    """Limits that replace the referee's own because only a part of the work is done, by finding."""
+    """For some findings, limits that replace the referee's own because only a part of the work is done."""
     plants: tuple[str, ...] = ()
     """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit

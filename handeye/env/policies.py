@@ -1,4 +1,4 @@
-"""Policies: what they know, how an episode calls them, and those that are included."""
+"""Policies: what they know, how an episode calls them, and which are included."""
 
 import os
 import sys

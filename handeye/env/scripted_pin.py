@@ -64,7 +64,7 @@ class ScriptedPin(Policy):
             self._go(drive, np.array([*drive.hand()[:2, 3], face + LIFTED]))
 
     def _go(self, drive: ArmDrive, place: Array) -> None:
-        """Move the hand in a straight line: up first if the place is higher."""
+        """Move the hand to a place: first straight up or down, then straight across."""
         here = drive.chain.forward(drive.state.q)[:3, 3]
         for way in (np.array([0.0, 0.0, place[2] - here[2]]), np.array([*(place - here)[:2], 0.0])):
             samples = straight(drive.arm, drive.state.q, way, QUICK) if way.any() else None

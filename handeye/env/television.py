@@ -41,7 +41,7 @@ class Television:
             self._due = max(self._ready, now) + DIGITISE
 
     def expose(self) -> None:
-        """Take the picture that was asked for if it is due, after a servo period has passed."""
+        """After a servo period, take the requested picture if it is due."""
         now = self._drive.cell.clock.now
         if self._due is not None and now >= self._due - self._drive.period / 2:
             self._picture, self._taken, self._due = self._camera.digitise(hold_target=self._held), now, None

@@ -167,9 +167,9 @@ class ServoLoop(Servo):
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
         """Follow set-points through free air. See `following`.
 
-        The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand
-        that is stopped lies behind its set-points from that point on; a hand on which a force acts is displaced all
-        the way.
+        The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand that
+        is stopped lags behind its set-points from that point on; a hand on which a force acts is displaced during the
+        whole motion.
 
         The torques are compared with the arm's weight only if the hand is clear of all objects when the motion
         begins. After a guarded motion, for example, a held pin may stand in a hole, which then bears weight.
@@ -402,7 +402,7 @@ class ServoLoop(Servo):
     def _lagging(self, swing: Array) -> tuple[int, float]:
         """Find the joint whose following error is largest relative to its limit. Returns the joint and this ratio.
 
-        `swing`, shape (2, n), records the largest ratio of each joint to either side.
+        `swing`, shape (2, n), records, for each joint, the largest ratio on either side of the set-point.
         """
         off = (self.state.here - self.state.q) / constants(self.arm).lag
         np.maximum(swing, off * _SIDES, out=swing)

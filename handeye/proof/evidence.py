@@ -114,7 +114,9 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
 
 
 def touches(guards: Guards, along: Vector3, force: Limits) -> bool:
-    """Return True if each of some guards trips within limits of the force against a motion along a direction."""
+    """Return True if all guards, at least one, trip on a force against a motion along `along`, within the limits
+    `force`.
+    """
     felt = [guard.exerted(along) for guard in guards if isinstance(guard, Force | Against)]
     return bool(felt) and len(felt) == len(guards) and all(
         load is not None

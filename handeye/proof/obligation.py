@@ -1,4 +1,4 @@
-"""Obligations: what a task asks of every program, finding by finding of its referee."""
+"""Obligations: what a task requires every program to show, for each finding of the task's referee."""
 
 from msgspec.structs import replace
 

@@ -1,4 +1,4 @@
-"""How far a claim is shown at each node: the number of its phases that every path there has shown."""
+"""How far a claim is shown at each node: the number of its phases that every path to the node has shown."""
 
 from dataclasses import dataclass, field
 from heapq import heappop, heappush

@@ -1,4 +1,6 @@
-"""Proves the obligations of a task for a program, or finds for each the path that avoids it."""
+"""Proves the obligations of a task for a program. For each obligation that it cannot prove, it finds a path that
+avoids it.
+"""
 
 from collections.abc import Iterable, Sequence
 from typing import Literal
@@ -205,8 +207,8 @@ class _Prover:
         return WayStep(step=number, raised=edge.outcome or None, taken=edge.taken if branches else None)
 
     def _leaves(self, form: Effects, way: list[Leg]) -> int | None:
-        """Return the number of the last leg from whose node another path can still show the last phase of the claim,
-        although this path does not.
+        """Find the last node of a path from which another path can still show the last phase of the claim. Return the
+        number of the leg that leaves this node.
         """
         last = {key for key, phase in form.showing.items() if phase == form.whole - 1}
         able = {node for node, _ in last}
@@ -220,7 +222,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Return the index of the last leg of a path that takes back what was shown of a claim."""
+    """Find the last leg at which a path takes back what it had shown of a claim, and return the leg's index."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

@@ -28,14 +28,14 @@ less.
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
 """Change (m) of the gap up to which the hand still holds the same part. Our choice: a part that straightens between
-the fingers changes the gap by up to 1.1 mm / 2 each way.
+the fingers makes the gap up to .55 mm wider or narrower.
 """
 MOST_NAMES: Final = 200
 
 Kind = Literal["place", "difference", "height"]
 """A place of the hand or of a part (x, y, z, O, A, T), a difference between two places (x, y, z), or a height (z)."""
 SIZES: Final[dict[Kind, int]] = {"place": 6, "difference": 3, "height": 1}
-"""How many numbers a value has, by kind."""
+"""For each kind of value, how many numbers it has."""
 UNITS: Final = ("m", "rad", "N")
 
 

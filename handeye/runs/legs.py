@@ -56,7 +56,7 @@ class RunningLeg(RunningSystem):
         """
 
     def take_back(self, station: StationMemory) -> None:
-        """Take the arm back from the program of the next leg, which has undone its steps. The arm stands about where
+        """Take the arm back from the program of the next leg, which has undone its steps. The arm is roughly where
         this program left it. Only a program that can undo its own steps needs this method.
         """
         raise NotImplementedError

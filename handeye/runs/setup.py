@@ -18,7 +18,7 @@ class Setup(Record, frozen=True, kw_only=True):
     camera: str  # how to make pictures: `auto`, `gl` or `ray`
     judged: bool = False  # the referee judges the result; this does not change the course of the run
     limits: dict[str, float] = msgspec.field(default_factory=dict)
-    """Limits that replace the limits of the task's referee, by finding, in the units of the findings."""
+    """By finding, the limits that replace those of the task's referee. Each is in the unit of its finding."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)  # the caller's own code, by part
     without: tuple[str, ...] = ()  # senses that are switched off for the program, in the order of `SENSES`
 

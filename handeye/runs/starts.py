@@ -1,8 +1,8 @@
 """The states in which stages of a program begin. The program is executed up to a stage once per world, and the state
 is then kept.
 
-A start is a checkpoint. It depends on the plan, the world, the renderer, the versions and the kind of processor, and
-a digest of all of these is the name of its file, so a file made under other conditions is never used.
+A start is a checkpoint. It depends on the plan, the world, the renderer, the versions and the kind of processor. The
+name of its file is a digest of all of these, so a file made under other conditions is never used.
 """
 
 import hashlib
@@ -121,7 +121,9 @@ class StartStates:
 
 
 def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
-    """Return a start in whose world a fault begins with the stage of the fault; until then the two worlds are equal."""
+    """Return a start with one more fault in its world. The fault begins with a stage; until then the two worlds are
+    equal.
+    """
     setup, snapshot = start.setup, start.snapshot
     assert snapshot is not None
     assert snapshot.cell is not None

@@ -222,7 +222,7 @@ class Task(AnyTask):
         """
 
     def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
-        """Return what a program must show before it ends, finding by finding of the referee; none by default. Each
+        """Return, for each finding of the referee, what a program must show before it ends; none by default. Each
         finding occurs once. The obligations depend on the job of the world, but not on its errors."""
         return ()
 

@@ -94,7 +94,7 @@ class Repl:
 
 
 def _do(repl: Repl, rest: str) -> Answer:
-    """Execute the collected lines or, if `rest` names one, an instruction, macro or program."""
+    """Execute the instruction, macro or program in `rest`; if `rest` is empty, execute the collected lines."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
             raise Refused(

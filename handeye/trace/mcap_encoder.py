@@ -1,7 +1,7 @@
 """Encodes an MCAP file piece by piece, for a file that is appended to while a run goes on.
 
-The bytes are those of `mcap.writer.Writer`, at a fifth of its time. Unlike that writer, this encoder can also encode a
-chunk that has not ended.
+The bytes are the same as from `mcap.writer.Writer`, but encoding takes a fifth of the time. Unlike that writer, this
+encoder can also encode a chunk that has not ended.
 """
 
 import struct
@@ -42,7 +42,9 @@ _CRC: Final = struct.Struct("<I")
 
 
 class McapEncoder:
-    """Encodes an MCAP file. Its pieces, written one after another, are the file; only a part of a chunk is not."""
+    """Encodes an MCAP file in pieces, which form the file when they are written one after another. The results of
+    `part` do not belong to the finished file: the whole chunk replaces them.
+    """
 
     def __init__(self) -> None:
         self.size = 0  # bytes of the pieces so far

@@ -30,10 +30,10 @@ class MovedFrames:
         Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
         has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
 
-        A pose is compared with the last one written, and that may be one of these poses. The loop first compares all
-        with the pose written before them. From what this shows, it takes the last pose written before each time, and
-        compares again, until nothing changes. Each round settles at least one more time; frames that rest, or that
-        move all the time, need at most three rounds.
+        Each pose is compared with the last one written, which depends on the comparisons before it. The first round
+        assumes that nothing was written. Each further round starts from the rows that the round before it chose to
+        write. The rounds end when nothing changes. Each round settles at least one of the `m` times. Frames that rest,
+        or that move all the time, need at most three rounds.
         """
         poses[~there, 2] = 2 * PUT_AWAY
         rows = np.concatenate([self.written[None], poses])

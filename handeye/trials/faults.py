@@ -217,7 +217,7 @@ def _named(expected: ExpectedDetection, result: Result) -> bool:
 
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:
-    """Return True if a run stopped in a stage in which the name of the fault is correct."""
+    """Return True if the errors and messages expected for the fault are right in the stage in which the run stopped."""
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 
 

@@ -39,7 +39,7 @@ not check the limit.
 """
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
-"""Ends that depend on this computer and not on the program, so that a repetition may end differently."""
+"""How a trial ends if this computer is the reason and not the program. A repetition may then end differently."""
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
     "simulated limit": "reached the limit of simulated time",

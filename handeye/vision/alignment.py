@@ -15,7 +15,7 @@ from handeye.ports.camera import Picture
 
 MAX_SHIFT: Final = 4  # points, both along and across the lines
 CHANGED: Final = 3.0
-"""Difference (levels) from which a point counts as changed. Greater differences count as this one."""
+"""Difference (levels) from which a point counts as changed. A greater difference is replaced by this value."""
 AREA: Final = 11  # side of a square, points
 QUIET: Final = 1.2  # levels; a square with a smaller mean difference has not changed
 CLEAR: Final = 15  # side, points, of a square that must be free of changes and of soft shadow edges

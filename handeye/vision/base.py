@@ -92,8 +92,8 @@ def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turn
 
 OUTLINE_STEP: Final = 2.0  # levels, from background to part
 SHRINK: Final = (0.0, 0.6 * INCH, 1.2 * INCH)
-"""Distances (m) by which the sides of the window are moved inwards, tried one after another. If the camera is off,
-neighbouring parts may reach into the window.
+"""Distances (m) by which the sides of the window are moved inwards, tried one after another. If the camera model is
+inaccurate, neighbouring parts may reach into the window.
 """
 SCREW_HOLES: Final = 2 / 3  # fraction that must be visible at the places given by the two large holes
 

@@ -2,7 +2,8 @@
 
 A gasket changes the intensity of the face that it covers, in light and in shadow. Where a piece of the gasket is
 missing, the face looks the same in both pictures. A pin also looks the same, but its intensity usually differs from
-that of the face, so only those points count that look like the covered face in the picture taken before.
+that of the face, so only those points count that, in the picture taken before, look like the face that the gasket then
+covers.
 """
 
 from typing import Final
@@ -20,8 +21,8 @@ from handeye.vision.camera_model import View
 MAX_BARE: Final = 40e-6
 """Greatest permitted bare area (m2) in a square with the side WINDOW (m).
 
-In 139 sound worlds, the greatest area was 21 mm2. Mean and five standard deviations were 34 mm2 in 60 worlds of the
-nominal level, and 30 mm2 in 79 worlds of the high level. The edges of pins cause most of the area.
+In 139 sound worlds, the greatest area was 21 mm2. The mean plus five standard deviations was 34 mm2 in 60 worlds of
+the nominal level, and 30 mm2 in 79 worlds of the high level. The edges of pins cause most of the area.
 """
 WINDOW: Final = 0.6 * INCH
 WALL: Final = 0.4 * INCH  # width (m) of the examined sheet around a large hole; drawn: at least .575 in
@@ -71,8 +72,8 @@ def _sheet(shape: tuple[int, ...], view: View, part: Part, large: list[Array]) -
 
 
 def _screw_holes(part: Part, large: list[Array]) -> list[Array]:
-    """Return the centres of the screw holes (in metres, shape (3,)). The seen large holes give their position and
-    their scale, because the scale of the camera may be off.
+    """Return the centres of the screw holes (in metres, shape (3,)). Their positions and their scale follow from the
+    large holes in the picture, because the scale of the camera may be off.
     """
     first, second = (complex(*place[:2]) for place in large)
     drawn, other = (complex(hole.x, hole.y) for hole in part.holes[:2])

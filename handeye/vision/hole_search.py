@@ -143,8 +143,8 @@ SEARCHES: Final = (
     HoleSearch(5, True, 0.20),
     HoleSearch(5, True, 0.20, face=0.4),
 )
-"""Searches, in the order in which they are tried. Starting with a small contrast would find more false holes. The
-last search is for a shadow of the arm across the face, which did not occur in the vision study.
+"""Searches, in the order in which they are tried. Starting with a small contrast would find more false holes. The last
+search is for pictures in which the shadow of the arm falls across the face. The vision study had no such pictures.
 """
 
 
@@ -164,7 +164,9 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Return the least step of intensity at an edge: at least two levels, a few times the noise."""
+        """Return the least step of intensity at an edge: the fraction `contrast` of the difference between the face
+        and a hole, but at least two levels, which are a few times the noise.
+        """
         return max(2.0, search.contrast * (self.face - self.dark))
 
 

@@ -43,7 +43,7 @@ FAINT: Final = 3.3
 
 Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
 (five worlds). There, a missing head gives at least 3.7 levels, so at a contrast of 2.9 levels it would give 1.6, which
-is `DIFFERENT`. The rest is a margin for the noise.
+is `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
 """
 BESIDE: Final = 12
 """Width (points) of a strip around the part that counts neither as part nor as surroundings.

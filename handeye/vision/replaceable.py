@@ -1,7 +1,7 @@
 """The vision functions that a calling program can replace, and wrappers for its own functions.
 
-A wrapper checks the result of the caller's function. It adds where the part would appear in the picture if it were at
-the place that the function returned; reports mark this place.
+A wrapper checks the result of the caller's function. The wrapper also computes where the part would appear in the
+picture if it were at the place that the function returned. Reports mark this place.
 """
 
 from collections.abc import Callable, Mapping

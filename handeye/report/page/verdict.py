@@ -156,8 +156,8 @@ def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
 
 
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
-"""Kinds of events that cannot explain an outcome: events without sensor readings, and events that are themselves
-the reason for the outcome.
+"""Kinds of events that add nothing to the reason for an outcome: events without sensor readings, and events that
+report the reason itself.
 """
 _SAID: Final = 4
 

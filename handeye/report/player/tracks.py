@@ -65,8 +65,8 @@ def _needed(poses: Array) -> Rows:
 
 
 UNIT: Final = 0x1FFF
-"""Value of 1 in a quaternion component; rounding causes a turn of at most .01 degrees. The script has the same
-constant.
+"""The whole number that stores a quaternion component of 1. Rounding causes a turn of at most .01 degrees. The script
+has the same constant.
 """
 
 

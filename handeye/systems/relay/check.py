@@ -74,7 +74,7 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
 
 
 def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
-    """Yield each line of the task's own program for whose operation the language of the leg has no word. Stages are
+    """Yield the lines of the task's own program whose operations the language of the leg cannot express. Stages are
     compared by name.
     """
     program, file = _own_program(plan.task)

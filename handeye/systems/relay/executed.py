@@ -29,7 +29,7 @@ def memories(plan: RelayPlan, state: RelayCore) -> dict[str, SystemState]:
 
 
 def fits(plan: RelayPlan, state: RelayCore) -> bool:
-    """Return True if all places of a state are in a relay."""
+    """Return True if the relay has the leg and the step numbers that a state contains."""
     count = range(len(listing(plan).steps))
     return state.leg in range(len(plan.legs)) and all(
         number is None or number in count for number in (state.at, state.onward)

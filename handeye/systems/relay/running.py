@@ -369,15 +369,15 @@ class RunningRelay(RunningSystem):
         self._keep_memories()
 
     def _keep_memories(self) -> None:
-        """Let the state hold the memories of the programs themselves, which change in place."""
+        """Let the state hold the programs' own memories, not copies: a program changes its memory in place."""
         for program in self._plan.programs:
             getattr(self._state, program.system)[program.file] = self._programs[program.file].state
 
     # -- events -------------------------------------------------------------------------------------------
 
     def _retell(self, event: AnyEvent) -> None:
-        """Emit an event of a program with the numbers and stages of the relay. An order that several programs execute
-        is ordered once, and ends once.
+        """Emit an event of a program with the numbers and stages of the relay. An order to undo steps gives one
+        `UndoOrdered` and one `UndoEnded`, even if several programs execute it.
         """
         if isinstance(event, UndoOrdered):
             if self._state.undoing is not None:

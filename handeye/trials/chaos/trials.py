@@ -215,7 +215,8 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
-    """The same trial with a schedule reduced as far as possible while it still fails; None if the trial does not fail.
+    """The same trial with the schedule made as short as possible, so that the trial still fails; None if the trial
+    does not fail.
     """
 
     @property

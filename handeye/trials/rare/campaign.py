@@ -136,7 +136,7 @@ class Campaign:
         return self.space.world(point)
 
     def write(self, name: str, row: RareRow, world: WorldSpec) -> None:
-        """Write a world in which the program fails into the folder of the batch, if there is one."""
+        """If the batch has a folder, write a failing world into it."""
         if self.folder is None:
             return
         place = self.folder.path / WORLDS

@@ -1,4 +1,5 @@
-"""Finds the worlds nearest to the middle of all quantities in which a program fails, and what pushes it to fail.
+"""Finds, of the worlds in which a program fails, those nearest to the middle of all quantities; and what pushes the
+program to fail.
 
 A world in which the program fails differs from the middle in every quantity, although few of them matter. So the
 quantities of a failing world return to the middle of their ranges, first in groups, then one by one, as long as the

@@ -41,8 +41,8 @@ class WorldSpace:
         return Point(np.array([*found], dtype=float), seed)
 
     def world(self, point: Point) -> WorldSpec:
-        """Return the world of a point. A value beyond the limits of its quantity, which an error of four times its
-        size can cause, is set to the limit.
+        """Return the world of a point. Errors can be scaled to four times their size; a value that is then beyond a
+        limit of its quantity is set to the limit.
         """
         values = {
             name: self._value(each, float(number))
@@ -53,8 +53,8 @@ class WorldSpace:
         return replace(self._base, seed=point.noise, overrides=overrides)
 
     def deviations(self, numbers: Array) -> Array:
-        """Return how far each quantity is from its middle, in standard deviations, shape (n,). Beyond the range of
-        a quantity, a greater number does not change its value, and is not counted.
+        """Return how far each quantity is from its middle, in standard deviations, shape (n,). A number that would
+        take its quantity beyond the range counts only up to the end of the range.
         """
         return np.clip(numbers, -self._widest, self._widest)
 

@@ -1,4 +1,4 @@
-"""What a program has left, while it works, of its searches, its counted loops and its checks."""
+"""What a program has in reserve while it works: in its searches, in its counted loops and in its checks."""
 
 from typing import Final
 

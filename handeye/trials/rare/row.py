@@ -37,7 +37,8 @@ class RareRow(Row, frozen=True, kw_only=True):
     """A run, with what the program had left."""
 
     left: Mapping[str, float] = {}
-    """The least that the program had left of each search, counted loop and check; see `Reserves`."""
+    """For each search, each loop with a counter, and each check: the least that the program had left; see `Reserves`.
+    """
     world: str = ""  # digest of the world; empty if the run was lost
 
     @property
@@ -87,8 +88,8 @@ class Usual:
 
 
 def usual(rows: Sequence[RareRow]) -> Usual:
-    """Return what the runs of a first level usually have left. Parts of which half of the runs have nothing left
-    are left out: they say nothing about how close a run was to failing.
+    """Return what the runs of a first level usually have left. A part is omitted if at least half of the runs have
+    nothing left of it: such a part does not show how close a run was to failing.
     """
     judged = [limits_left(row.result.referee) for row in rows if row.result is not None]
     return Usual(program=_medians([row.left for row in rows]), referee=_medians(judged))

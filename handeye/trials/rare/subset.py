@@ -20,7 +20,8 @@ from handeye.trials.rare.points import Point
 SHARE: Final = 0.1
 """Probability of a level, given the level before it; Au and Beck."""
 ACCEPTED: Final = 0.44
-"""The share of candidates that the step of the proposal is adapted to; Papaioannou and others."""
+"""The step of the proposal is adapted so that about this share of the candidates is accepted; Papaioannou and others.
+"""
 FIRST_STEP: Final = 0.6  # Papaioannou and others
 SMALLEST_STEP: Final = 0.02
 REDRAWN: Final = 0.5
@@ -150,7 +151,7 @@ class _Walk:
         self._step = min(1.0, max(SMALLEST_STEP, step))
 
     def _candidate(self, point: Point) -> Point:
-        """Propose a world. The proposal alone would leave independent standard normal numbers unchanged."""
+        """Propose a world. If every proposal were accepted, the numbers would stay independent and standard normal."""
         drawn, kept = self._rng.standard_normal(len(point.numbers)), math.sqrt(1 - self._step**2)
         redrawn, noise = self._rng.random() < REDRAWN, int(self._rng.integers(LARGEST_SEED, endpoint=True))
         return Point(kept * point.numbers + self._step * drawn, noise if redrawn else point.noise)

@@ -152,7 +152,7 @@ def forged(path: str, value: object) -> bytes:
         ),
         ("nodes.21.loop", None, "step 21, of type loop, needs loop data"),
         ("nodes.21.loop.bloop", 1, "has no partner"),
-        ("nodes.21.loop.wanted", -4, "has gone back 0 times of -4"),
+        ("nodes.21.loop.wanted", -4, "has a count of -4, but has gone back 0 times"),
         ("nodes.4.type", "jump", "step 4: Invalid enum value 'jump'"),
         ("nodes.4.type", "top", "not numbered consecutively from the top"),
         ("nodes.4.type", "none", "step 4 has the type none, which it cannot have"),

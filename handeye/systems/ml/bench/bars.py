@@ -15,8 +15,8 @@ DENSITY: Final = 2700.0  # kg/m3: a bar weighs 26.5 g
 SOFT: Final = [0.0, 0.99, 0.0005, 0.5, 2.0]
 """Impedance of a contact that begins softly: it rises from 0 to that of other contacts over the first half millimetre.
 
-A bar that lies on the edges of others touches them at corners that come and go. Where the impedance begins at .95, such
-a bar rocks for ever, at up to 16 mm/s, and keeps the pile awake.
+A bar that lies on the edges of others touches them at corners that come and go. If the impedance begins at .95 instead
+of 0, such a bar rocks for ever, at up to 16 mm/s, and keeps the pile awake.
 """
 
 

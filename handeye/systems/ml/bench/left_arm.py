@@ -101,7 +101,7 @@ class LeftArm(Axes, Mechanism[LeftState]):
     def signal(self, interlock: str, *, on: bool = True) -> None:
         """Switch the signal of an interlock on or off, as a person or a device of the room does."""
         if interlock not in INTERLOCKS:
-            raise NoSuchName(f"there is no interlock {interlock}; there are {', '.join(INTERLOCKS)}")
+            raise NoSuchName(f"there is no interlock {interlock}; the interlocks are {', '.join(INTERLOCKS)}")
         self._signalled = tuple(sorted({*self._signalled} - {interlock} | ({interlock} if on else set())))
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -1,10 +1,10 @@
 """Detects from touches and turns that a follower, a program that follows an outline, has closed its circuit or is lost.
 The program of the paper detects neither, and runs on for ever.
 
-When a circuit is closed, left turns outnumber right turns by four. A follower that misses its wall turns left four
-times without a touch. In this way it goes around a square, whose sides are one step long, back to where it was. The
-turns of such a square are not counted. The follower then tries again; because each motion ends at a slightly different
-place, it often finds the wall. If it has not found the wall after `IDLE` squares, it is lost.
+When a circuit is closed, left turns outnumber right turns by four. If a follower misses its wall, it turns left four
+times without a touch. It goes around a square with sides of one step, and is back where it was. The turns of such a
+square are not counted. The follower then tries again; because each motion ends at a slightly different place, it often
+finds the wall. If it has not found the wall after `IDLE` squares, it is lost.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,6 @@
-"""The referee of the follower: it compares the touches that the computer knows with the true outline of the plate."""
+"""The referee of the follower: it takes the touches that the computer knows, and compares them with the true outline
+of the plate.
+"""
 
 from typing import Final
 

@@ -109,7 +109,7 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
     "bad-name": Mistake(
         meaning="a name is already that of a command or a table, or contains characters other than letters, digits "
         "and `_`",
-        example="STOP EQU 5", cure="choose another name, which begins with a letter",
+        example="STOP EQU 5", cure="choose another name; it must begin with a letter",
     ),
     "name-twice": Mistake(
         meaning="a name is defined twice", example="A EQU 5\nA VAR", cure="give each value a different name",

@@ -40,7 +40,7 @@ class Command(Record, frozen=True, kw_only=True):
         return _counts(self.usage)
 
     def kind(self, number: int) -> Kind:
-        """The kind of a parameter, counted from 0."""
+        """The kind of the parameter with this number, from 0."""
         names = _names(self.usage)
         name = names[min(number, len(names) - 1)]
         return _KINDS.get(name) or _KINDS.get(name.rstrip("0123456789"), "value")

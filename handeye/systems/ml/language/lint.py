@@ -151,8 +151,8 @@ def _number(sensor: Parameter) -> int:
 
 
 def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
-    """Warn if the jolt at the start of a motion is beyond the limit of a finger's strain gauge. A mass m on springs of
-    stiffness k that starts with speed v pulls with v sqrt(k m).
+    """Warn if the jolt at the start of a motion is beyond the limit of a finger's strain gauge. If a mass m on springs
+    of stiffness k starts with speed v, it pulls with the force v sqrt(k m).
     """
     if not watch.limits:
         return

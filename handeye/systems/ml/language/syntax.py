@@ -52,7 +52,7 @@ class Line(Record, frozen=True, kw_only=True):
     spans: tuple[Span, ...]
 
     def place(self, parameter: int) -> Span:
-        """The span of a parameter, counted from 0. If there is no such parameter, the span of the command."""
+        """The span of the parameter with this number, from 0; if there is none, the span of the command."""
         return self.spans[parameter + 1] if parameter + 1 < len(self.spans) else self.spans[0]
 
 

@@ -141,7 +141,7 @@ class BorrowedArm(PerfectMotors):
         return (motor.place + motor.steps * self._share(number, motor)) * STEP_MM
 
     def _share(self, number: int, motor: MotorMemory) -> float:
-        """Return the share of its motion that a motor should have made by now."""
+        """Return the fraction of a motor's motion that should be complete by now."""
         if not motor.steps:
             return 0.0
         s = (self._memory.now - motor.begun) / max(1.0, motor.until - motor.begun - SETTLES * 1e6)

@@ -3,8 +3,8 @@
 The corner X1 = 0, Y1 = 0 of the board is at x = 350 and y = 800 mm on the table, and Z1 = 0 is 240 mm above it. The
 hand points straight down, with its fingers along Y. When a leg begins, the hand is brought straight to the nearest
 place of the board, and the axes count from their origins. A place in the record with the name NAME is in the variables
-NAMEX, NAMEY and NAMEZ (mm), if the program uses them, and a height is in NAMEH, as a place of Z1. A leg hands over the
-variables NAMEX, NAMEY and NAMEZ that it sets.
+NAMEX, NAMEY and NAMEZ (mm), if the program uses them. A height with this name is in NAMEH, as a coordinate of Z1. A
+leg hands over the variables NAMEX, NAMEY and NAMEZ that it sets.
 """
 
 from collections.abc import Mapping, Sequence
@@ -102,7 +102,7 @@ class LegArm(BorrowedArm):
         return not self._memory.devices[NUMBERS["HAND1"]].get(0)
 
     def hold(self) -> None:
-        """Close the hand from the start, because it holds a part."""
+        """Let the program begin with a closed hand, because the hand holds a part."""
         self._memory.devices[NUMBERS["HAND1"]][0] = 1
 
 

@@ -1,4 +1,4 @@
-"""Faults of SUPERSIGMA in physics: those that DIAGNOSE searches for, planted in the gantries and on their bus."""
+"""The faults that DIAGNOSE searches for, planted in the simulated gantries and on their bus."""
 
 from collections.abc import Sequence
 from functools import cache

@@ -56,7 +56,7 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def in_order(lines: Sequence[Line]) -> list[Line]:
-    """Sort lines by their numbers. Each line gets the task to which it belongs in that order."""
+    """Sort lines by their numbers. Each line gets the task that began last in this order, at this line or before it."""
     ordered, task = [], MAIN
     for line in sorted(lines, key=lambda line: line.number):
         if line.statement.word == "TASK":

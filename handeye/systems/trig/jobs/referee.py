@@ -85,7 +85,7 @@ def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Finding
     return {
         "pallet": at_most(off * _MM, 0.0, "mm", "distance of the position PALLET from its taught place"),
         "loops": at_most(
-            max(counts, default=0), 0, "rounds", "greatest number of rounds that a loop still counts as done"
+            max(counts, default=0), 0, "rounds", "greatest number of rounds that the counter of a loop shows"
         ),
     }
 

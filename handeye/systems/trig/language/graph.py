@@ -268,8 +268,8 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one edge that is not a link. A node keeps its old own edge if that edge is still
-    connected to the top.
+    """Give every node exactly one edge that is not a link. A node keeps its own edge if that edge is still connected
+    to the top.
     """
     placed = {TOP}
     _follow(graph, TOP, placed)

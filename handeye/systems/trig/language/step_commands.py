@@ -95,7 +95,7 @@ def save(session: Session, given: Arguments) -> None:
 
 
 def check_no_opposite(session: Session, name: str) -> None:
-    """Raise Refused if a step uses the opposite of a position that would become absolute."""
+    """Raise Refused if a step uses the opposite of the position `name`, which therefore cannot become absolute."""
     if any(node.negate for node in session.program.users(name)):
         raise Refused(f"{name} cannot become absolute, because a step goes to -{name}; D deletes the step")
 

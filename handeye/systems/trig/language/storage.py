@@ -78,7 +78,7 @@ def _loop_faults(graph: Graph) -> Iterator[str]:
         elif node.type == "bloop" and node.partner not in graph.distances(id):
             yield f"the loop {node.partner} is not below the step that it goes back to"
         if not 0 <= node.count <= node.wanted:
-            yield f"the loop {id} has gone back {counted(node.count, 'time')} of {node.wanted}"
+            yield f"the loop {id} has a count of {node.wanted}, but has gone back {counted(node.count, 'time')}"
 
 
 def _step_faults(node: Node, positions: Positions) -> Iterator[str]:

@@ -1,1 +1,1 @@
-"""What a program of the pump must show before it may end, finding by finding of the referee."""
+"""What a program of the pump must show before it may end, for each finding of the referee."""

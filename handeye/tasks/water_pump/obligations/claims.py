@@ -67,7 +67,7 @@ class PumpClaims:
         )
 
     def driven(self, hole: int) -> Claim:
-        """Return the claim that the torque stop ended a drive at a hole."""
+        """Return the claim that the torque stop ended the driving of a screw at a hole."""
         socket = self.places.socket(hole)
         return Claim(
             says="the torque stop ends a drive",
@@ -81,8 +81,8 @@ class PumpClaims:
         )
 
     def tight(self, hole: int) -> Claim:
-        """Return the claim that the torque stop ended one more drive at a hole, after all screws had gone into their
-        threads.
+        """Return the claim that, after all screws had gone into their threads, the screw at a hole was driven once
+        more, until the torque stop.
         """
         socket = self.places.socket(hole)
         driven = [self.threaded(each).phases[0].by for each in range(self.places.screws)]
@@ -98,7 +98,7 @@ class PumpClaims:
         )
 
     def threaded(self, hole: int) -> Claim:
-        """Return the claim that a drive at a hole went down by the length of the thread."""
+        """Return the claim that the hand went down by the length of the thread while it drove a screw at a hole."""
         socket = self.places.socket(hole)
         return Claim(
             says="a drive goes down by the length of the thread before the torque stop ends it",
@@ -331,7 +331,7 @@ class PumpClaims:
         return Claim(says="the fingers open after their last grip", phases=(opened,), at_first=True)
 
     def gentle(self) -> Claim:
-        """Return the claim that no drive had a torque stop above the torque of the clutch."""
+        """Return the claim that no screw was driven with a torque stop above the torque of the clutch."""
         strong = Contacted(of=Contact(where=self.places.pump, torque=Limits(TORQUE.high, math.inf)))
         return Claim(
             says="no drive has a torque stop above 45.5 oz-in",
