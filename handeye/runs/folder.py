@@ -5,6 +5,7 @@ The folder is an observer of the run: it records the run without changing it.
 
 import os
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -174,7 +175,8 @@ class RunFolder(Observer):
 
     def _remove_outcome(self) -> None:
         for name in _outcomes():
-            (self.path / name).unlink(missing_ok=True)
+            with suppress(IsADirectoryError):  # whoever writes the outcome reports a folder in its place
+                (self.path / name).unlink(missing_ok=True)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         assert self._recorder is not None
@@ -198,10 +200,10 @@ class RunFolder(Observer):
             )
 
     def close(self) -> None:
-        if self._continued and not self._closed:
-            self._remove_outcome()
         if self._journal is not None:
             self._journal.close()
+        if self._continued and not self._closed:
+            self._remove_outcome()
         if self._recorder is not None:
             self._recorder.close()
             if not self._closed and not self._recorder.broken:
