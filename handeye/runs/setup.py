@@ -18,7 +18,8 @@ class Setup(Record, frozen=True, kw_only=True):
     camera: str  # how to make pictures: `auto`, `gl` or `ray`
     judged: bool = False  # the referee judges the result; this does not change the course of the run
     limits: dict[str, float] = msgspec.field(default_factory=dict)
-    """By finding, the limits that replace those of the task's referee. Each is in the unit of its finding."""
+    """For each finding named here, a limit that replaces the limit of the task's referee, in the unit of the finding.
+    """
     replaced: dict[str, str] = msgspec.field(default_factory=dict)  # the caller's own code, by part
     without: tuple[str, ...] = ()  # senses that are switched off for the program, in the order of `SENSES`
 

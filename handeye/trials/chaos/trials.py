@@ -215,7 +215,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
     drawn: ScheduleResult | None = None  # Its result; None: it did not finish
     shrunk: ScheduleResult | None = None
-    """The same trial with the schedule made as short as possible, so that the trial still fails; None if the trial
+    """The same trial with the shortest failing schedule that was found; None if the trial
     does not fail.
     """
 
