@@ -32,7 +32,9 @@ def phrases(folder: Path, language: str) -> Phrases:
 
 
 def end_of_brief(task: "BenchTask", own: str) -> str:
-    """Return the paragraphs that end the brief of a task, after its `own` text: what counts, and how to try a program."""
+    """Return the paragraphs that end the brief of a task: what counts, and how to try a program. `own` is the text
+    before them.
+    """
     file, program = task.file, task.program
     taught = ", with its taught positions in `solution.toml`" if file.language == "al" else ""
     told = phrases(task.folder.parent, file.language)
