@@ -31,17 +31,22 @@ def phrases(folder: Path, language: str) -> Phrases:
         raise BadFile(f"{file} cannot be used for programs in .{language}: {error}") from None
 
 
-def end_of_brief(task: "BenchTask") -> str:
-    """Return the paragraphs that end the brief of a task: what counts, and how to try a program."""
+def end_of_brief(task: "BenchTask", own: str) -> str:
+    """Return the paragraphs that end the brief of a task: what counts, and how to try a program. `own` is the text
+    before them.
+    """
     file, program = task.file, task.program
     taught = ", with its taught positions in `solution.toml`" if file.language == "al" else ""
     told = phrases(task.folder.parent, file.language)
+    lists = " What this brief says about the worlds replaces what `handeye world` lists." * (
+        "handeye world" in own
+    )
     check = told.check.format(program=program, task=file.task)
     return (
         f"**What to leave.** Your program, as `{program}` in this folder{taught}.\n\n"
         f"**What counts.** Score: (accepted - 2 silent) / worlds. {_counts(task, told)}\n\n"
         f"**How to try it.** `handeye bench agents {task.name} --try .` judges your program {_where(task)}. "
-        f"`handeye {check}` {told.checked}. {_manual(task)}\n"
+        f"`handeye {check}` {told.checked}.{lists} {_manual(task)}\n"
     )
 
 

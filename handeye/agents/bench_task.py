@@ -96,7 +96,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
     def brief(self) -> str:
         """The page that the entrant reads."""
         own = read_source(self.folder / BRIEF).text.rstrip()
-        return f"{_SHARED.sub(self._shared, own)}\n\n{end_of_brief(self)}"
+        return f"{_SHARED.sub(self._shared, own)}\n\n{end_of_brief(self, own)}"
 
     def _shared(self, found: re.Match[str]) -> str:
         """Return a text that several briefs share, and that a line of this brief names."""
