@@ -1,6 +1,6 @@
 """Encodes an MCAP file piece by piece, for a file that is appended to while a run goes on.
 
-The bytes are those of `mcap.writer.Writer`, at a fifth of its time. Unlike that writer, this encoder can also encode a
+The bytes are those of `mcap.writer.Writer`, in a third of its time. Unlike that writer, this encoder can also encode a
 chunk that has not ended.
 """
 
