@@ -1,6 +1,6 @@
 """Encodes an MCAP file piece by piece, for a file that is appended to while a run goes on.
 
-The bytes are the same as from `mcap.writer.Writer`, but encoding takes a fifth of the time. Unlike that writer, this
+The bytes are the same as from `mcap.writer.Writer`, but encoding takes a third of the time. Unlike that writer, this
 encoder can also encode a chunk that has not ended.
 """
 
