@@ -231,8 +231,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.FORCE_WRONG: Remedy(
         "The first guarded motion after a MOVE feels a force although the hand should touch nothing. Declare the "
-        "weight in the hand with LOAD, and LOAD 0 after the release. If the declared weight is right, an object "
-        "leans on the hand, or a drive or a tachometer fails.",
+        "weight in the hand with LOAD; after the release, write LOAD 0. If the declared weight was already right, the "
+        "force has another cause: an object leans on the hand, or a drive or a tachometer fails.",
         "MOVE P\nCLOSE .1\nLOAD 30 ;else the stop feels the weight\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
     ),
     errors.JOINT_SENSE_WRONG: Remedy(

@@ -111,7 +111,7 @@ def undoing(runner: Runner) -> bool:
 
 
 def _unwound(runner: Runner) -> set[int]:
-    """Return the indices of the stages after whose failure the arm has undone steps."""
+    """Return the indices of the stages that failed, and in which the arm then undid steps."""
     found, now = set(), -1
     for event in _of_this_part(runner):
         if isinstance(event, StageStarted):

@@ -47,9 +47,7 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the only branch. It exists unless the hand would have to turn or to leave the directions of the
-    slides.
-    """
+    """Return the only branch. It exists if the slides alone can bring the hand to the pose, without turning it."""
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q, off = _nearest_position(arm, b, X, b.held_at if start is None else start[b.held])
     exists = (np.linalg.norm(off, axis=-1) <= WRITTEN[0]) & (_turn_angle(b, X) <= WRITTEN[1])

@@ -19,7 +19,9 @@ _FARTHEST: Final = 10_000.0  # mm
 
 
 def board_corner(at: tuple[float, float] | None) -> tuple[float, float]:
-    """Return the place of the board's corner (mm). Raises BadArgument if a coordinate is not a number near the arm."""
+    """Return the place of the board's corner (mm). Raises BadArgument if a coordinate is not a number, or the place is
+    too far from the arm.
+    """
     from handeye.systems.sigma.bridge.translation import AT
 
     for each in at or ():
