@@ -123,32 +123,48 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
 
 
 @dataclass(slots=True, kw_only=True)
+class _SensorPair:
+    """Compares the two sensors of one joint from the start of a motion, in floats, which for so few joints are faster
+    than arrays.
+    """
+
+    start: float  # potentiometer at the start
+    rate: float  # tachometer one period ago
+    slack: float  # difference that is always tolerable
+    creep: float  # further tolerance for each period in which the joint moves
+    steady: float  # change of the gain in rate that rounding may cause
+    half: float  # half of a servo period, in s
+    way: float = 0.0
+    _path: float = 0.0
+    _between: float = 0.0
+    _moving: float = 0.0
+    _gain: float = 0.0
+
+    def step(self, q: float, qd: float) -> float:
+        """Compare the readings of the next servo period. Returns the difference between the sensors as a multiple of
+        what is tolerable.
+        """
+        gone, gain = (self.rate + qd) * self.half, qd - self.rate
+        self.way += gone
+        self._path += abs(gone)
+        unsteady = abs(gain - self._gain) - self.steady
+        if unsteady > 0:
+            self._between = float(np.hypot(self._between, STRUCK * unsteady * self.half))
+        if qd:
+            self._moving += self.creep
+        self.rate, self._gain = qd, gain
+        allowed = self.slack + PATH_SHARE * self._path + self._between + self._moving
+        return abs(q - self.start - self.way) / allowed
+
+
+@dataclass(slots=True, kw_only=True)
 class JointAgreement:
     """Compares the sensors of all joints from the start of a motion; arrays have shape (n,), in rad and m."""
 
     arm: ArmModel
     start: Array  # potentiometers at the start
-    rate: Array  # tachometers one period ago
-    _way: Array = field(init=False)
-    _path: Array = field(init=False)
-    _between: Array = field(init=False)
-    _moving: Array = field(init=False)
-    _gain: Array = field(init=False)
-    _slack: Array = field(init=False)
-    _creep: Array = field(init=False)
-    _two_steps: Array = field(init=False)
-
-    def __post_init__(self) -> None:
-        slack = np.where(constants(self.arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP)
-        self._slack = slack + READING_STEPS * position_step(self.arm)
-        self._creep = rate_step(self.arm) / 4 * self.arm.servo.period
-        self._two_steps = 2 * rate_step(self.arm)
-        self._clear()
-
-    def _clear(self) -> None:
-        self._way, self._path, self._between, self._moving, self._gain = (
-            np.zeros(len(self.start)) for _ in range(5)
-        )
+    rate: Array  # tachometers at the start
+    _pairs: list[_SensorPair] = field(default_factory=list, init=False)  # empty at the start
 
     def begin_anew(self, q: Array, qd: Array) -> None:
         """Start the comparison again from these readings. Used for a tool that chatters in step with the servo and
@@ -157,8 +173,7 @@ class JointAgreement:
         Tachometers that are read once per period then show a steady rate although the joint does not move on
         average.
         """
-        self.start, self.rate = q, qd
-        self._clear()
+        self.start, self.rate, self._pairs = q, qd, []
 
     def step(self, q: Array, qd: Array) -> Disagreement | None:
         """Compare the readings of the next servo period. Returns the joint whose sensors disagree most, or None if
@@ -168,25 +183,30 @@ class JointAgreement:
         changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
         unknown. The unknown parts of different periods are independent, so their squares are added.
         """
-        half = self.arm.servo.period / 2
-        gone, gain = (self.rate + qd) * half, qd - self.rate
-        self._way, self._path = self._way + gone, self._path + np.abs(gone)
-        self._between = np.hypot(self._between, STRUCK * self._unsteady(gain) * half)
-        self._moving = self._moving + (qd != 0) * self._creep
-        self.rate, self._gain = qd, gain
-        by_pot = q - self.start
-        allowed = self._slack + PATH_SHARE * self._path + self._between + self._moving
-        excess = np.abs(by_pot - self._way) / allowed
-        joint = int(excess.argmax())
-        if excess[joint] <= 1:
+        self._pairs = self._pairs or self._begun()
+        found = list(map(_SensorPair.step, self._pairs, q.tolist(), qd.tolist()))
+        if all(excess <= 1 for excess in found):  # not true for NaN
             return None
-        return Disagreement(
-            joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(self._way[joint])
-        )
+        joint = int(np.argmax(found))
+        pair = self._pairs[joint]
+        return Disagreement(joint=joint, potentiometer=float(q[joint]) - pair.start, tachometer=pair.way)
 
-    def _unsteady(self, gain: Array) -> Array:
-        """Return the part of a change of rate that differs by more than two converter steps from the last change."""
-        return np.maximum(np.abs(gain - self._gain) - self._two_steps, 0.0)
+    def _begun(self) -> list[_SensorPair]:
+        readings, half = zip(self.start.tolist(), self.rate.tolist(), strict=True), self.arm.servo.period / 2
+        return [
+            _SensorPair(start=start, rate=rate, slack=slack, creep=creep, steady=steady, half=half)
+            for (start, rate), (slack, creep, steady) in zip(readings, _tolerances(self.arm), strict=True)
+        ]
+
+
+@lru_cache(maxsize=16)
+def _tolerances(arm: ArmModel) -> list[tuple[float, float, float]]:
+    """Return the tolerances of each joint: slack, creep and steady of its pair of sensors."""
+    slack = np.where(constants(arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP) + READING_STEPS * position_step(
+        arm
+    )
+    creep, steady = rate_step(arm) / 4 * arm.servo.period, 2 * rate_step(arm)
+    return list(zip(slack.tolist(), creep.tolist(), steady.tolist(), strict=True))
 
 
 def jumped(
