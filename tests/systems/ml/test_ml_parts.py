@@ -154,8 +154,7 @@ def test_the_limits_of_width_and_weight_follow_from_the_errors_of_part_potentiom
     grams = DENSITY * WIDE**2 * LONG * 1000
     light, doubtful = numbers_of(text, "443", "445")
     assert (light + doubtful) / 2 == pytest.approx(grams * (1 + LIGHT) / 2, abs=0.5)
-    softer = 3  # ML units by which 400 g bend the pads of the typewriter more
-    for kind in (most - softer, least - softer, lowest - softer, highest - softer, light, doubtful):
+    for kind in (most, least, lowest, highest, light, doubtful):  # the typewriter has the same limits
         assert f" {kind}\n" in job_plan("typewriter").text
 
 

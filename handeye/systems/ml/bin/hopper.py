@@ -1,5 +1,6 @@
 """A smooth hopper with a flat middle, from which bars are taken, and two boxes beside it."""
 
+from collections.abc import Sequence
 from itertools import product
 from math import cos, radians, sin, tan
 from typing import Final
@@ -70,10 +71,22 @@ def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, rim:
         plate([RIM, THICK, rim / 2], [0, way * (RIM + THICK), rim / 2], [1, 0, 0, 0])
 
 
-def hold_firmly(spec: mujoco.MjSpec) -> None:
-    """Let friction hold a light part in the fingers without creep."""
-    for side, part in product(("left", "right"), ("bar", "pad")):
-        spec.geom(f"{side}_{part}").solimp[:] = PADS
+def hold_firmly(spec: mujoco.MjSpec, parts: Sequence[str] = ()) -> None:
+    """Let friction hold light parts in the fingers without creep.
+
+    Args:
+        parts: names of the light parts, if the fingers also carry heavy ones.
+    """
+    for side, piece in product(("left", "right"), ("bar", "pad")):
+        finger = spec.geom(f"{side}_{piece}")
+        slide, turn, roll = finger.friction
+        for part in parts:
+            spec.add_pair(
+                geomname1=finger.name, geomname2=part, condim=4, friction=[slide, slide, turn, roll, roll],
+                solref=finger.solref, solimp=PADS,
+            )  # fmt: skip
+        if not parts:
+            finger.solimp[:] = PADS
 
 
 def _solve_densely(spec: mujoco.MjSpec) -> None:
