@@ -94,6 +94,7 @@ def test_an_empty_cradle_and_a_missing_stop_are_reported() -> None:
     assert (result.exit_code, result.message) == (1, f"{sentence} (done before: 0)")
 
 
+@pytest.mark.ml_row(47)
 @pytest.mark.slow
 def test_three_parts_of_a_bin_are_taken_one_at_a_time_and_judged() -> None:
     result = done(begun("bin", 2, variant="3"))
@@ -240,6 +241,7 @@ def test_no_part_that_slips_out_of_the_fingers_flies_over_the_wall() -> None:
         assert force**2 / (2 * stiffness) / (light * 9.81) < wall - WIDE / 2
 
 
+@pytest.mark.ml_row(47)
 @pytest.mark.slow
 def test_a_part_counts_only_when_it_has_left_the_hand() -> None:
     text = job_plan("bin").text
@@ -248,6 +250,7 @@ def test_a_part_counts_only_when_it_has_left_the_hand() -> None:
     assert result.message == "a part stays in the open hand (in the boxes: 0 good and 0 bad)"
 
 
+@pytest.mark.ml_row(47)
 def test_the_referee_of_the_bin_sees_a_wrong_part_passed_a_part_left_and_a_part_lost() -> None:
     station = BIN.hardware(job_plan("bin"), WorldSpec(seed=7), lambda _: None)
     poured = station.cell.truth.states["poured"]
