@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
+import mujoco
 import pytest
 
 from handeye.core.errors import NoSuchName
@@ -71,6 +72,19 @@ def test_the_symbolic_programs_of_the_jobs_have_no_mistakes(
 def test_a_bin_takes_as_many_bars_as_the_bin_job() -> None:
     with pytest.raises(NoSuchName, match="from 1 to 12 parts, not `40`"):
         TYPEWRITER.hardware(job_plan("typewriter", "40"), WORLD, lambda _: None)
+
+
+@pytest.mark.slow
+def test_matrices_are_dense_only_while_several_bars_move() -> None:
+    """Where many parts touch each other, dense matrices take 40 ms a step. A pile needs them."""
+    bench = TYPEWRITER.station(BARS, TYPEWRITER.world(WORLD))[0].bench
+    model, data = bench.model, bench.data
+    trees = [int(model.body_treeid[model.body(f"part_{number}").id]) for number in range(1, BARS + 1)]
+    for awake, dense in ((4, True), (2, True), (1, False), (0, False)):
+        data.tree_asleep[trees] = [-1] * awake + trees[awake:]
+        for act in bench.before_step:
+            act()
+        assert mujoco.mj_isSparse(model) != dense
 
 
 @pytest.mark.slow

@@ -18,7 +18,15 @@ from handeye.systems.ml.bench.reporting import Listener, calls_of, counted
 from handeye.systems.ml.bench.station import Station, scene
 from handeye.systems.ml.bench.world import ARM, ArmWorld
 from handeye.systems.ml.bin.faults import EMPTY
-from handeye.systems.ml.bin.hopper import BOX, HIGH, RIM, add_bin_box, add_hopper, hold_firmly
+from handeye.systems.ml.bin.hopper import (
+    BOX,
+    HIGH,
+    RIM,
+    add_bin_box,
+    add_hopper,
+    hold_firmly,
+    solve_densely_while_bars_move,
+)
 from handeye.systems.ml.bin.task import PARTS, POURED, SMOOTH, Poured, parts_of, poured, settled
 from handeye.systems.ml.orient.task import ATTITUDE, STOP_PLACE, add_stop
 from handeye.systems.ml.run.hardware import Hardware, Tell
@@ -101,8 +109,11 @@ class Typewriter(ArmTask):
         add_bin_box(spec, "bad", _metres(BAD))
         add_stop(spec, world, STOP)
         pile = poured(spec, world, bars, hopper)
-        hold_firmly(spec, [f"part_{number}" for number in range(1, bars + 1)])
-        return screwing(spec, world, others=(pile,))
+        names = [f"part_{number}" for number in range(1, bars + 1)]
+        hold_firmly(spec, names)
+        station, gauge = screwing(spec, world, others=(pile,))
+        solve_densely_while_bars_move(station.bench, names)
+        return station, gauge
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         return settled(self.station(int(USUAL["typewriter"]), self.world(spec))[0].bench)
