@@ -65,7 +65,7 @@ class SimulatedCell(Clock, SnapshotCell):
             clock=self, arm=arm, hand=hand, screwdriver=screwdriver, lamp=lamp, camera=camera
         )
         """The devices of the cell, as the working phase knows them."""
-        self._warnings = data.warning.number  # kept: MuJoCo makes this view anew for each use
+        self._warnings = data.warning.number  # kept, because MuJoCo makes a new view for each use
         self._step = float(model.opt.timestep)
         self._most = max(1, round(_HELD / self._step))
         self._stepper = stepper or PhysicsStepper(model, data)

@@ -175,7 +175,7 @@ class RunFolder(Observer):
 
     def _remove_outcome(self) -> None:
         for name in _outcomes():
-            with suppress(IsADirectoryError):  # whoever writes the outcome reports a folder in its place
+            with suppress(IsADirectoryError):  # a folder in its place is reported when the outcome is written
                 (self.path / name).unlink(missing_ok=True)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:

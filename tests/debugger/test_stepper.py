@@ -498,8 +498,12 @@ def test_a_file_that_is_no_checkpoint_is_left_alone(say: Say, tmp_path: Path) ->
 
 
 def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path, whole: bytes) -> None:
-    pressed = iter([False] * 230 + [True])  # behind the measurement of friction
-    runner = Runner(begin(AIR), halt=lambda: next(pressed, False))
+    pressed, events = iter([False] * 5 + [True]), list[object]()
+    runner = Runner(
+        begin(AIR),
+        halt=lambda: any(isinstance(event, StepStarted) for event in events) and next(pressed, False),
+    )
+    events = runner.events  # pressed in the first step, after the joints have been measured
     stepper = Stepper(runner, pictures=tmp_path)
     stopped = stepper.do("s 2")
     assert why(stopped) == ("panic", "stopped by the panic button; the brakes are set")

@@ -87,7 +87,7 @@ def test_the_command_says_which_mutants_the_proof_refuses(command: Command) -> N
     ("words", "said"),
     [
         (("--list", "--task", "insertion"), "declares no obligations"),
-        (("--only", "line 603"), "--checkpoints DIR is needed"),
+        (("--only", "line 603"), "the runs need --checkpoints DIR"),
         (("--most", "-1"), "must be 0 or more"),
     ],
 )
