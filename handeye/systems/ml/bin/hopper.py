@@ -85,7 +85,7 @@ def hold_firmly(spec: mujoco.MjSpec, parts: Sequence[str] = ()) -> None:
         for part in parts:
             spec.add_pair(
                 geomname1=finger.name, geomname2=part, condim=4, friction=[slide, slide, turn, roll, roll],
-                solref=finger.solref, solimp=PADS,
+                solref=finger.solref.tolist(), solimp=PADS,
             )  # fmt: skip
         if not parts:
             finger.solimp[:] = PADS
