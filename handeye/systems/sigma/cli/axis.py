@@ -21,7 +21,8 @@ def axis(
         WholeNumber,
         Parameter(
             help="Acceleration curve. 0 is the usual curve, with a top speed of 13333 steps/s; 1 has a top speed of "
-            "15000 steps/s; 2 accelerates half as fast as 0, and 3 a quarter as fast; 4 has half the start/stop speed."
+            "15000 steps/s; 2 accelerates half as fast as 0, and 3 a quarter as fast as 0; 4 has half the "
+            "start/stop speed."
         ),
     ] = 0,
     slow: Annotated[

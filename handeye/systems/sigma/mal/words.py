@@ -65,7 +65,9 @@ WORDS: Final[dict[str, Word]] = {
         "End tasks. A motion that one of these tasks has begun continues to its end.",
         "90 KILL FEEDER",
     ),
-    "SET": Word("statement", "SET flag", "Set a flag. Setting it again has no effect.", "220 SET PARTREADY"),
+    "SET": Word("statement", "SET flag", (
+        "Set a flag. If the flag is already set, SET has no effect."
+    ), "220 SET PARTREADY"),
     "RESET": Word("statement", "RESET flag", "Clear a flag.", "90 RESET PARTREADY"),
     "WAIT": Word(
         "statement", "WAIT flag {AND flag}", "Wait until all these flags are set, and leave them set.",
@@ -95,7 +97,8 @@ WORDS: Final[dict[str, Word]] = {
     "CURVE": Word(
         "statement", "CURVE axis, expression",
         "Choose how an axis accelerates: 0 is the usual curve, with a top speed of 500 mm/s; 1 has a top speed of "
-        "562.5 mm/s; 2 accelerates half as fast as 0, 3 a quarter as fast; 4 has half the start/stop speed.",
+        "562.5 mm/s; 2 accelerates half as fast as 0, and 3 a quarter as fast as 0; 4 has half the start/stop "
+        "speed.",
         "10 CURVE Z1, 2",
     ),
     "LIMIT": Word(
