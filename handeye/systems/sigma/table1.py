@@ -190,7 +190,7 @@ def _claims(layer1: Sequence[Load], layer2: Sequence[Load], arithmetic: Sequence
         found=f"{faster:.2f} times",
     )
     yield Claim(
-        claim="layer 2: SCP2B sends commands at the highest rate",
+        claim="layer 2: of the four programs, SCP2B sends the most commands per second",
         holds=two.per_second > max(ord_.per_second, one.per_second, prco.per_second),
         found=f"{two.per_second:.2f} a second",
     )

@@ -80,14 +80,14 @@ def arm() -> Iterator[Quantity]:
             "Scale error of the position reading. The error is zero at a posture in the middle of the work area. "
             f"{_READING}"),
         group("arm.wave", numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
-            "Amplitude of the periodic error of the position reading. It limits the distance over which a saved "
-            "correction is valid.",
+            "Amplitude of the periodic error of the position reading. The periodic error limits the distance over "
+            "which a saved correction is valid.",
             unsourced="no data sheet of 1974 gives this amplitude. Today's data sheets give the greatest deviation "
             "from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for "
-            "conductive plastic: Bourns 3400 to 3590, 6537 to 6639). They do not say whether this deviation is "
-            "periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg for joint 4, "
-            ".57 deg for joint 5; each of these alone would explain the whole arm's error of .1 in (layout study, "
-            "section 4)."),
+            "conductive plastic: Bourns 3400 to 3590, 6537 to 6639). These data sheets do not say whether this "
+            "deviation is periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg "
+            "for joint 4, .57 deg for joint 5; each of these amplitudes alone would explain the error of .1 in of "
+            "the whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Reading-to-reading noise of the potentiometers, before the converter.",
@@ -102,11 +102,11 @@ def arm() -> Iterator[Quantity]:
             unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, which is 37 to "
                       "146 times this noise, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
-            f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both "
-            "directions. Data sheet of 1974; we infer that the range ends at the greatest speed."),
+            f"One step of the converter of a tachometer: {SENSE_BITS} bits over the range of the joint's speeds in "
+            "both directions. Data sheet of 1974; we infer that the range ends at the greatest speed."),
         group("arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
-            f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over its torques in both "
-            'directions. Data sheet of 1974: "8 bits or more".'),
+            f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over the range of the "
+            'drive\'s torques in both directions. Data sheet of 1974: "8 bits or more".'),
         group("arm.drive_gain", numbered(Normal, *[1.0] * 6), "%",
             "Relative deviation of a drive's true torque from the commanded torque.", least=-90.0,
             unsourced="a linear current amplifier is as accurate as its resistors, and 1 % is the class of the E96 "
@@ -123,14 +123,13 @@ def arm() -> Iterator[Quantity]:
             unsourced=f"no data sheet of the arm's motors is known. {DOUBLED}"),
         group("arm.link_mass", numbered(Normal, *[3.0] * 6), "%",
             "Relative deviation of a link's true mass from the controller's value.", least=-90.0,
-            unsourced="the masses were published without a tolerance. To correct this error, the arm weighs its links. "
-                f"{DOUBLED}"),
+            unsourced="the masses were published without a tolerance. To correct the error of the masses, the arm "
+            f"weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
             "Distance between a link's centre of mass and its joint: relative deviation of the true value from the "
             "controller's.", least=-90.0,
-            unsourced="the centres of mass were also published without a tolerance. To correct this error, the arm "
-                "weighs its links. "
-                f"{DOUBLED}"),
+            unsourced="the centres of mass were also published without a tolerance. To correct their error, the arm "
+            f"weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
             "True length of the hand minus the controller's value.",
             unsourced="no drawing gives the tolerance. A length like this is measured with a steel rule, which "
@@ -142,14 +141,14 @@ def _friction() -> Iterator[Quantity]:
     """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, which varies by up to a quarter of its mean. Without this error, a joint has "
-        "its mean friction; a value of 0 means no friction."
+        "Coulomb friction of the joints, which varies by up to a quarter of its mean. Without this error, a joint "
+        "has its mean friction. If the friction is set to 0, the joint has none."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
-        unsourced="the friction of the other joints is inferred from the paper: they hold their weight when the arm "
-            f"is released. The paper gives no such check for joint 1, which carries no weight. {DOUBLED}",
+        unsourced="the friction of the other joints is inferred from the paper: these joints hold their weight when "
+        f"the arm is released. The paper gives no such check for joint 1, which carries no weight. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
@@ -168,9 +167,9 @@ def hand() -> Iterator[Quantity]:
             unsourced="the offset is the wear of the finger pads since the gap was last set, and this wear was never "
                 f"measured. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
-            "Scale error of the gap reading. Its size is between the linearity of wire-wound potentiometers, .15 "
-            "to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of Bourns 3400 to 3590 and "
-            "6537 to 6639."),
+            "Scale error of the gap reading. The size of the error is between the linearity of wire-wound "
+            "potentiometers, .15 to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of "
+            "Bourns 3400 to 3590 and 6537 to 6639."),
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap reading, before the converter.",
             unsourced="the noise is a third of a step of the converter, so the converter hardly shows it. Bound: "

@@ -150,7 +150,7 @@ def aside(world: PumpWorld) -> Iterator[Force]:
     rig, felt, spring = _pressed(world, NEAR, DOWN, np.array([0, ASIDE, BALL + 0.001]), gap=0.06)
     axis = np.cross(NEAR[:3, 1], DOWN)
     yield Force(
-        rig="the hand presses a spring with one finger, 36 mm aside", what="moment", unit="N m",
+        rig="the hand presses a spring with one finger, 36 mm from the middle of the hand", what="moment", unit="N m",
         reckoned=spring * rig.lever("ball"), felt=float(felt[3:] @ axis),
         simulated=float(rig.on("ball")[3:] @ axis),
     )  # fmt: skip

@@ -44,14 +44,14 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "M10": Mistake(
         meaning="a goal is outside the travel of its motor", example="10 MOTOR 3 12000",
-        cure="the table MT has the travel of each motor in words 6 and 7",
+        cure="words 6 and 7 of each line of the table MT give the travel of a motor",
     ),
     "M11": Mistake(
         meaning="a sensor or a table, or a line or word of a table, does not exist", example="10 GET 1 MT 13 1",
         cure="`QUERY` shows a table; `handeye ml words` lists all tables",
     ),
     "M13": Mistake(
-        meaning="the program has NEXTI, NEXTJ or RETURN, but not the LOOPI, LOOPJ or GOSUB that belongs to it",
+        meaning="a NEXTI has no LOOPI, a NEXTJ has no LOOPJ, or a RETURN has no GOSUB",
         example="10 NEXTI",
         cure="write LOOPI before NEXTI, and LOOPJ before NEXTJ; use GOSUB to call a subroutine that ends with RETURN",
     ),
@@ -60,7 +60,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="write a number such as `-100`, or a reference such as `&17` or `-&17`",
     ),
     "flag-left-on": Mistake(
-        meaning="a BRANCH has found a flag on, and no SENSOR clears the flag before the next motion, which therefore "
+        meaning="a flag is still on after a BRANCH has tested it, and no SENSOR clears the flag, so the next motion "
         "moves nothing",
         example="10 SENSOR 5 -178 450\n20 DMOTOR 2 100\n30 BRANCH 40 50 5\n40 DMOTOR 2 -100\n50 STOP",
         cure="clear the flag with SENSOR before the motion", severity="warning",
@@ -84,10 +84,10 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "not-stored": Mistake(
         meaning="a line of a program file has no sequence number", example="MOTOR 3 2000",
-        cure="number the line; `handeye ml` executes lines without a number immediately",
+        cure="give the line a number; `handeye ml` executes lines without a number immediately",
     ),
     "point-not-filled": Mistake(
-        meaning="the arm goes to a POINT that nothing fills", example="5 POINT\n10 GOPOINT 5",
+        meaning="the arm goes to a POINT to which no statement gives positions", example="5 POINT\n10 GOPOINT 5",
         cure="fill the point with DEFPOINT or JOY, or give its positions: `5 POINT * 0 0 2000 ...`", severity="warning",
     ),
     "too-fast": Mistake(
@@ -107,8 +107,8 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
         cure="write `NAME EQU number`, or `NAME VAR`",
     ),
     "bad-name": Mistake(
-        meaning="a name is already that of a command or a table, or contains characters other than letters, digits "
-        "and `_`",
+        meaning="a name is already the name of a command or a table, or contains characters other than letters, "
+        "digits and `_`",
         example="STOP EQU 5", cure="choose another name; it must begin with a letter",
     ),
     "name-twice": Mistake(
@@ -119,11 +119,11 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
         cure="write repeated statements only once, as a subroutine, and call it with GOSUB",
     ),
     "unknown-name": Mistake(
-        meaning="a name of a symbolic program is not defined", example="BRANCH AGAIN",
+        meaning="a symbolic program uses a name that it does not define", example="BRANCH AGAIN",
         cure="define the name with EQU or VAR, or as a label",
     ),
 }  # fmt: skip
-"""Mistakes in symbolic programs, besides those of ML."""
+"""Mistakes that only a symbolic program can have. Such a program can also have the mistakes of ML."""
 
 mistake: Final = Mistakes(CODES, SYMBOLIC)
 """Makes a diagnostic of ML."""

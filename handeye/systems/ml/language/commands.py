@@ -75,20 +75,26 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
         ("RUN", "[n]", "Run the stored program from statement n, or from its first statement.", "RUN 100"),
         ("TRY", "[n]", "Run the stored program one statement at a time: each statement waits for a key.", "TRY"),
-        ("TRACE", "[x]", "Print each statement with its values before it runs; `TRACE 0` ends this.", "TRACE"),
+        ("TRACE", "[x]", (
+            "Before each statement runs, print the statement with its values; `TRACE 0` ends the printing."
+        ), "TRACE"),
     ),
     "flow": (
         ("BAL", "v n", "Put the number of the next statement into variable v and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
-        ("BRANCH", "n1 [n2 [s ...]]", "Without n2, go to n1. With n2, go to n1 if the flag of any listed sensor is on "
-                                      "(for -s: off), and otherwise to n2. If no sensors are listed, the flags of all "
-                                      "sensors count.",
+        ("BRANCH", "n1 [n2 [s ...]]", (
+            "Without n2, go to n1. With n2, go to n1 if at least one listed sensor has its flag on (or, for a "
+            "sensor listed as -s, off); if not, go to n2. If no sensors are listed, the flags of all sensors count."
+        ),
          "400 BRANCH 500 410 5 14"),
-        ("BRCOMP", "n1 [n2]", "Go to n1 if the comparison indicator is on, otherwise to n2 or, without n2, to the "
-                              "next statement.",
+        ("BRCOMP", "n1 [n2]", (
+            "Go to n1 if the comparison indicator is on. If it is off, go to n2; without n2, go to the next statement."
+        ),
          "40 BRCOMP 100"),
-        ("BROVFL", "n1 [n2]", "Go to n1 if the overflow indicator is on, otherwise to n2 or, without n2, to the next "
-                              "statement. The indicator stays on.", "40 BROVFL 100 200"),
+        ("BROVFL", "n1 [n2]", (
+            "Go to n1 if the overflow indicator is on. If it is off, go to n2; without n2, go to the next "
+            "statement. The statement does not change the indicator."
+        ), "40 BROVFL 100 200"),
         ("DELAY", "x", "Wait x hundredths of a second. The sensors stay guarded.", "50 DELAY 100"),
         ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another subroutine with GOSUB.", "60 GOSUB 900"),
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
@@ -109,7 +115,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("DMOVE", "x1 ... x12", "Move each motor by a distance from its present goal. Motors that are left out do not "
                                 "move.",
          "4 DMOVE 0 0 &1 &2"),
-        ("GOPOINT", "n [x]", "Go to the positions of a POINT. With x = 1, do not wait for the end of the motion.",
+        ("GOPOINT", "n [x]", "Go to the positions of a POINT. If x is 1, do not wait for the end of the motion.",
          "280 GOPOINT 5"),
         ("HAND", "x11 [x12]", "Move only the fingers: x11 is their separation, and x12 is the angle between them.",
          "30 HAND 650 900"),
@@ -124,16 +130,18 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
                              "analog sensors.", "20 CALIB 5 6 7"),
         ("SENSOR", "[s [lo hi]]", (
             "Clear the flag of a sensor, and guard the sensor: when its reading leaves the range between lo and "
-            "hi, the flag comes on and all motors freeze. Without limits, the sensor may read anything; without s, "
-            "this applies to all sensors."
+            "hi, the flag comes on and all motors freeze. If the limits are left out, every reading of the sensor "
+            "is allowed; if s is left out too, the command applies to all sensors."
         ),
          "200 SENSOR 5 -178 450"),
         ("WAND", "[s]", "Assign the wand to sensor s, by default sensor 1. From then on, the flag of this sensor comes "
                        "on if the wand touches something.", "10 WAND"),
     ),
     "data": (
-        ("POINT", "", "A place for the positions of 12 motors, which DEFPOINT and JOY fill. The statement does "
-                      "nothing when it is executed.", "5 POINT"),
+        ("POINT", "", (
+            "A place for the positions of 12 motors. DEFPOINT and JOY fill this place. The statement does nothing when "
+            "it is executed."
+        ), "5 POINT"),
     ),
     "arithmetic": (
         ("ADD", "v x", "Add x to variable v.", "50 ADD 1 -1"),
@@ -159,8 +167,9 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("LT?", "x y", "Set the comparison indicator on if x is less than y, otherwise off.", "30 LT? &1 0"),
         ("MULT", "v x [w]", "Multiply variable v by x; variable w gets the high word of the product.", "20 MULT 1 25"),
         ("NE?", "x y", "Set the comparison indicator on if x differs from y, otherwise off.", "30 NE? &1 0"),
-        ("OVFLOFF", "", "Set the overflow indicator off. No other statement of a running program does this.", "10 "
-        "OVFLOFF"),
+        ("OVFLOFF", "", (
+            "Set the overflow indicator off. No other statement of a running program clears this indicator."
+        ), "10 OVFLOFF"),
         ("OVFLON", "", "Set the overflow indicator on.", "10 OVFLON"),
         ("PUT", "t line word x", "Write a word of a table. The real-time level uses the new value from the next "
         "cycle on.",
@@ -171,7 +180,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("FILE", "t line word x ...", "Write consecutive words of a table.", "FILE MT 2 8 10"),
         ("LIST", "[n1 [n2]]", "List the stored program, a statement, or all statements from n1 to n2.", "LIST 100 200"),
         ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the latest first.", "QPOINT"),
-        ("QUERY", "t [line [word]]", "Show a table, a line of it, or a word.", "QUERY ST 5"),
+        ("QUERY", "t [line [word]]", "Show a table, a line of the table, or a word of the line.", "QUERY ST 5"),
     ),
     "test": (
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
@@ -185,8 +194,9 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored program.", "CMSLOAD FOLLOW"),
         ("DHAND", "x11 [x12]", "Change the separation of the fingers by x11, and the angle between them by x12.",
          "30 DHAND -50"),
-        ("GOLINE", "n1 n2", "Go to the position on the line through two POINTs that is nearest to the present "
-                             "goals.",
+        ("GOLINE", "n1 n2", (
+            "Of the positions on the line through two POINTs, go to the one that is nearest to the present goals."
+        ),
          "40 GOLINE 5 10"),
         ("GOMEAN", "n1 n2", "Go to the position halfway between two POINTs.", "40 GOMEAN 5 10"),
         ("GROT", "x [y [z]]", "Rotate the gripper about its own axes by yaw x, pitch y and roll z, in .01 degree.",
@@ -206,7 +216,7 @@ COMMANDS: Final[dict[str, Command]] = {
 } | {
     name: Command(
         code=name, category="control", usage="[line [word]]", example=name,
-        help=f"Show the table {name} ({shape.title}), a line of it, or a word.",
+        help=f"Show the table {name} ({shape.title}), a line of the table, or a word of the line.",
     )
     for name, shape in SHAPES.items()
 }  # fmt: skip

@@ -24,7 +24,7 @@ STOOD: Final = ("gasket", "top")
 """The parts that a person puts on a stand, where only friction holds them."""
 SCREWS: Final = "pump.screws"
 MAKES: Final = (6, 7)
-"""Possible numbers of screws, and of tapped holes, of a pump."""
+"""How many screws a pump may have; it has as many tapped holes."""
 USUAL: Final = 6
 
 _VISION: Final = "Vision study, section 3."
@@ -57,9 +57,9 @@ def variation() -> Variation:
 def _make() -> Iterator[Quantity]:
     yield Quantity(
         name=SCREWS, unit="", distribution=Choice(tuple(map(float, MAKES))), nominal=float(USUAL),
-        source="Number of screws, and of tapped holes: part of the job, not an error. It does not depend on seed or "
-               "level. The seventh screw and its hole belong to a later version of the pump, which the program of 1973 "
-               "does not know.",
+        source="Number of screws, and of tapped holes: part of the job, not an error. The number does not depend on "
+        "seed or level. The seventh screw and its hole belong to a later version of the pump, which the program of "
+        "1973 does not know.",
     )  # fmt: skip
 
 
@@ -86,7 +86,7 @@ def _camera() -> Iterator[Quantity]:
     aside = {way: Normal(0.1) for way in ("ahead", "side", "up")}
     return chain(
         group("camera.place", {axis: Normal(0.15) for axis in "xyz"}, "in",
-            f"Position of the camera's mount, each axis. {_VISION}"),
+            f"Position of the camera's mount along each axis. {_VISION}"),
         group("camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
             f"Rotation of the camera's mount. {_VISION}"),
         group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
@@ -102,9 +102,9 @@ def _camera() -> Iterator[Quantity]:
             "height.",
             unsourced=f"the papers do not mention the shape of the raster, and the camera is lost. {DOUBLED}"),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
-            "Shift of each picture from the previous one, as a fraction of half the picture's width and height. Sigma "
-            "is half a pixel. The paper mentions a slight shift between two pictures; vision study, section 4: up to "
-            "a pixel."),
+            "Shift of each picture from the previous one, as a fraction of half the picture's width and height. "
+            "Sigma is half a pixel. The paper mentions a slight shift between two pictures; section 4 of the "
+            "vision study says up to a pixel."),
     )  # fmt: skip
 
 
@@ -129,11 +129,11 @@ def _fixtures() -> Iterator[Quantity]:
             {"x": Normal(0.02), "y": Normal(0.02), "z": Normal(0.01), "yaw": Normal(0.2), "pitch": Normal(0.1),
              "roll": Normal(0.1)},
             ("in", "in", "in", "deg", "deg", "deg"),
-            "Position, height and tilt of the fixture relative to its drawing, as set up with a rule, a square and a "
-            "spirit level. Sigma is the tolerance of ISO 2768-1, class m: .5 mm for lengths of 120 to 400 mm, .3 mm "
-            "for heights of 30 to 120 mm, and 20 minutes of arc for angles over 50 to 120 mm. So a third of the "
-            "fixtures exceed this tolerance. A rule has divisions of 1/64 in; a spirit level is accurate to .5 to "
-            "1 mm/m, .03 to .06 deg.",
+            "Position, height and tilt of the fixture relative to its drawing, as set up with a rule, a square and "
+            "a spirit level. Sigma is the tolerance of ISO 2768-1, class m: .5 mm for lengths of 120 to 400 mm, .3 "
+            "mm for heights of 30 to 120 mm, and 20 minutes of arc for angles whose shorter side is 50 to 120 mm "
+            "long. So a third of the fixtures exceed this tolerance. A rule has divisions of 1/64 in; a spirit "
+            "level is accurate to .5 to 1 mm/m, .03 to .06 deg.",
         )  # fmt: skip
 
 
