@@ -105,7 +105,7 @@ CODES: Final[dict[str, Code]] = {
     "line-too-long": _error("a line is too long", f"OPEN 1\n;{'-' * 1000}"),
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-ends-early": _warning(
-        "a blank line separates the modifier at the end of a macro from its motion",
+        "a macro ends with a modifier, and the blank line after it separates the modifier from its motion",
         "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK",
     ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
@@ -232,19 +232,23 @@ CODES: Final[dict[str, Code]] = {
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
     "unit-written": _error("a number is written with a unit", "OPEN 1.5 in"),
     "unknown-axis": _error("an axis is not X, Y or Z", "FREE 1 W\nCHANGE X 1"),
-    "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
+    "unknown-counter": _error(
+        "an instruction uses a counter, but no ASSIGN sets this counter", "L: PARK\nSOJG N L"
+    ),
     "unknown-error-number": _warning(
         "a test names an error that no instruction raises", "PARK\nSKIPE 42\nPARK\nPARK"
     ),
     "unknown-instruction": _error("a word is neither an instruction nor a macro", "GRAB 1"),
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
-    "unknown-lens": _error("the turret has no such lens", "LENS 35"),
+    "unknown-lens": _error("the lens turret has no lens with this focal length", "LENS 35"),
     "unknown-parameter": _warning(
         "a text in a macro has a name in braces, but the macro has no such parameter",
         'DEFINE A S\nMOVE S\nWAIT "NOT AT {P}"\n\nA T',
     ),
     "unknown-part": _error("a part is unknown", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),
-    "unknown-picture": _error("no LOOK takes a picture of that name", "GENERAL BASE VIEW"),
+    "unknown-picture": _error(
+        "an instruction uses a picture, but no LOOK takes this picture", "GENERAL BASE VIEW"
+    ),
     "unknown-position": _error("a position is not in the taught file, and no TRANS defines it", "MOVE X9"),
     "unknown-target": _error("the target of the camera is neither a position nor a part", "AIM X9"),
     "unknown-vector": _error("a vector is neither an axis nor defined by VECT", "CHANGE DOWN 1"),
@@ -255,7 +259,7 @@ CODES: Final[dict[str, Code]] = {
     "unterminated-macro": _error("the blank line that ends a macro is missing", "PARK\nDEFINE A\nOPEN 1"),
     "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
-    "unused-label": _warning("no instruction jumps to a label", "L: PARK"),
+    "unused-label": _warning("a label is never used: no instruction jumps to it", "L: PARK"),
     "unused-macro": _warning("a macro is never used", "PARK\nDEFINE A\nOPEN 1\n\n"),
     "unused-parameter": _warning("a parameter of a macro is never used", "DEFINE A S\nPARK\n\nA T"),
     "unused-position": _warning("a position is defined but never used", "TRANS A [1 2 3 0 0 0]\nPARK"),

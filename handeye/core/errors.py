@@ -117,14 +117,20 @@ ERRORS: Final[dict[int, str]] = {
     GASKET_WRONG: "the gasket is not in place",
     PART_ASTRAY: "the part has moved since the earlier picture",
     SWITCH_WRONG: "a finger switch does not show whether its finger touches anything, or the fingers press too weakly",
-    GAP_WRONG: "the gap differs from the commanded gap: its potentiometer fails, something holds or forces the "
-    "fingers, or the held part has slipped",
-    FORCE_WRONG: "the hand feels a force in free air: something touches it, the load differs from the declared one, "
-    "or the force sense or a drive fails",
+    GAP_WRONG: (
+        "the finger gap differs from the commanded gap: the potentiometer of the fingers fails, something holds or "
+        "forces the fingers, or the held part has slipped"
+    ),
+    FORCE_WRONG: (
+        "the hand feels a force in free air: something touches the hand, the load differs from the declared load, "
+        "or the force sense or a drive fails"
+    ),
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
     CURRENT_WRONG: "the current of the screwdriver's motor does not fit its torque and speed",
     PICTURE_WRONG: "the camera's picture is not live, or is too noisy",
-    JOINT_STIFF: "one joint alone does not follow its drive: its drive, brake or friction has changed",
+    JOINT_STIFF: (
+        "one joint alone does not follow its drive: the drive, the brake or the friction of this joint has changed"
+    ),
 }
 """Error numbers that a script can test, with the message to the operator. Numbers 2 and 23 are from 1973; numbers
 from 50 on usually mean a faulty sensor or drive.
