@@ -53,8 +53,9 @@ def end_of_brief(task: "BenchTask", own: str) -> str:
 def _counts(task: "BenchTask", told: Phrases) -> str:
     if task.file.orders:
         return (
-            "If a program can stop in some order, for example in a deadlock, it counts as stopped. If it can end "
-            "with wrong work without noticing, this is a silent failure, even if it would stop in another order."
+            "If a program stops in at least one order of its tasks, for example in a deadlock, it counts as "
+            "stopped. If in at least one order the program ends with wrong work without noticing, this is a silent "
+            "failure, even if the program stops in another order."
         )
     return (
         f"A program that is not sure must stop: {task.file.stopping or told.stops}. A program that ends as if all were "

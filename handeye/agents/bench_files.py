@@ -28,7 +28,7 @@ class Derived(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     program included with handeye.
     """
     changes: list[tuple[str, str]] = []
-    """Changes in their order: a text that occurs once, and the text that replaces it."""
+    """Changes, in their order. Each is a pair: a text that occurs once, and the text that replaces it."""
 
 
 @dataclass(frozen=True, slots=True)

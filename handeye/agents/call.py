@@ -7,7 +7,7 @@ from typing import Final
 
 EVERY: Final = 60  # polls between two reports; a servo period polls once, and there are 60 in a second
 Report = Callable[[float, float | None, str], None]
-"""Takes the progress of a call, the total if it is known, and a text."""
+"""Function that takes the progress of a call, the total (None if the total is not known), and a text."""
 
 
 def _unheard(done: float, whole: float | None, text: str) -> None:

@@ -79,8 +79,8 @@ class Check(Request, frozen=True, kw_only=True):
         str,
         Meta(
             max_length=20,
-            description="Language of a script that is given as text: the ending of its files, such as al or ml. If "
-            "the script is a file, its name gives the language.",
+            description="Language of a script that is given as text. The language is named by the ending of its "
+            "files, such as al or ml. If the script is a file, its name gives the language.",
         ),
     ] = "al"
 
@@ -175,7 +175,7 @@ class Back(Request, frozen=True, kw_only=True):
         str,
         Meta(
             max_length=200,
-            description="Go back to the beginning of this stage, instead of by a number of steps.",
+            description="Go back to the beginning of this stage. Default: go back by a number of steps.",
         ),
     ] = ""
 

@@ -28,10 +28,10 @@ from handeye.core.errors import NoSuchName
 from handeye.core.versions import HANDEYE
 
 INSTRUCTIONS: Final = (
-    "handeye simulates the Stanford arm of 1973, which assembles by force and touch. Write programs in its language, "
-    "check them, run them in simulated worlds, and submit them to the referee. Read `docs` (language, tutorial) first. "
-    "A program must call the operator rather than report success when it is not sure: a silent failure is the worst "
-    "outcome."
+    "handeye simulates the Stanford arm of 1973, which assembles by force and touch. Write programs in its "
+    "language, check them, run them in simulated worlds, and submit them to the referee. Read `docs` (language, "
+    "tutorial) first. A program that is not sure must call the operator and must not report success: a silent "
+    "failure is the worst outcome."
 )
 Context = ServerRequestContext[Any, Any]
 

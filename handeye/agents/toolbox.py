@@ -92,7 +92,9 @@ class Toolbox:
             _check_alone(asked)
             name, run = self.runs.find(asked.run, call)
         elif asked.answer is not None:
-            raise BadArgument("`answer` is for a run that has called the operator; a new run has not")
+            raise BadArgument(
+                "`answer` is for a run that has called the operator; a new run has not called the operator"
+            )
         else:
             plan = self.scripts.plan(asked.script, asked.taught, asked.task)
             world = World(

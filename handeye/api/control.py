@@ -29,8 +29,8 @@ class Command:
     """
 
     torque: ArrayLike | None = None
-    """Torque of each joint, shape (n,), in N m, or in N if the joint is prismatic. The drives limit it to their
-    greatest torque (`effort` of the joint). None sets the brakes.
+    """Torque of each joint, shape (n,), in N m, or in N if the joint is prismatic. The drives limit the torque to
+    their greatest torque (`effort` of the joint). None sets the brakes.
     """
     gap: float | None = None  # goal of the opening between the finger tips, m
     grip: float | None = None  # greatest force of each finger, N
@@ -39,7 +39,9 @@ class Command:
 
 
 Controller = Callable[[Sensed], Command | None]
-"""A function from the readings at the end of a servo period to the command for the next one; None ends the control."""
+"""A function that takes the readings at the end of a servo period and returns the command for the next period. If it
+returns None, the control ends.
+"""
 
 
 def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
@@ -60,7 +62,7 @@ def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
         done = runner.control(name, _checked(name, controller, runner), most)
     except Halted:
         runner.rollback()
-        return f"the panic button stopped the controller {name}, and its servo periods were undone"
+        return f"the panic button stopped the controller {name}, and the servo periods of the controller were undone"
     except BaseException:  # in code of the caller, or in the simulation
         runner.rollback()
         raise

@@ -81,7 +81,7 @@ def _checked_vision(vision: object) -> dict[str, VisionFunction]:
                 f"vision has no function for {word!r}; you can give one for {', '.join(WRAPPERS)}"
             )
         if not callable(function):
-            raise BadArgument(f"the vision of {word} must be a function; {function!r} is none")
+            raise BadArgument(f"the vision of {word} must be a function; {function!r} is not a function")
     return {
         word: _named(WRAPPERS[word](name_of(function), function), function)
         for word, function in vision.items()

@@ -9,4 +9,6 @@ from handeye.core.resources import plans
 scripts: Final[Path] = plans()
 """Folder of the included scripts and their taught files, for example `handeye.scripts / "water_pump.al"`."""
 demo: Final[Path] = demo_folder()
-"""Folder of an included recorded run, thinned to a few servo periods per second: `handeye.open(handeye.demo)`."""
+"""Folder of a recorded run that is included with handeye: `handeye.open(handeye.demo)`. The run is thinned to a few
+servo periods per second.
+"""

@@ -35,8 +35,8 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     if error := _ERROR.fullmatch(text):
         if not listing.errors:
             raise Refused(
-                "the steps of this program raise no errors to break on; the run pauses whenever the "
-                "program stops"
+                "no step of this program raises an error, so there is no error for a breakpoint; the run pauses "
+                "whenever the program stops"
             )
         return _on_error(error["number"] or error["any"], listing)
     place = named_place(text, listing)

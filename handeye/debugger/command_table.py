@@ -104,7 +104,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="pause", group=_GOING, act=acts.pause, meanwhile=True,
-        help="pause after the current step; can be typed while the arm moves",
+        help="pause after the current step; you can type this command while the arm moves",
     ),
     Command(
         usage="pace [1x|4x|free]", group=_GOING, act=acts.pace, meanwhile=True,
@@ -126,7 +126,7 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause at a place each time the run reaches it"
     ),
     Command(usage="breaks", group=_BREAKS, act=acts.breaks, help="list the breakpoints, with their numbers"),
-    Command(usage="delete N", group=_BREAKS, act=acts.delete, help="delete the breakpoint with that number"),
+    Command(usage="delete N", group=_BREAKS, act=acts.delete, help="delete the breakpoint with this number"),
     Command(
         usage="list [LINE]", short="l", group=_LOOKING, act=acts.script,
         help="show the script around the next step, or around a line",

@@ -34,7 +34,7 @@ LISTED_AROUND: Final = 8  # lines that `list` shows before and after one
 
 
 def step(session: DebugSession, rest: str) -> CommandResult:
-    count = _count(rest, "step takes a number of 1 or more")
+    count = _count(rest, "`step` takes a number of 1 or more")
     pause = session.go(steps=count)
     as_asked = isinstance(pause.met, AfterSteps)
     return CommandResult(pause=pause, source=session.source()) if as_asked else _told(session, pause)
@@ -90,7 +90,7 @@ def back(session: DebugSession, rest: str) -> CommandResult:
     if rest.casefold() == "stage":
         position = session.stage_began()
     else:
-        position = done - _count(rest, "back takes a number of 1 or more, or `stage`")
+        position = done - _count(rest, "`back` takes a number of 1 or more, or `stage`")
     if position is None or not done:
         raise Refused("the run is at its first step: there is no earlier state to go back to")
     first = session.first()
@@ -107,7 +107,7 @@ def undo(session: DebugSession, rest: str) -> CommandResult:
     if rest.casefold() == "stage":
         left = next((n for n in reversed(range(len(done))) if done[n].enters), 0)
     else:
-        left = len(done) - _count(rest, "undo takes a number of 1 or more, or `stage`")
+        left = len(done) - _count(rest, "`undo` takes a number of 1 or more, or `stage`")
     if not done:
         raise Refused("there is nothing for the arm to undo")
     if left < 0:
@@ -134,7 +134,7 @@ def delete(session: DebugSession, rest: str) -> CommandResult:
     there = f"breakpoints: {', '.join(map(str, session.breaks)) or 'none'}"
     if not re.fullmatch(r"[0-9]{1,7}", rest):
         wrong = f", not {quoted(rest)}" if rest else ""
-        raise BadArgument(f"delete takes the number of a breakpoint{wrong}; {there}")
+        raise BadArgument(f"`delete` takes the number of a breakpoint{wrong}; {there}")
     if int(rest) not in session.breaks:
         raise NoSuchName(f"there is no breakpoint {int(rest)}; {there}")
     del session.breaks[int(rest)]
@@ -150,7 +150,7 @@ def script(session: DebugSession, rest: str) -> CommandResult:
     file, line = named_place(rest, session.program) or ("", 0)
     last = max(lines_of(session.program, file))
     if not 1 <= line <= last:
-        raise BadArgument(f"list takes a line from 1 to {last}, not {quoted(rest)}")
+        raise BadArgument(f"`list` takes a line from 1 to {last}, not {quoted(rest)}")
     return CommandResult(source=session.source((file, line), LISTED_AROUND))
 
 
@@ -160,7 +160,7 @@ def look(session: DebugSession, rest: str) -> CommandResult:
 
 def picture(session: DebugSession, rest: str) -> CommandResult:
     if not rest:
-        raise BadArgument("give picture the name of a file to write, such as `picture base.png`")
+        raise BadArgument("give `picture` the name of a new file, such as `picture base.png`")
     path = _file(rest)
     check_new(path)
     name = write_picture(session.runner, path)

@@ -34,8 +34,8 @@ class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
     name: str
     file: str = ""  # the required file in which it begins; empty for the script itself
     lines: tuple[int, int] | None
-    """First and last line of the stage's steps in the file; None if there are no steps. Steps of macros count only
-    if there are no others.
+    """First and last line of the stage's steps in the file; None if there are no steps. Steps of macros count only if
+    the stage has no other steps.
     """
     steps: tuple[ListedStep, ...]
 

@@ -34,7 +34,9 @@ class Pace(Observer):
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
-    """The factor that limits the pace, and the wall-clock time and cell time (s) at which it began to do so."""
+    """The factor that limits the pace, and the wall-clock time and cell time (s) at which the factor began to limit
+    the pace.
+    """
 
     def __str__(self) -> str:
         if self.factor is None:
@@ -67,7 +69,7 @@ def factor(text: str) -> float | None:
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())
     if number is None or not SLOWEST <= float(number[1]) <= FASTEST:
         raise BadArgument(
-            f"pace takes `1x`, `4x`, another number from {SLOWEST:g}x to {FASTEST:g}x, or `{FREE}`, not {quoted(text)}"
+            f"`pace` takes `1x`, `4x`, another number from {SLOWEST:g}x to {FASTEST:g}x, or `{FREE}`, not {quoted(text)}"
         )
     return float(number[1])
 

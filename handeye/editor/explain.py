@@ -152,35 +152,37 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "MOVE T\nSKIPE 3 ;T is out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(
-        "The hand has met an object where none was expected, or the joint in the message does not follow its "
-        "set-point. If you expect contact, give the motion a STOP, which ends it; otherwise ask the operator.",
+        "The hand has met an object where none was expected, or the joint that the message names does not follow "
+        "its set-point. If you expect contact, give the motion a STOP, so that the contact ends the motion; "
+        "otherwise ask the operator.",
         'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
     ),
     errors.WATCHDOG: Remedy(
-        "The computer failed, not the work. Either do not test for this error, or test for it and call the "
-        "operator with a WAIT.",
+        "The computer failed; the work did not fail. Either do not test for this error, or test for it and call "
+        "the operator with a WAIT.",
         'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
-        "A search has 49 places, or the number that its STEPS give. If you do not test for this error, it "
-        "calls the operator, which is usually right: the hole is not here. To give up sooner, count the "
-        "places with SOJG.",
+        "A search has 49 places, or the number of places that its STEPS give. If you do not test for this error, "
+        "the error calls the operator. This is usually right, because the hole is not where you search. To give up "
+        "sooner, count the places with SOJG.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),
     errors.WRONG_THICKNESS: Remedy(
-        "Give CLOSE a maximum gap as well. If the part is too thick, it is the wrong part: release it.",
+        "Give CLOSE not only a minimum gap but also a maximum gap. If the part is too thick, it is the wrong part: "
+        "release it.",
         "MOVE P\nCLOSE .1 .3\nSKIPE 7 ;too thick for a pin\nJUMP HELD\nOPEN 1\nHELD: PARK",
     ),
     errors.WRONG_TRAVEL: Remedy(
-        "A motion that ended on a force may have ended too soon, for example with a pin on the rim of its hole. "
-        "TRAVEL checks how far the hand moved.",
+        "A force may end a motion too soon, for example if a pin meets the rim of its hole. TRAVEL checks how far "
+        "the hand moved.",
         "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met at all\nJUMP OUT\nTRAVEL .5 .6\n"
         'SKIPN 8 ;as deep as the hole\nOUT: WAIT "NOT IN ITS HOLE"\nOPEN 1',
     ),
     errors.WRONG_HEIGHT: Remedy(
-        "HEIGHT compares two touches at one place, so that the error of the arm cancels. If the check fails, a "
-        "layer is missing or is the wrong one.",
+        "HEIGHT compares the heights of two touches at one place, so the error of the arm cancels. If the check "
+        "fails, a layer is missing, or the layer is the wrong one.",
         "OPEN 0\nMOVE T\nSTOP [0 0 -40]\nCHANGE [0 0 -1] .7 .5\nSAVE BARE\nPARK\nMOVE T\nSTOP [0 0 -40]\n"
         'CHANGE [0 0 -1] .7 .5\nHEIGHT BARE .04 .08\nSKIPN 9 ;one gasket thick\nWAIT "SEE TO THE GASKET"\nPARK',
     ),
@@ -206,8 +208,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "The pictures from before and after do not show the change that a gasket in its place makes: place the "
-        "gasket again, or ask the operator.",
+        "The pictures before and after the gasket was placed do not show the change that a gasket in its place "
+        "makes. Place the gasket again, or ask the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
@@ -218,9 +220,10 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'WAIT "SOMEBODY HAS MOVED THE BASE"\nPARK',
     ),
     errors.SWITCH_WRONG: Remedy(
-        "A switch that is closed while its finger touches nothing is stuck. A switch that stays open while the "
-        "fingers press on a part is stuck too, or the motor of the fingers is weak. The reports of such a switch "
-        "are worthless. Either do not test for the error, or test for it and call the operator with a WAIT.",
+        "A switch that is closed while its finger touches nothing is stuck. If a switch stays open while the "
+        "fingers press on a part, either the switch is stuck or the motor of the fingers is weak. The reports of "
+        "such a switch are worthless. Either do not test for the error, or test for it and call the operator with "
+        "a WAIT.",
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),
     errors.GAP_WRONG: Remedy(
@@ -241,8 +244,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE T\nSKIPN 53 ;both sensors of each joint agree\nWAIT "SEE TO THE ARM\'S POTENTIOMETERS"\nMOVE P',
     ),
     errors.CURRENT_WRONG: Remedy(
-        "A motor takes current to start. Without a current reading, no TORQUE can be met, and the program cannot "
-        "know whether a screw is tight.",
+        "A motor takes current to start. If the current reads zero, no motion reaches its TORQUE, and the program "
+        "cannot know whether a screw is tight.",
         "MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 54 ;the motor shows current\n"
         'WAIT "SEE TO THE DRIVER"\nTOOL 0',
     ),
@@ -253,8 +256,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
     ),
     errors.JOINT_STIFF: Remedy(
-        "One joint needs far more torque than its friction explains, and no force at the hand could cause this. "
-        "Either do not test for the error, or test for it and call the operator with a WAIT.",
+        "One joint needs far more torque than its friction explains, and no force at the hand could cause the "
+        "difference. Either do not test for the error, or test for it and call the operator with a WAIT.",
         'MOVE T\nSKIPN 57 ;each joint needs the same torque as at the start\nWAIT "SEE TO THE ARM\'S DRIVES"\nMOVE P',
     ),
 }
@@ -269,7 +272,7 @@ ACTIONS: Final = "\n".join(
         "V V",
     )
 )  # fmt: skip
-"""Every instruction that can raise an error, with all modifiers that let it raise further errors."""
+"""Every instruction that can raise an error, with all modifiers that let the instruction raise further errors."""
 
 
 @cache
@@ -284,8 +287,9 @@ def raised_by() -> dict[int, tuple[str, ...]]:
 def error_text(number: int) -> str:
     """Return the explanation of an error number, without a final newline."""
     tested = (
-        f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Without a "
-        f"test, the error sets the brakes and calls the operator."
+        f"SKIPE {number} skips the next instruction if the error was raised; SKIPN {number} skips the next "
+        "instruction if the error was not raised. If neither tests for the error, the error sets the brakes and "
+        "calls the operator."
     )
     example = indent(format_text(REMEDIES[number].example).rstrip("\n"), "    ")
     by = fill(f"raised by {', '.join(raised_by()[number])}", SENTENCE_WIDTH, subsequent_indent="    ")

@@ -76,7 +76,7 @@ def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     labels = names(document, LABEL)
     label = next(f"PAST{n}" for n in count(1) if f"PAST{n}" not in labels)
     yield Fix(
-        title=f"skip the modifier and the motion with `{opposite}` and `JUMP`",
+        title=f"use `{opposite}` and `JUMP` to skip the modifier and the motion",
         edits=(
             Edit(span=diagnostic.primary.span, text=opposite),
             Edit(span=at(document.whole_line(line.number).end), text=f"        JUMP    {label}\n"),

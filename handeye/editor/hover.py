@@ -126,7 +126,7 @@ def _position(document: Document, name: str) -> list[str]:
     if position is None:
         return []
     if position.of is not None and position.of not in document.taught.parts:
-        return [f"relative to part `{position.of}`, which is unknown"]
+        return [f"relative to part `{position.of}`, which is not in the taught file"]
     world = WorldModel(parts=document.taught.parts, positions={name: position})
     X_WT = world.planned_position(name)
     out = [

@@ -20,7 +20,7 @@ PARK: Final = "PARK"  # both an instruction and a position
 _MAKES: Final = {
     "TRANS": POSITION, "HERE": POSITION, "SAVE": SAVED, "LOOK": PICTURE, "ASSIGN": "counter", "VECT": "vector"
 }  # fmt: skip
-"""Kinds of names that instructions define."""
+"""For each instruction that defines a name, the kind of that name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -26,7 +26,7 @@ class Protocol(LanguageServerProtocol):
         try:
             return super().structure_message(data)
         except JsonRpcException:
-            why = f"the parameters of {data.get('method')} do not have the types of the protocol"
+            why = f"the parameters of {data.get('method')} do not have the types that the protocol requires"
             if "id" in data:
                 error = JsonRpcInvalidParams(why).to_response_error()
                 self._send_response(data["id"], error=error)

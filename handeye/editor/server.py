@@ -319,7 +319,7 @@ _STAGE_COMMANDS: Final = {
     "Run from here": ("handeye.runFromHere", "Run the program from this stage on.", ("--from",)),
     "Debug": ("handeye.debug", "Step through the program from this stage on.", ("--step", "--from")),
 }
-"""Command, tooltip and options of `handeye run` for each title above a stage."""
+"""For each title that the editor shows above a stage: the command, the tooltip, and the options for `handeye run`."""
 
 
 _NOTICES: Final[dict[str, Callable[..., Any]]] = {

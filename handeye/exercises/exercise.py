@@ -95,7 +95,9 @@ class Exercise(ABC):
     brief: str  # what to do, in a paragraph
     start: str  # file of the program from which the student starts
     hints: tuple[tuple[str, str], ...]
-    """Hints by the outcome of the first failure: the beginning of the outcome, and a sentence."""
+    """Hints. Each is a pair: the beginning of the outcome of the first failure, and the sentence to show for this
+    outcome.
+    """
 
     @property
     def program(self) -> Source:

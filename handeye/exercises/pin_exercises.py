@@ -7,8 +7,8 @@ from handeye.exercises.pin_exercise import PinExercise
 from handeye.exercises.pin_trial import PinWorlds
 
 MOST_FORCE: Final = 30.0
-"""N. The bench's own search has reached 20 N in 2000 trials, and the search of 1973 about 100 N
-(docs/insertion.md).
+"""Greatest permitted force (N). In 2000 trials, the bench's own search reached 20 N; the search of 1973 reached about
+100 N (docs/insertion.md).
 """
 BESIDE: Final = 20 * MILLIMETRE  # so far beside its taught place, the hole is out of reach of any search here
 _USUAL: Final = "worlds in which the hole is off its taught place by about 1 mm along each axis"
@@ -48,11 +48,12 @@ FIND: Final = PinExercise(
     hints=(
         (
             "called the operator",
-            "If the pin stands on the face, error 23 does not occur. Begin a SEARCH at that place in the program.",
+            "Error 23 does not occur if the pin stands on the face. Begin a SEARCH where your program finds that "
+            "error 23 has not occurred.",
         ),
         (
             "reported success",
-            "Compare the height of the hand with the height at which the motion began: HEIGHT.",
+            "Use HEIGHT to compare the height of the hand with the height at which the motion began.",
         ),
     ),
 )
@@ -66,8 +67,19 @@ GENTLY: Final = PinExercise(
     worlds=(PinWorlds(seeds=range(20), told=_USUAL, set={}),),
     most_force=MOST_FORCE,
     hints=(
-        ("pressed too hard", "Give each CHANGE that may meet metal a speed, and stop at a smaller force."),
-        ("reported success", "The pin stands on something other than its shoulder: check with HEIGHT."),
+        (
+            "pressed too hard",
+            (
+                "Give a speed to each CHANGE in which the pin may meet metal, and let STOP end the motion at a smaller "
+                "force."
+            ),
+        ),
+        (
+            "reported success",
+            (
+                "The pin stands on something other than its shoulder. Use HEIGHT to check how high the pin stands."
+            ),
+        ),
         (
             "called the operator",
             "FREE lets the chamfer guide the pin; without it, a slow pin may stay on the chamfer.",

@@ -32,7 +32,8 @@ from handeye.program.taught import Taught
 from handeye.program.world_model import WorldModel
 
 SPEED = 0.40
-"""Speed of free motions as a fraction of the rate limits of the arm. Accelerations are scaled by its square.
+"""Speed of free motions as a fraction of the rate limits of the arm. Accelerations are scaled by the square of this
+fraction.
 
 Fitted: with the assumed acceleration limits, the whole job takes about four minutes, as in 1973 (layout study,
 section 5). One fitted number is no evidence of the speed of the real arm.

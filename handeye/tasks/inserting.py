@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from handeye.judge.finding import Findings
 
 CLEARANCE: Final = 0.114
-"""Difference between the diameters of hole and pin (mm): the value of the peg in the Factory benchmark
+"""Difference between the diameters of hole and pin (mm). It has the same value as for the peg of the Factory benchmark
 (docs/insertion.md).
 """
 CHAMFER: Final = 1.0  # width of the chamfer, mm, as at the holes of the pump's base

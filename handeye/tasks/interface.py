@@ -189,8 +189,8 @@ class Task(AnyTask):
     eye: CameraSetup | None = None
     period: HistoricalTiming | None = None
     contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})
-    """For each contact operation, by its name: the positions at which the hand, or the object that it holds, makes
-    contact.
+    """For each contact operation, the positions at which the hand, or the object that it holds, makes contact. The key
+    is the name of the operation.
     """
 
     @property

@@ -214,7 +214,9 @@ _HAND_HELP: Final = (
 )
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(
-        usage="j3 +1", act=_joint, help="move a joint by an amount; without a sign, to a position: `j3 20`"
+        usage="j3 +1",
+        act=_joint,
+        help="move a joint by an amount; `j3 20`, without a sign, moves it to a position",
     ),
     Command(usage="table x +.5", act=_table, help=_TABLE_HELP),
     Command(usage="hand z -.2", act=_hand, help=_HAND_HELP),
@@ -223,11 +225,11 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="close [MIN]", act=_function("CLOSE"), help="close the hand"),
     Command(usage="center [MIN]", act=_function("CENTER"), help="close the hand without pushing the part"),
     Command(usage="float", act=_float, help="release the brakes; the arm then follows a push"),
-    Command(usage="push x 5 2", act=_push, help="push the arm: along x with 5 oz for 2 s"),
+    Command(usage="push x 5 2", act=_push, help="push the arm, here along x with 5 oz for 2 s"),
     Command(
         usage="here NAME [of PART]",
         act=_here,
-        help="give the present position a name; `here NAME again` replaces an earlier one",
+        help="give the present position a name; `here NAME again` replaces an earlier position of this name",
     ),
     Command(usage="where", act=_look, help="show where the arm is"),
     Command(usage="list", act=_list, help="list what is taught"),

@@ -31,12 +31,14 @@ from handeye.teaching.functions import TYPED, planned
 MAX_STATES: Final = 100  # states that are stored for going back
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
-"""Programs for a workplace that has not been given a program yet; they are not executed."""
+"""Programs that a workplace holds until it is given a program. These programs are not executed."""
 _FORGOTTEN: Final = (
     "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found",
     "done", "undoing",
 )  # fmt: skip
-"""Fields of a state that belong to a single plan: its present step, the results of its steps, and its pictures."""
+"""The fields of a state that hold facts about a single plan, such as its present step, the results of its steps, and
+its pictures.
+"""
 
 
 class Workplace:

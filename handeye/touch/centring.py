@@ -14,14 +14,14 @@ from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m; fingers driven this far beyond their opening count as stalled; placeholder
 SLOWER: Final = 0.5
-"""Fraction of their speed at which the fingers close when one of them begins to touch. While it keeps touching,
-the speed falls to 0. Chosen so that an object between the fingers is still pressed, and the switch that needs more
-force closes too. If the fingers were slower from the beginning, a touching finger would come off at once, and
-would push a loose object a little each time it touched again.
+"""Fraction of their speed at which the fingers close when one of them begins to touch. While the finger keeps
+touching, the speed falls to 0. The fraction is large enough that the fingers still press an object between them, and
+that the switch that needs more force closes too. If the fingers were slower from the beginning, a touching finger
+would come off at once, and would push a loose object a little each time the finger touched it again.
 """
 EASING: Final = 0.0015
-"""Greatest movement (m) of the hand towards a finger until the finger no longer touches: the deflection of the arm
-under 18 N.
+"""Greatest distance (m) that the hand moves towards a touching finger until the finger no longer touches. It is the
+deflection of the arm under 18 N.
 """
 
 

@@ -14,11 +14,11 @@ from handeye.core.units import INCH, OUNCE_FORCE
 FREE_OPENING: Final = 0.12 * INCH
 """Opening (m) after which a finger is clear of an object that it touched.
 
-Half of the opening belongs to each finger. The arm deflects by that much (1.5 mm) only under about 18 N.
+Half of the opening, 1.5 mm, belongs to each finger. The arm deflects by 1.5 mm only under about 18 N.
 """
 GAP_ERROR: Final = 0.1 * INCH
 """Permitted difference (m) between the gap and its goal. The finger servo stops within a few hundredths of an inch.
-Placeholder.
+The value is a placeholder.
 """
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 FREE_FORCE: Final = 45 * OUNCE_FORCE
@@ -31,9 +31,10 @@ downwards. We calculated this force for 15 places on the table: it is at most 6.
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
 
-The switches close at 2 ounces, with a stated spread of .4 ounces. Three times the doubled spread is added, so that each
-finger must press with at least 4.4 ounces. One finger may carry 3 ounces less than the other, because the arm holds the
-difference, and the gap is known only to one step of its converter.
+The switches close at 2 ounces, with a stated spread of .4 ounces. In worlds of the high level, the spread is .8
+ounces. With three times this spread added, each finger must press with at least 4.4 ounces. One finger may carry 3
+ounces less than the other, because the arm holds the difference, and the gap is known only to one step of its
+converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
@@ -44,22 +45,22 @@ STARTING_TORQUE: Final = 0.05
 STALLED_TORQUE: Final = 0.37
 """Greatest torque of the motor (N m): that of the slipping clutch, plus that of the spindle."""
 STARTING_PERIODS: Final = 4
-"""Servo periods that a motor takes to reach the speed of driving. Measured: 4.2."""
+"""Servo periods that a motor takes to reach the speed of driving. We measured 4.2 periods."""
 FAST_PERIODS: Final = 6
-"""Servo periods after which a motor that runs free has certainly started. A motor that turns at 1.4 times the usual
-speed has not started by then.
+"""Servo periods after which a free motor of the usual speed has certainly started. A motor that turns at 1.4 times
+this speed is then still starting.
 """
 WIND_UP: Final = 0.2
-"""Time (s) for which the torque rises, at most, when the head of a screw meets the top. Our choice; the measured time
-is .1 s.
+"""Longest time (s) for which the torque rises after the head of a screw has met the top. The value is our choice; the
+measured time is .1 s.
 """
 DRIVEN: Final = 0.2 * INCH
-"""Advance (m) of a screw that shows its running torque: four turns."""
+"""A screw that has advanced by this distance (m), four turns, shows its running torque."""
 PLATEAU: Final = 1.0
 """Time (s) for which a torque must last to show that the motor is held fast: three turns at driving speed. Our choice.
 """
 HELD_FAST: Final = 0.3
-"""Fraction of the requested torque that shows that the motor is held fast, while the hand does not advance.
+"""A torque above this fraction of the requested torque shows that the motor is held fast, if the hand does not advance.
 
 For 42 ounce-inches this is .09 N m. A turning screw takes .02 N m. A bit that slips under 22 ounces takes at most
 .025 N m, if all of that force acts as friction at the edge of a head. Five times the noise of the current adds .04
@@ -113,13 +114,13 @@ SKEW: Final = 1e-3
 """Permitted change (m) of the gap on an object that has turned between the fingers. A turn of 2 degrees on an inch
 gives .9 mm.
 
-An object that is grasped again lies straighter, and CENTER holds it only lightly. After being pushed against blocks
-it lies more askew. Measured: on pins, the gap closed by .5 mm. On the base of the pump, it closed by .8 mm and widened
-by .44 mm in the worlds of seeds 1 to 6; in the world of seed 1001, it widened by more than .5 mm.
+An object that is grasped again lies straighter, and CENTER holds it only lightly. An object that was pushed against
+blocks lies more askew. Measured: on pins, the gap closed by .5 mm. On the base of the pump, it closed by .8 mm and
+widened by .44 mm in the worlds of seeds 1 to 6; in the world of seed 1001, it widened by more than .5 mm.
 """
 OFF_MIDDLE: Final = 3e-3
-"""Permitted distance (m) of an object from the middle of the fingers that close on it again, along the line of the
-fingers.
+"""Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers when they
+close on the object again.
 
 An object that was carried and set down may have slid in the grip by SKEW and turned by 2 degrees. At a grasp 57 mm
 from that grip, as on the walls of the pump base, the turn is a displacement of 2 mm. Measured over eight pumps: at

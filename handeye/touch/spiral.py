@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 
 SearchPattern = Callable[[int], tuple[float, float] | None]
-"""Function that returns the offset of place k, counted from 0, in search steps along x and y of the table, or None
-after the last place.
+"""Function that takes the number k of a place, counted from 0, and returns the offset of this place in search steps
+along x and y of the table. After the last place, it returns None.
 """
 
 

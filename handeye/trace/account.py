@@ -40,8 +40,8 @@ class _Teller:
     _camera: float = 0.0  # part of the stage that the camera's mechanism took, s
     _shift: Array | None = None  # offset of the goal of the present step from its planned place, m
     _off: Array = field(default_factory=lambda: np.zeros(3))
-    """Offset of the end of the last motion from its planned end (m); a straight motion after it begins with
-    this offset.
+    """Offset (m) of the place where the last motion ended from the planned place. If the next motion is straight, it
+    begins with this offset.
     """
     _tested: str | None = None  # the answer to a test, until it is known where the program continues
 

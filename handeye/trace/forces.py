@@ -40,8 +40,8 @@ class Forces(Brief):
     moment.
     """
     value: Array
-    """Reading of the guard, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver
-    (N m), or finger switches as a mask; NaN if there is no guard or no record of the reading.
+    """Reading of the guard, shape (n,): force along the axis (N), moment about the axis (N m), torque of the
+    screwdriver (N m), or finger switches as a mask; NaN if there is no guard or no record of the reading.
     """
     limit: Array  # limit of the guard, shape (n,); NaN if there is no guard
 

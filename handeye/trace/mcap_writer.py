@@ -28,7 +28,9 @@ from handeye.trace.mcap_encoder import McapEncoder
 
 CHUNK: Final = 1 << 20  # bytes of messages after which a chunk is closed
 _HARDEST: Final = 19
-"""Compression level of a plan. It takes a few tenths of a second, and leaves a tenth of the size."""
+"""Level at which a plan is compressed. The compression takes a few tenths of a second, and reduces the plan to a tenth
+of its size.
+"""
 
 
 class GrowingFile:

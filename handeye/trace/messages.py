@@ -34,8 +34,8 @@ SECOND: Final = 10**9
 _SETS: Final = 32  # sets of frames whose messages are kept
 
 Poses = NDArray[np.float32]
-"""Poses in W, shape (n, 7): position (m), then a unit quaternion w, x, y, z. Single precision, a ten-thousandth of
-a millimetre, is enough to view the cell and keeps files small.
+"""Poses in W, shape (n, 7): position (m), then a unit quaternion w, x, y, z. Single precision resolves a
+ten-thousandth of a millimetre. This is enough to view the cell, and it keeps files small.
 """
 
 

@@ -154,7 +154,9 @@ def _named(value: Any) -> Any:
 
 _AXES: Final = ("x", "y", "z", "O", "A", "T")
 _RECORDED: Final = {FRAMES: 2.0**-22, HAND: 1.1 * 10.0**-PLACES, EVENTS: 1.1e-6}
-"""Resolution of recorded numbers: 24 binary digits, or decimals, with a margin for rounding."""
+"""Resolution of recorded numbers, with a margin for rounding. Numbers are recorded with 24 binary digits or with a
+fixed number of decimals.
+"""
 _TELLERS: Final[Mapping[str, Callable[[bytes], dict[str, Any]]]] = {
     JOINTS: _joints,
     HAND: _hand,

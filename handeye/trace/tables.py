@@ -92,14 +92,15 @@ def _forces(trace: Trace) -> Table:
         ),
         Column(
             name="value",
-            about="value that the guard measures, in N or N m, or the finger switches",
+            about="value that the guard measures: a force (N), a moment or torque (N m), or the state of the finger "
+            "switches",
             values=forces.value[rows],
         ),
         Column(name="limit", about="limit of the guard", values=forces.limit[rows]),
     ]
     task = known_any(trace.head.task)
     axes = AnyTask.force_axes if task is None else task.force_axes
-    about = f"What the hand felt, in the servo periods in which force was estimated or a guard was active; {axes}."
+    about = f"What the hand felt in each servo period in which a force was estimated or a guard was active; {axes}."
     return Table(name="forces", about=about, columns=(*_under_way(trace, forces.times[rows]), *columns))
 
 
@@ -131,7 +132,7 @@ def _events(trace: Trace) -> Table:
             values=tuple(event_data(e).decode() for e in events),
         ),
     )
-    return Table(name="events", about="Everything that happened and was not undone.", columns=columns)
+    return Table(name="events", about="Every event that happened and was not undone.", columns=columns)
 
 
 _TABLES: Final[Mapping[str, Callable[[Trace], Table]]] = {

@@ -34,7 +34,7 @@ FELT: Final = {
 }  # allowed deviation of the reading of a guard: N, N m, or switches
 LONGEST_GAP_S: Final = 10.0  # between two periods, even at rest: the second hand of a clock moves on
 _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
-"""Pose for an absent body, far from all others."""
+"""Pose that an absent body gets: a place far from all other bodies."""
 
 
 def kept_periods(trace: Trace) -> Rows:
@@ -80,8 +80,8 @@ def _watching(forces: Forces) -> Iterator[int]:
 
 
 STEP: Final = np.float32(2.0**-13)
-"""Step to which positions (m) and quaternion components are rounded: an eighth of a millimetre, and at most .014
-degrees.
+"""Positions (m) and components of quaternions are rounded to multiples of this step. For positions, the step is an
+eighth of a millimetre; for rotations, it is at most .014 degrees.
 """
 
 

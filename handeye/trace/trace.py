@@ -145,7 +145,7 @@ class Trace:
         if not below:
             return ""
         nearest = min(below, key=lambda step: step.line)
-        return f"; the next line that did is {nearest.place}: {one_line(nearest.text)}"
+        return f"; the next line that ran is {nearest.place}: {one_line(nearest.text)}"
 
     @cached_property
     def channels(self) -> tuple[ChannelCurve, ...]:

@@ -97,7 +97,7 @@ def test_what_is_said_while_the_run_goes_is_refused_at_once_and_never_carried_ou
     assert [reply.error for reply in replies] == [
         f"`back` was ignored: {GOING}",
         "there is no command `stpe`; did you mean `step`?",
-        "pace takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0x`",
+        "`pace` takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0x`",
     ]
     assert stepper.refused
 

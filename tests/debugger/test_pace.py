@@ -86,7 +86,7 @@ def test_a_pace_is_a_number_of_times_or_free(text: str, times: float | None) -> 
 @pytest.mark.parametrize("text", ["0x", "x", "-1x", "1e3", "101x", "0.1", "nan", "4 x", "slow", "٤x"])
 def test_anything_else_is_no_pace(text: str) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^pace takes `1x`, `4x`, another number from 0\.25x to 100x, or `free`, not `"
+        InvalidInput, match=r"^`pace` takes `1x`, `4x`, another number from 0\.25x to 100x, or `free`, not `"
     ):
         factor(text)
 

@@ -540,7 +540,7 @@ def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> Non
     runner._broken = "the simulation lost its footing"
     assert (
         say("s")[0].error
-        == "the run cannot continue from here, only go back: the simulation lost its footing"
+        == "the run cannot continue from here; it can only go back: the simulation lost its footing"
     )
     assert (
         say("set saved H 0 0 0")[0].error
@@ -575,26 +575,26 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("run", "there is no command `run`; did you mean `continue`?"),
         ("frobnicate", "there is no command `frobnicate`; `help` lists them"),
         ("contineu", "there is no command `contineu`; did you mean `continue`?"),
-        ("step x", "step takes a number of 1 or more, not `x`"),
-        ("step 0", "step takes a number of 1 or more, not `0`"),
-        ("step -1", "step takes a number of 1 or more, not `-1`"),
+        ("step x", "`step` takes a number of 1 or more, not `x`"),
+        ("step 0", "`step` takes a number of 1 or more, not `0`"),
+        ("step -1", "`step` takes a number of 1 or more, not `-1`"),
         ("stage 2", "`stage` takes no operand; remove `2`"),
         ("pause", "the run is already paused"),
-        ("pace 0", "pace takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0`"),
+        ("pace 0", "`pace` takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0`"),
         ("until", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("until L7", "the program has no label, instruction or stage `L7`; did you mean `L1`?"),
         ("back", "the run is at its first step: there is no earlier state to go back to"),
         ("back stage", "the run is at its first step: there is no earlier state to go back to"),
-        ("back x", "back takes a number of 1 or more, or `stage`, not `x`"),
+        ("back x", "`back` takes a number of 1 or more, or `stage`, not `x`"),
         ("break", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("break 99", "line 99 is after the last step, which is on line 22"),
-        ("delete", "delete takes the number of a breakpoint; breakpoints: none"),
-        ("delete foo", "delete takes the number of a breakpoint, not `foo`; breakpoints: none"),
+        ("delete", "`delete` takes the number of a breakpoint; breakpoints: none"),
+        ("delete foo", "`delete` takes the number of a breakpoint, not `foo`; breakpoints: none"),
         ("delete 4", "there is no breakpoint 4; breakpoints: none"),
-        ("picture", "give picture the name of a file to write, such as `picture base.png`"),
+        ("picture", "give `picture` the name of a new file, such as `picture base.png`"),
         ("picture x.png", "the program has taken no picture yet"),
-        ("list 23", "list takes a line from 1 to 22, not `23`"),
-        ("list x", "list takes a line from 1 to 22, not `x`"),
+        ("list 23", "`list` takes a line from 1 to 22, not `23`"),
+        ("list x", "`list` takes a line from 1 to 22, not `x`"),
         ("show jiont", "there is no `jiont` to show; did you mean `joints`?"),
         ("show s", "there is no `s` to show; the topics are " + ", ".join(TOPICS)),
         ("set", "write `set saved NAME x y z` or `set position NAME x y z [o a t]`"),

@@ -162,7 +162,7 @@ def test_what_is_asked_wrongly_is_answered_in_a_sentence_and_logged_in_a_line(tm
     assert "never.al: there is no such file" in answers[2]["error"]["message"]
     assert answers[3]["error"]["message"] == "untitled:1 is not open in the editor"
     for wrong in (4, 5):
-        assert "do not have the types of the protocol" in answers[wrong]["error"]["message"]
+        assert "do not have the types that the protocol requires" in answers[wrong]["error"]["message"]
     assert (done.returncode, b"Traceback" in done.stderr) == (0, False)
 
 

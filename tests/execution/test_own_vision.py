@@ -88,7 +88,7 @@ def test_a_gasket_that_the_function_accepts_is_in_place() -> None:
             {"LOOK": place},
             "vision has no function for 'LOOK'; you can give one for GENERAL, SPECIFIC, INSPECT",
         ),
-        ({"GENERAL": 3}, "the vision of GENERAL must be a function; 3 is none"),
+        ({"GENERAL": 3}, "the vision of GENERAL must be a function; 3 is not a function"),
     ],
 )
 def test_a_function_or_a_result_that_is_no_use_is_refused(

@@ -111,4 +111,4 @@ def test_the_stepper_lists_around_a_line_of_a_file(say: Callable[..., list[Reply
         ("words.al", 1, False),
         ("words.al", 2, False),
     ]
-    assert wrong.error == "list takes a line from 1 to 4, not `words.al:9`"
+    assert wrong.error == "`list` takes a line from 1 to 4, not `words.al:9`"

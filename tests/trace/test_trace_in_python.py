@@ -114,7 +114,7 @@ def test_the_force_of_a_line_is_that_of_each_time_it_was_carried_out(trace: Trac
     assert np.array_equal(trace.forces(line="4").times, of_line.times)
 
 
-@pytest.mark.parametrize(("line", "below"), [(5, r"; the next line that did is 6: .+"), (900, "")])
+@pytest.mark.parametrize(("line", "below"), [(5, r"; the next line that ran is 6: .+"), (900, "")])
 def test_a_line_that_was_not_carried_out_is_refused(trace: Trace, line: int, below: str) -> None:
     with pytest.raises(InvalidInput, match=rf"^line {line} of short did not run in .*short\.mcap{below}$"):
         trace.forces(line=line)

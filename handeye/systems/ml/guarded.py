@@ -20,7 +20,8 @@ from typing import Final, Literal
 Limits = tuple[int, int]
 Readings = Mapping[int, int]  # readings by the numbers of the sensors
 Senses = Callable[[int, Mapping[int, int]], Readings]
-"""Function that returns what the sensors read in a cycle while the motors are at certain positions."""
+"""Function that takes the number of a cycle and the positions of the motors, and returns the readings of the sensors.
+"""
 
 FINE: Final = 100  # set-points are counted in hundredths of a unit, because 20 cm/s is 78.74 units per cycle
 

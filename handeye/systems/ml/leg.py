@@ -61,7 +61,7 @@ HAND: Final = 11  # number of the motor of the fingers
 ZERO: Final = (20 * INCH, 42 * INCH, 5 * INCH)  # x, y, z of the tool in W (m) with all slides at 0
 _DOWN: Final = (pi / 2, pi / 2, 0.0)  # O, A, T
 _SLIDE: Final = {"lower": -10_039, "upper": 10_039, "tolerance": 60}
-"""Travel of the rectilinear arm. We chose the tolerance, because friction holds the Stanford arm up to 1.5 mm off its
+"""Travel of the rectilinear arm. The tolerance is our choice: friction may stop the Stanford arm up to 1.5 mm from its
 goal.
 """
 

@@ -34,7 +34,8 @@ class RelaySystem(System):
     plan = RelayPlan
     words = StepperWords(
         about=(
-            "A step is a step of the program that has the arm. Each leg is a stage; between two legs the brakes are",
+            "A step of a relay is a step of the program that controls the arm. Each leg is a stage; between two "
+            "legs the brakes are",
             "set, and a record is handed over.",
         ),
         units="those of each program",

@@ -20,7 +20,7 @@ SLOW_STEP_MM: Final = 2  # mm/s per unit of a speed code; a code stands for 2 to
 
 _NAMES: Final = ("X1", "Y1", "Z1", "FORCE1", "HAND1", "X2", "Y2", "Z2", "FORCE2", "HAND2")
 NUMBERS: Final = {name: number for number, name in enumerate(_NAMES)}
-"""Numbers of the microcomputers of SUPERSIGMA, by name: one status page per arm."""
+"""Numbers of the microcomputers of SUPERSIGMA, by name. The microcomputers of each arm share a page of status lines."""
 _LINE: Final = (
     "X3", "Y3", "Z3", "FORCE3", "HAND3", "X4", "Y4", "Z4", "FORCE4", "HAND4",
     "X5", "Y5", "HAND5", "X6", "SCALE", "HAND6",
@@ -29,7 +29,7 @@ LINE_NUMBERS: Final = NUMBERS | {name: len(NUMBERS) + number for number, name in
 """Numbers of all microcomputers of the assembly line: SUPERSIGMA, a second one, the feeder (5) and the belt (6)."""
 AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
 LINE_AXES: Final = (*AXES, "X3", "Y3", "Z3", "X4", "Y4", "Z4", "X5", "Y5", "X6")
-"""The axes of the assembly line. Those of arms, which have wrists, come first."""
+"""The axes of the assembly line. The axes of arms, which have wrists, come first."""
 COMPONENTS: Final = ("X", "Y", "Z")  # components of a wrist, as byte 3 numbers them
 DEVICES: Final = {
     "HAND": 0,

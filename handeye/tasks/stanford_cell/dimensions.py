@@ -21,7 +21,7 @@ Point = tuple[float, float]
 PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
     DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
 ]  # fmt: skip
-"""Joint positions of the parked arm: the hand is at (20, 28, 8) in and points down. Layout study, section 2."""
+"""Joint positions of the parked arm. The hand points down and is at (20, 28, 8) inches: layout study, section 2."""
 
 UNITS: Final = {
     "in": INCH,

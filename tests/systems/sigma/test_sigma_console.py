@@ -63,7 +63,7 @@ def test_a_program_stops_before_a_line_and_goes_on() -> None:
     assert typed("RUN")[0].startswith("BREAK before line 30, in the task MAIN, at ")
     assert typed("STATUS")[0] == "  0  X1      0-0  free               49.9875 mm"
     assert typed("CONT") == ["49.9875", "2 commands in 0.450 s; the computer was idle for 99% of the time"]
-    assert typed("CONT") == ["no program is running; RUN starts it"]
+    assert typed("CONT") == ["no program is running; RUN starts the program"]
     assert typed("BREAK\nRUN")[0] == "49.9875"
 
 

@@ -314,7 +314,7 @@ def test_no_step_is_skipped_that_the_arm_undoes(monkeypatch: pytest.MonkeyPatch)
     events = [*runner.events]
     refused = stepper.do("skip")
     assert refused.error is not None
-    assert refused.error.startswith("no step can be skipped while going back")
+    assert refused.error.startswith("no step can be skipped while the program runs backwards")
     assert (runner.events, runner.call is not None) == (events, True)
     result = outcome(runner, stepper.pause, Meter(), judged=True)
     assert (result.completed, result.apart, result.exit_code) == (False, UNSET, 1)
@@ -350,7 +350,7 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
 
 
 def test_no_breakpoint_waits_for_an_error_that_a_taught_program_never_raises() -> None:
-    with pytest.raises(InvalidInput, match=r"^the steps of this program raise no errors to break on"):
+    with pytest.raises(InvalidInput, match=r"^no step of this program raises an error"):
         breakpoint("error:23", listing(TaughtPlan(job="palletise", script=low_script(1))))
 
 

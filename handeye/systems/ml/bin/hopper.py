@@ -32,7 +32,8 @@ PADS: Final = [0.999, 0.999, 0.0005, 0.5, 2.0]
 
 In MuJoCo, a contact that friction holds creeps. With the arm's usual impedance of .95 to .99, a part that is held
 aslant turns, and the fingers, which a freeze has stopped, lose a quarter to a third of their force each half second.
-With this impedance they lose 1 percent. But they shake a part of .5 kg out, and with .9999 one of 26 g.
+With this impedance, the fingers lose 1 percent. But they shake out a part of .5 kg; with an impedance of .9999, they
+shake out even a part of 26 g.
 """
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}

@@ -23,7 +23,7 @@ MISSING, MOVED, SMALL, LARGE, OCCUPIED, SLIPPERY = (
     "blocks.slippery",
 )
 FAULTS: Final = Catalogue(
-    arm_fault("gauge.left.z.dead", harmless="The gauge of the other finger stops the hand."),
+    arm_fault("gauge.left.z.dead", harmless="The gauge of the right finger stops the hand."),
     arm_fault("gauges.dead", _UNFELT),
     arm_fault("motor.z.dead"),
     arm_fault("motor.x.dead"),

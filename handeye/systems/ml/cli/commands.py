@@ -114,7 +114,12 @@ def check(
     file: Annotated[Path, Parameter(help="A program in ML, `.ml`, or a symbolic program, `.sym`.")],
     /,
     *others: Annotated[
-        Path, Parameter(help="Further symbolic files, which are assembled after FILE, as one program.")
+        Path,
+        Parameter(
+            help=(
+                "Further symbolic files. FILE and these files, in this order, are assembled as one program."
+            )
+        ),
     ],
     json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
@@ -136,7 +141,12 @@ def assemble(
     file: Annotated[Path, Parameter(help="A symbolic program, `.sym`.")],
     /,
     *others: Annotated[
-        Path, Parameter(help="Further symbolic files, which are assembled after the first, as one program.")
+        Path,
+        Parameter(
+            help=(
+                "Further symbolic files. The first file and these files, in this order, are assembled as one program."
+            )
+        ),
     ],
     out: Annotated[
         Path | None,
@@ -146,7 +156,7 @@ def assemble(
 ) -> int:
     """Assemble a symbolic program: names become the numbers of statements, variables and sensors.
 
-    Exit code 0: it was assembled; 2: bad input, or a program with errors.
+    Exit code 0: the program was assembled; 2: bad input, or a program with errors.
     """
     from handeye.systems.ml.language.assembler import assembled, decks
 

@@ -86,13 +86,13 @@ class Console:
         return COMMANDS
 
     def load(self, source: Source) -> None:
-        """Store the program of a file. Raises BadFile if it has mistakes."""
+        """Store the program of a file. Raises BadFile if the program has mistakes."""
         replace_program(self._mos, source)
         self._say(counted(len(self._program.numbers), "statement"))
 
     def hear(self, line: str) -> None:
         """Execute a line to its end. If the line starts a program, execute this program to its end, too. Raises
-        InvalidInput if that is impossible.
+        InvalidInput if the line cannot be executed.
         """
         if line.strip().upper() == "HELP":
             self._help()

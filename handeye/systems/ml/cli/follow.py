@@ -49,7 +49,8 @@ def follow_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Follow an outline in many worlds. Shows how often it is followed correctly, and the errors of the touches.
+    """Follow an outline in many worlds. Shows the errors of the touches, and how often the outline is followed
+    correctly.
 
     Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints the trials that have finished; with
     --out, the same command continues the batch.

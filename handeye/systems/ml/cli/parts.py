@@ -25,11 +25,11 @@ def orient(
 ) -> int:
     """Take a bar whose attitude is unknown, and turn it by touch into a known attitude.
 
-    `plans/orient.ml` takes the bar out of a cradle, in which the bar is pitched by up to 50 degrees and turned by up to
-    25 degrees. It puts the bar down with a guarded move, which stops at a contact. Then it lets the bar fall flat, and
-    grasps it again. To learn where the bar is, it moves the end of the bar against a stop; then it grasps the bar in
-    the middle. A referee checks that the fingers hold the bar, within 3 degrees of the required attitude and within 1
-    mm of the required place.
+    `plans/orient.ml` takes the bar out of a cradle, in which the bar is pitched by up to 50 degrees and turned by up
+    to 25 degrees. The program puts the bar down with a guarded move, which stops at a contact. Then it lets the bar
+    fall flat, and grasps it again. To learn where the bar is, the program moves the end of the bar against a stop;
+    then it grasps the bar in the middle. A referee checks that the fingers hold the bar, within 3 degrees of the
+    required attitude and within 1 mm of the required place.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
@@ -46,7 +46,7 @@ def orient_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Orient a bar in many worlds. Shows how often the bar has the right attitude and place, and the errors of both.
+    """Orient a bar in many worlds. Shows the errors of the bar's attitude and place, and how often both are right.
 
     Each trial does what `handeye ml orient` does. Ctrl-C ends the batch and prints the trials that have finished; with
     --out, the same command continues the batch.
@@ -72,9 +72,10 @@ def take_from_bin(
     """Take parts of one kind out of a bin, one at a time, and judge each by its width and weight.
 
     `plans/bin.ml` finds the highest parts with the range finder, and grasps them with guarded moves, which stop at a
-    contact. From the separation and the strain of the fingers it learns whether the hand holds one good part, one bad
-    part, no part or several. It puts good and bad parts into two boxes, until the range finder shows that the bin is
-    empty. A referee then checks that each part is in the right box, and that none is left in the bin or lies elsewhere.
+    contact. From the separation and the strain of the fingers, the program learns whether the hand holds one good
+    part, one bad part, no part or several parts. The program puts good and bad parts into two boxes, until the range
+    finder shows that the bin is empty. A referee then checks that each part is in the right box, and that no part is
+    left in the bin or lies elsewhere.
 
     Exit code 0: right; 1: the program has stopped because it could not get a part, or has lost one; 3: it has ended,
     but the referee disagrees; 2: bad input; 130: interrupted.
@@ -90,7 +91,8 @@ def bin_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Take parts out of a bin in many worlds. Shows how often all are taken out and judged correctly, and if not, why.
+    """Take parts out of a bin in many worlds. Shows how often all parts are taken out and judged correctly, and why
+    the other trials fail.
 
     Each trial does what `handeye ml bin` does. Ctrl-C ends the batch and prints the trials that have finished; with
     --out, the same command continues the batch.

@@ -41,7 +41,7 @@ def _source(name: str) -> tuple[str, float]:
     if name not in known:
         choices = (*known, *INTERLOCKS)
         near = names_sentence(alternatives(name, choices)) or f"choose from {', '.join(choices)}"
-        raise NoSuchName(f"--sense has no sensor or interlock {quoted(name)}; {near}")
+        raise NoSuchName(f"there is no sensor or interlock {quoted(name)} for --sense; {near}")
     line = known[name]
     if line.mask:
         return RIGHT.digital[line.input][line.mask.bit_length() - 1], 1.0

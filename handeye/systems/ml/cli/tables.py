@@ -24,8 +24,8 @@ def tables(
     file: Annotated[
         Path | None,
         Parameter(
-            help="The folder of a run, or a program in ML (.ml), which is first run on perfect motors. Default: the "
-            "newest run in the folder `runs`."
+            help="The folder of a run, or a program in ML (.ml), which this command first runs on perfect motors. "
+            "Default: the newest run in the folder `runs`."
         ),
     ] = None,
     table: Annotated[
@@ -54,8 +54,8 @@ def tables(
     """Show the tables of MOS as they were in any cycle of a run.
 
     Everything that MOS knows is in 30 tables. MT has a line for each motor, and ST has one for each sensor; VR has the
-    variables, and TK the program. Every ML run records each word that changes, cycle by cycle. An asterisk marks a word
-    that changed in the cycle that is shown. `handeye report` shows the same tables in a page.
+    variables, and TK has the program. Every ML run records each word that changes, cycle by cycle. An asterisk marks a
+    word that changed in the cycle that is shown. `handeye report` shows the same tables in a page.
 
         handeye ml tables plans/guarded_move.ml --sense 5=500@3:2750    # which tables are there, and which change?
         handeye ml tables plans/guarded_move.ml MT --at .2s             # the motors after a fifth of a second

@@ -41,7 +41,8 @@ def touch(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Simulate a guarded touch on a block. Show how far the hand goes on after the contact, and with what force.
+    """Simulate a guarded touch on a block. Show how far the hand moves on after the contact, and with what force it
+    presses.
 
     The hand descends until the reading of a strain gauge is beyond its limit. The simulation shows what the ten
     milliseconds of MOS mean: after the contact, the slide goes on until the sensors are read again, and then for as

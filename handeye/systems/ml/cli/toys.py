@@ -16,9 +16,9 @@ def blocks(
 ) -> int:
     """Stack three toy blocks by touch.
 
-    `plans/blocks.ml` grasps each block along x and then along y, so that it lies in the middle of the hand, and puts it
-    down with a guarded move, which stops at a contact. A referee then checks that each block is centred on the block
-    below to within 2 mm, and that no block leans by more than 2 degrees.
+    `plans/blocks.ml` grasps each block along x and then along y, so that the block lies in the middle of the hand. The
+    program then puts the block down with a guarded move, which stops at a contact. A referee then checks that each
+    block is centred on the block below to within 2 mm, and that no block leans by more than 2 degrees.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
@@ -31,11 +31,12 @@ def blocks(
 def train(
     *, seed: JobSeed = 0, errors: OwnErrorOptions = ANY_OWN_ERRORS, options: FaultyJobOptions = ANY_FAULTY_RUN
 ) -> int:
-    """Couple an engine and two wagons by touch, inserting each peg into its hole, and pull them.
+    """Couple an engine and two wagons by touch, by inserting each peg into its hole; then pull the train.
 
-    `plans/train.ml` grasps each vehicle along y and then along x, so that it lies in the middle of the hand. It lowers
-    the peg of each wagon into the hole of the vehicle ahead; if a peg does not go in, the program tries places beside
-    the hole. Then it pulls the engine by 50 mm. A referee checks that both wagons have followed.
+    `plans/train.ml` grasps each vehicle along y and then along x, so that the vehicle lies in the middle of the hand.
+    The program lowers the peg of each wagon into the hole of the vehicle ahead; if a peg does not go in, the program
+    tries places beside the hole. Then it pulls the engine by 50 mm. A referee checks that both wagons have followed
+    the engine.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.
@@ -52,7 +53,7 @@ def blocks_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Stack three blocks in many worlds. Shows how often the stack is right, and its errors.
+    """Stack three blocks in many worlds. Shows the errors of the stack, and how often the stack is right.
 
     Each trial does what `handeye ml blocks` does. Ctrl-C ends the batch and prints the trials that have finished; with
     --out, the same command continues the batch.
@@ -73,7 +74,7 @@ def train_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Couple a train in many worlds. Shows how often both wagons follow the engine, and the errors of the train.
+    """Couple a train in many worlds. Shows the errors of the train, and how often both wagons follow the engine.
 
     Each trial does what `handeye ml train` does. Ctrl-C ends the batch and prints the trials that have finished; with
     --out, the same command continues the batch.

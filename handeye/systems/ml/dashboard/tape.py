@@ -40,8 +40,8 @@ _EVENTS: Final = ("FE", "GO", "EM", "SF")  # tables that change in some cycles
 
 Changes = NDArray[np.int32]
 """Changed words, shape (n, 3): each row has the cycle, the number of the word and its value. Changes of the same word
-are in the order in which they happened. Cycles count from 0. What a statement changes belongs to the cycle that follows
-the statement.
+are in the order in which they happened. Cycles count from 0. A change that a statement makes belongs to the cycle
+after the statement.
 """
 
 

@@ -164,7 +164,8 @@ class Follow(ArmTask):
 
     name = "follow"
     words = Words(
-        product="the outline", done="The outline is followed once around, and the plate is where it was."
+        product="the outline",
+        done="The wand has followed the outline once around, and the plate has not moved.",
     )
 
     def variation(self) -> Variation:

@@ -70,7 +70,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("DISABLE", "", "Freeze all motors, then switch the pump off.", "DISABLE"),
         ("EXIT", "", "Switch the pump off and leave MOS.", "EXIT"),
         ("LEFT", "", "All commands that follow are for the left arm.", "LEFT"),
-        ("RIGHT", "", "All commands that follow are for the right arm. At the start, commands are for this arm.",
+        ("RIGHT", "", "All commands that follow are for the right arm. At the start, commands are for the right arm.",
          "RIGHT"),
         ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
         ("RUN", "[n]", "Run the stored program from statement n, or from its first statement.", "RUN 100"),

@@ -25,8 +25,8 @@ MISSING, NARROW, WIDE, SHORT, CRADLE, NO_STOP, STOP = (
     "stop.moved.y",
 )
 FAULTS: Final = Catalogue(
-    arm_fault("gauge.left.z.dead", harmless="The gauge of the other finger stops the hand."),
-    arm_fault("gauge.left.y.dead", harmless="The gauge of the other finger feels the stop."),
+    arm_fault("gauge.left.z.dead", harmless="The gauge of the right finger stops the hand."),
+    arm_fault("gauge.left.y.dead", harmless="The gauge of the right finger feels the stop."),
     arm_fault("gauges.dead", _NO_TABLE),
     arm_fault("motor.z.dead"),
     arm_fault("motor.y.dead"),

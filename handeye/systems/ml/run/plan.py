@@ -33,7 +33,7 @@ class MlPlan(Record, frozen=True, kw_only=True):
         None  # the statement at which the program begins; None: the one with the lowest number
     )
     left: Number | None = None
-    """The statement at which the program of the left arm begins; None: there is no left arm."""
+    """The statement at which the program of the left arm begins; None if there is no left arm."""
     stimuli: Annotated[tuple[Stimulus, ...], msgspec.Meta(max_length=MOST_STIMULI)] = ()  # for perfect motors
     outline: Annotated[tuple[Point, ...], msgspec.Meta(max_length=MOST_CORNERS)] = ()
     """The corners (y, x), in ML units, of an object that the wand touches. Only an arm with perfect motors has one."""

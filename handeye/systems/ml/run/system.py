@@ -35,8 +35,8 @@ WORKED_EXAMPLE: Final = (
     Stimulus(channel="left_strain_z", value=-700 * GRAM_FORCE),
     Stimulus(channel="range", value=300 * RANGE_COUNT),
 )
-"""What the sensors sense in the paper's example: a force when y passes 2.750 in, a part in the hand, and a surface 30
-mm below the hand.
+"""What the sensors sense in the paper's example: a force when y passes 2.750 inches, a part in the hand, and a surface
+30 mm below the hand.
 """
 
 

@@ -16,7 +16,7 @@ FOUND: Final[dict[int, Found]] = {
     75: "beside",
     76: "tightened",
 }
-"""For each number that the program prints before the number of a screw: what it found."""
+"""For each number that the program prints before the number of a screw: what the program has found."""
 _ENDS: Final[dict[Found, str]] = {
     "seated": "is seated",
     "crossed": "is crossed or jammed: it stopped the screwdriver too early, so the program turns it out",

@@ -45,8 +45,8 @@ PAGE: Final = 16  # lines of an external table in a page
 _BY_PROGRAMS: Final[Mapping[str, tuple[str, ...]]] = {
     "AR": ("coordinate",), "CY": ("used", "share"), "EM": (), "FE": (), "GO": (), "PF": (), "PI": (), "SF": ()
 }  # fmt: skip
-"""The words that a program can write, by table; in other tables it can write all words. No word that it can write
-prevents an emergency.
+"""For each of these tables, the words that a program can write. In all other tables, a program can write every word.
+No word that a program can write prevents an emergency.
 """
 
 

@@ -24,7 +24,7 @@ NO_ENGINE, NO_WAGON, MOVED, REVERSED, THICK, NO_PEG, BLOCKED = (
     "engine.hole.blocked",
 )
 FAULTS: Final = Catalogue(
-    arm_fault("gauge.left.z.dead", harmless="The gauge of the other finger stops the hand."),
+    arm_fault("gauge.left.z.dead", harmless="The gauge of the right finger stops the hand."),
     arm_fault("gauges.dead", _LEFT),
     arm_fault("motor.z.dead"),
     arm_fault("motor.y.dead"),

@@ -53,7 +53,7 @@ VARIATION: Final = Variation(
         "mm",
         Range(0.2, 0.4),
         2.0,
-        "Difference of the diameters of hole and peg. No source: our choice.",
+        "Difference between the diameters of hole and peg. No source: our choice.",
         CLEARANCE / MILLIMETRE,
     ),
 )

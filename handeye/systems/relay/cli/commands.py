@@ -28,7 +28,9 @@ def run(
     file: RelayFile,
     /,
     *,
-    seed: Annotated[WholeNumber, Parameter(help="Seed of the world: it determines all its errors.")] = 0,
+    seed: Annotated[
+        WholeNumber, Parameter(help="Seed of the world: it determines all errors of the world.")
+    ] = 0,
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     camera: Camera = "auto",
     options: JobOptions = ANY_RUN,
@@ -36,8 +38,8 @@ def run(
     """Run the legs of a relay. `handeye relay FILE` does the same.
 
     Between two legs, the brakes are set, and a small record is handed over: where the hand is, what it holds, and the
-    places that the programs have found. If the hand or the part is not as the record says, the next leg refuses to
-    begin.
+    places that the programs have found. If the hand or the part does not agree with the record, the next leg refuses
+    to begin.
 
     Exit code 0: right; 1: a program stopped before its end, or a leg refused to begin; 3: all programs ended, but the
     referee disagrees; 2: bad input; 130: interrupted.
@@ -89,8 +91,8 @@ def relay_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Run a relay in many worlds. Shows how often the pump is right, and for each leg how often it ended well, its time
-    and its greatest force.
+    """Run a relay in many worlds. Shows how often the pump is right. For each leg, shows the time, the greatest force,
+    and how often the leg ended well.
 
     Each trial does what `handeye relay run` does, and takes one to two CPU minutes. Ctrl-C ends the batch and prints
     the trials that have finished; with --out, the same command continues the batch.

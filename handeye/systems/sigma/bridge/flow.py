@@ -93,7 +93,7 @@ def goals(statement: Statement, places: Axes) -> dict[str, Known]:
 
 
 Tests = Mapping[int, ForceTest]
-"""For the line of each motion, the force test that directly follows it."""
+"""For the line of each motion, the force test that directly follows the line."""
 
 
 def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:

@@ -34,13 +34,19 @@ def axis(
         float | None, Parameter(help="Make an emergency stop after this time, in ms.")
     ] = None,
     cut: Annotated[
-        bool, Parameter(negative=(), help="Stop by sending no more pulses, instead of by the steepest ramp.")
+        bool,
+        Parameter(
+            negative=(),
+            help=(
+                "To stop, send no more pulses. Without this option, the motor stops along the steepest ramp."
+            ),
+        ),
     ] = False,
     json: Json = False,
     drawing: DrawingOptions = NO_DRAWING,
 ) -> int:
-    """Simulate one move of one motor. Show its speed, the force that it requires, and whether the rotor follows or
-    slips.
+    """Simulate one move of one motor. Show the speed of the motor, the force that the move requires, and whether the
+    rotor follows or slips.
 
     Exit code 0: no step was lost; 1: steps were lost; 2: bad input.
     """

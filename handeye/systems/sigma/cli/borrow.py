@@ -1,4 +1,4 @@
-"""The command that runs a MAL program with the Stanford arm in place of SUPERSIGMA's."""
+"""The command that runs a MAL program with the Stanford arm in place of an arm of SUPERSIGMA."""
 
 from pathlib import Path
 from typing import Annotated
@@ -21,8 +21,8 @@ def borrow(
     ] = 0,
     json: Json = False,
 ) -> int:
-    """Run a MAL program with the Stanford arm in place of arm 1: X1, Y1 and Z1 move the tool of that arm, and there
-    is no bus.
+    """Run a MAL program with the Stanford arm in place of arm 1: X1, Y1 and Z1 move the tool of the Stanford arm, and
+    there is no bus.
 
     The arm moves over the table of the water-pump cell. It moves at up to 150 mm/s. Without LIMIT, no force stops
     the arm; after LIMIT, a force above the limit stops the arm within a servo period of 1/60 s. Programs that use

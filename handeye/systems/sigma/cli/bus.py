@@ -140,8 +140,8 @@ def run(
 ) -> int:
     """Run a program in MAL over the simulated wires of the bus, and say how busy the bus and the computer were.
 
-    With --out, the command draws a diagram of the whole run or of a part. This run is not kept in a folder; to keep
-    one, use `handeye sigma run --arm wired`.
+    With --out, the command draws a diagram of the whole run or of a part. This run is not kept in a folder; to keep a
+    run, use `handeye sigma run --arm wired`.
 
     Exit code 0: all tasks have ended; 1: the program stopped before its end; 2: bad input; 130: interrupted.
     """
@@ -186,7 +186,7 @@ def run(
 
 
 def _microseconds(begin: float | None, end: float) -> tuple[int, int]:
-    """Return the times at which a diagram begins and ends. Raises BadArgument if there can be no such diagram."""
+    """Return the times at which a diagram begins and ends. Raises BadArgument if a diagram cannot have these times."""
     first = begin or 0.0
     if not 0 <= first < end <= _LONGEST_DIAGRAM:
         raise BadArgument(

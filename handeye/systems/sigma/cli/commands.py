@@ -69,7 +69,7 @@ def run(
     statement_us: StatementTime = 2000,
     options: RunOptions = USUAL_RUN,
 ) -> int:
-    """Run a program. The stepper counts each statement of the task whose turn it is as one step.
+    """Run a program. In the stepper, a step is one statement of the task whose turn it is.
 
     Exit code 0: all tasks have ended; 1: the program stopped before its end (an abort, a deadlock, or a statement
     that cannot be executed); 2: bad input; 130: interrupted.
@@ -111,7 +111,8 @@ def check(
     interleavings: Annotated[
         bool,
         Parameter(
-            help="Try every order in which the tasks may run. Show what can go wrong, and an order in which it does."
+            help="Try every order in which the tasks may run. Show what can go wrong, and an order in which it goes "
+            "wrong."
         ),
     ] = False,
     most: Annotated[

@@ -78,7 +78,7 @@ class Console:
         return COMMANDS
 
     def hear(self, line: str) -> None:
-        """Execute a line. If that is impossible, change nothing and raise InvalidInput."""
+        """Execute a line. If the line cannot be executed, change nothing and raise InvalidInput."""
         line = line.strip()
         if not line:
             return
@@ -181,7 +181,7 @@ class Console:
     def _cont(self, _: str) -> None:
         vm = self._vm
         if vm is None or not vm.memory.tasks:
-            raise Refused("no program is running; RUN starts it")
+            raise Refused("no program is running; RUN starts the program")
         if vm.memory.fault is not None:
             self._carry_on(vm.proceed)
         elif self._paused:

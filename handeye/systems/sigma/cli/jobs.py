@@ -134,7 +134,8 @@ def prco(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Assemble the plate of the pump with two arms: arm 1 lays it down and puts in two pins, arm 2 drives six screws.
+    """Assemble the plate of the pump with two arms: arm 1 lays the plate down and puts in two pins; arm 2 drives six
+    screws.
 
     `plans/prco.mal` runs on two simulated gantries, in a world with errors. A referee then checks that the
     plate lies on its base, with both pins at the bottom of their holes; that each screw is in its thread, with its
@@ -155,8 +156,8 @@ def chess_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Sort the pieces of many boards. Shows how often all pieces are right, the errors of their heights and positions,
-    and the bus load.
+    """Sort the pieces of many boards. Shows the bus load, the errors of the heights and positions of the pieces, and
+    how often all pieces are right.
 
     Each trial does what `handeye sigma chess` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.
@@ -177,8 +178,8 @@ def handover_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Hand four pieces from arm to arm on many boards. Shows how often all pieces are right, their position errors,
-    and the bus load.
+    """Hand four pieces from arm to arm on many boards. Shows the bus load, the position errors of the pieces, and
+    how often all pieces are right.
 
     Each trial does what `handeye sigma handover` does. Ctrl-C ends the batch and prints the trials that have
     finished; with --out, the same command continues the batch.
@@ -197,7 +198,7 @@ def insert_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Insert the pegs of many boards. Shows how often all pegs are right, the forces, and the bus load.
+    """Insert the pegs of many boards. Shows the bus load, the forces, and how often all pegs are right.
 
     Each trial does what `handeye sigma insert` does. Ctrl-C ends the batch and prints the trials that have
     finished; with --out, the same command continues the batch.
@@ -219,8 +220,8 @@ def line_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Run the assembly line in many worlds. Shows how often all pieces are right, their position errors, and the bus
-    load.
+    """Run the assembly line in many worlds. Shows the bus load, the position errors of the pieces, and how often all
+    pieces are right.
 
     Each trial does what `handeye sigma line` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.
@@ -240,8 +241,8 @@ def prco_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble the plate of the pump in many worlds. Shows how often all parts are right, the depth and the clamping
-    force of the screws, and the bus load.
+    """Assemble the plate of the pump in many worlds. Shows the bus load, the depth and the clamping force of the
+    screws, and how often all parts are right.
 
     Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished;
     with --out, the same command continues the batch.

@@ -155,7 +155,7 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     elif one.well not in (None, b"\0"):
         fault = "its self-test fails"
     else:
-        fault = "its clock is wrong: instead of the right byte, it reads the one before or after it"
+        fault = "its clock is wrong: instead of the right byte, it reads the byte before or after"
     return SelfTest(part="microcomputer", number=number, fault=fault)
 
 

@@ -116,7 +116,8 @@ class Strategy:
             if beam.glass:
                 raise Found(
                     f"lamp of hand {arm}",
-                    "with a grey filter in it, the beam reads as interrupted, although the filter passes enough light",
+                    "with a grey filter in the beam, the beam reads as interrupted, although the filter passes "
+                    "enough light",
                 )
             grip = self._test(f"grip {arm}", lambda arm=arm: means.grip(self._at, arm))  # type: ignore[misc]
             if not grip.busy:

@@ -22,8 +22,8 @@ from handeye.systems.sigma.protocol import LONGEST_MOVE, SLOW_STEP_MM, STEP_MM, 
 Pin = Literal["low", "high", "force"]
 """A pin of the interrupt gate: low end of the rail, high end, or excessive force."""
 State = Literal["still", "moving", "stopping", "seeking", "turning", "releasing"]
-"""State of a motor; ORIGIN goes through `seeking` the low end of the rail, `turning` there, and `releasing` its
-switch.
+"""State of a motor. During an ORIGIN, the motor is `seeking` on its way to the low end of the rail, `turning` while it
+brakes there, and `releasing` until the switch of the low end opens.
 """
 COUNTING: Final[frozenset[State]] = frozenset({"still", "moving", "stopping"})
 """States in which the count of a motor stays valid."""

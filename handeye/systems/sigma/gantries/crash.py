@@ -198,7 +198,7 @@ STUDY: Final = (
     (50.0, True, True),
     (50.0, False, True),
 )
-"""Speed, reflex and endless loop of each collision on the page."""
+"""For each collision on the page: the speed, whether the reflex is on, and whether the computer hangs."""
 
 
 ABOVE: Final = tuple((lower, speed) for lower in (2, 1) for speed in (50.0, None))

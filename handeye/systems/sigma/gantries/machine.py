@@ -136,7 +136,9 @@ class Gantries(Plant[GantryMemory]):
         self._places = slice(self._levels, self._levels + self._n)
         self._servos = self._n + len(rig.arms)  # a job may have more motors, which follow these
         self.actuated: list[Callable[[int, Sequence[int]], None]] = []
-        """Called with the number and the outputs of a hand microcomputer when the outputs have changed."""
+        """Functions that are called when the outputs of a hand microcomputer have changed. They take the number and
+        the outputs of the microcomputer.
+        """
         assert self.bench.tick * 10**6 * PS == TICK
         model, data = self.bench.model, self.bench.data
         self._low = world.axes(SWITCHES, rig.axes)  # m: position of the joint of each axis at its low switch

@@ -12,14 +12,16 @@ class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
     slipped: list[int] = field(default_factory=lambda: [0] * len(AXES))
     """Number of poles that rotors have slipped forward; negative if backward."""
     holds: list[float] = field(default_factory=lambda: [1.0] * len(AXES))
-    """Fraction of the pull-out force with which the pole of each rotor holds the rotor."""
+    """For each rotor, the force with which its pole holds it, as a fraction of the pull-out force."""
     peaks: list[float] = field(default_factory=lambda: [0.0] * len(AXES))
-    """The greatest forces on the wrists since they were last read (N)."""
+    """The greatest forces on the wrists (N) since the forces were last read."""
     levels: bytes = b""  # levels of comparators and switches at the last step
     missed: list[int] = field(default_factory=lambda: [0] * len(AXES))
     """Pulses that a faulty microcomputer has counted, but not sent to its driver; forward minus backward."""
     gaps: list[float] = field(default_factory=lambda: [1.0, 1.0])
-    """How far the fingers of each hand may be open, as a fraction, if a fault makes them slow."""
+    """Commanded opening of the fingers of each hand, as a fraction of the full opening, if a fault makes the fingers
+    slow.
+    """
     grips: list[bool] = field(default_factory=lambda: [False, False])  # closed or closing hands
 
     @classmethod

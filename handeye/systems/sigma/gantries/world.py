@@ -45,7 +45,7 @@ VARIATION: Final = Variation(
         "",
         Range(0.35, 0.65),
         5.0,
-        "Viscous friction of an axis, N s/m for each kilogram that it moves. No source: our choice.",
+        "Viscous friction of an axis, in N s/m for each kilogram that the axis moves. No source: our choice.",
         0.5,
     ),
     _quantity(

@@ -14,7 +14,7 @@ from handeye.systems.sigma.mal.interleavings import (
 )
 
 _STOPPING: Final[tuple[FindingKind, ...]] = ("deadlock", "stops")
-"""Findings that stop the program. The program notices none of the others."""
+"""Findings that stop the program. The program notices none of the other findings."""
 
 
 def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, str, str]]:

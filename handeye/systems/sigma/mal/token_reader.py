@@ -63,7 +63,7 @@ class TokenReader:
         self._depth += 1
         if self._depth > DEEPEST:
             token = self._next
-            told = f"this is nested more than {DEEPEST} deep"
+            told = f"the expression or statement is nested more than {DEEPEST} deep"
             raise Mistaken(mistake("too-deep", told, self._end if token is None else token.span))
 
     def _name(self, what: str) -> Token:

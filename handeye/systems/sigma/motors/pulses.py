@@ -41,7 +41,7 @@ CURVES: Final = (
     Curve(acceleration=14_000.0),
     Curve(start=500.0),
 )
-"""Curves by number, as commands select them; an unknown number means the first."""
+"""Curves by number, as commands select them; an unknown number means the first curve."""
 
 
 class Train(Record, frozen=True, kw_only=True):

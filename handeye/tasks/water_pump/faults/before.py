@@ -109,7 +109,7 @@ def _gasket() -> Iterator[PartFault]:
         "place."),
         "y": ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_OFF, detect.ON_PINS),
-            harmless="The search finds the pins even if the hand holds the gasket .25 in off its centre.",
+            harmless="The search finds the pins even if the hand holds the gasket .25 inch off its centre.",
         ),
     })  # fmt: skip
     yield _fault(
@@ -195,8 +195,8 @@ def _screws(count: int) -> Iterator[PartFault]:
         )  # fmt: skip
         yield _fault(
             f"screw.{number}.burred",
-            f"A burr increases the radius of the point of screw {number} by this amount; from .35 mm on, the "
-            "screw enters no tapped hole.",
+            f"A burr increases the radius of the point of screw {number} by this amount; if the amount is .35 mm or "
+            "more, the screw enters no tapped hole.",
             partial(scene.thick_point, screw), calls(detect.misfit_screw(number), loose),
             Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
@@ -226,7 +226,7 @@ def _holes(count: int) -> Iterator[PartFault]:
              f"An earlier screw was cross-threaded in tapped hole {number}, so that the next screw cross-threads "
              "more easily.", scene.as_drawn,
              ExpectedDetection(
-                 harmless="A screw that enters straight also seats in a scarred thread; the referee adds a caution."
+                 harmless="A screw that enters straight seats even in a scarred thread; the referee adds a caution."
              ), None),
             (f"thread.{number}.crosses",
              f"Every screw in tapped hole {number} cross-threads, however straight it is.", scene.as_drawn,

@@ -74,7 +74,8 @@ _WITHIN_WEIGHTS: Final = (
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
 
 Lines = Sequence[tuple[str, Callable[[float], Effect]]]
-"""The signal lines that a fault affects, each with a function from the size of the fault to the effect."""
+"""The signal lines that a fault affects. For each line, a function takes the size of the fault and returns the effect.
+"""
 DeviceFault = PumpFault[Lines]
 
 
@@ -264,8 +265,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         f"{motor}.slow", "The screwdriver's motor turns at the commanded speed times this factor.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns more slowly seats equally well. Half the speed is noticed, because the "
-                "motor then reaches its speed sooner than usual.",
+            harmless="A screw that turns more slowly seats equally well. Half the usual speed is noticed, because "
+            "the motor reaches half the speed sooner.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip

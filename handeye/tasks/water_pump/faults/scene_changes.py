@@ -24,8 +24,8 @@ OVER_TRAY_M: Final = 0.12  # more than any part reaches below its origin
 _CARD_HALF_M: Final = 0.08
 _FOREMOST: Final = 3  # priority in a contact, higher than that of any shape in the scene
 METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
-"""Stiffness of the end of a blocked hole. We measured that a thread drives its screw straight through a joint
-limit with MuJoCo's default stiffness.
+"""Stiffness of the end of a blocked hole. We measured that MuJoCo's default stiffness of a joint limit is too low: a
+thread drives its screw straight through the limit.
 """
 
 

@@ -80,8 +80,8 @@ ONCE: Final = {
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
 """Each of these errors counts the same as the calls listed with it. The careful program names the fault with one of
-these calls; a program that tries every step only once, like that of 1973, reports it with the error. Error and call
-count as one name.
+these calls; a program that tries every step only once, like the program of 1973, reports the fault with the error.
+Error and call count as one name.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"

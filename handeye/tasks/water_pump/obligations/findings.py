@@ -32,7 +32,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         ),
         Obligation(
             finding="base_height", claims=(claims.level(), *map(claims.face, range(4))),
-            rests="A base that is less than .04 in too high may remain unnoticed; the referee allows .02 in.",
+            rests="A base that is too high by less than .04 in may remain unnoticed; the referee allows .02 in.",
         ),
         Obligation(
             finding="base_tilt", claims=(claims.side(0, 3), claims.side(1, 2)),
@@ -56,7 +56,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         ),
         Obligation(
             finding="screws_depth", claims=heads,
-            rests="A head that stands less than .02 in too high may remain unnoticed; the referee allows .008 in.",
+            rests="A head that stands too high by less than .02 in may remain unnoticed; the referee allows .008 in.",
         ),
         Obligation(
             finding="screws_thread", claims=threaded,
@@ -70,7 +70,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
             rests="Only the length of a screw is felt, to .12 in; the referee allows .014 in.",
         ),
         Obligation(finding="screws_lean", claims=heads, rests="A leaning screw rests on one side of its head."),
-        Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops .17 in high or more."),
+        Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops at least .17 in too high."),
         Obligation(
             finding="screws_clamp", claims=tight,
             rests="A screw that is driven later shifts the load of the others. The torque stop is felt, not the "
@@ -102,7 +102,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
 
 _SLIDES: Final = "A push with more than 40 oz slides the pump on the table."
 _LAYERS: Final = (
-    "An object under a head raises it. Less than .02 in may remain unnoticed; the referee allows .012 in."
+    "An object under a head raises the head. If it raises the head by less than .02 in, it may remain unnoticed; "
+    "the referee allows .012 in."
 )
 _CLUTCH: Final = "The clamping force to which a torque leads depends on the friction of thread and head."
 _HOLDER: Final = "If a pin leans or is not in its hole, its end is lower or higher than it should be."
@@ -131,4 +132,4 @@ _UNSENSED: Final = {
     "held": "It is a property of the simulation: nothing but the arm acts on the parts.",
     "numbers": "It is a property of the simulation: its numbers are finite.",
 }
-"""Findings that no program is asked to show, with the reason."""
+"""Findings that no program is asked to show, and for each the reason."""

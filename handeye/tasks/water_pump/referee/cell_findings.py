@@ -198,7 +198,7 @@ def _put_away(measured: SettledState, hidden: Sequence[int]) -> Finding:
     strayed = {name: measured.strayed([name], [name]) for name in strangers}
     farthest = max(strayed, key=strayed.__getitem__, default="")
     if strayed and strayed[farthest] * 1e3 > limits.TRAY:
-        subject = "distance of an object that is no part of the pump from its place in the drawing"
+        subject = "displacement, relative to the drawing, of an object that does not belong to the pump"
         return mm(strayed[farthest], limits.TRAY, f"{subject}: {farthest}")
     return mm(
         max((measured.from_site(f"screw{k}", f"park{k}") for k in hidden), default=0.0), limits.TRAY,

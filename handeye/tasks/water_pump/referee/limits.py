@@ -10,17 +10,19 @@ BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the asse
 
 LAYER_HEIGHT: Final = 0.3
 """Greatest deviation from the nominal height at each screw hole (mm). A deviation of half this limit would already
-reveal a lost chip under the layer; assembly study.
+reveal a lost chip under the layer (assembly study).
 """
 
 SCREW_GAP: Final = 0.2
-"""Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high; assembly study."""
+"""Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high (assembly study)."""
 SCREW_CLAMP: Final = 40.0
-"""Least clamping force of a screw (N), more than the 19 N with which a hand pulls. Seated screws end at 56 to 298 N."""
+"""Least clamping force of a screw (N). It is more than the 19 N with which a hand pulls. Seated screws end at 56 to
+298 N.
+"""
 SCREW_TURNED: Final = 400.0
 """Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most 250 N.
-With the least friction of thread and head in any world, the torque of the driver's clutch, .32 N m, makes this force
-at most 357 N; twice the torque makes it 530 to 560 N.
+With the least friction that thread and head have in any world, the torque of the driver's clutch, .32 N m, causes at
+most 357 N; twice this torque causes 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
 """Greatest force under a head at the end (N). It may exceed SCREW_TURNED, because screws that are tightened later
@@ -45,10 +47,10 @@ with pitch diameters of .2127 in and .2224 in; ASME B1.1.
 """
 SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0
-"""Greatest number of scarred threads; more only give a warning. The effect of a scar on the pump is judged by other
-limits: a screw that was backed out and driven straight holds like any other if it clamps (SCREW_CLAMP), stands
-straight (SCREW_LEAN) and has its length of thread (SCREW_THREAD). But a person who takes the pump apart must know
-of the scar, because a thread that was cut twice strips sooner.
+"""Greatest number of scarred threads; a larger number only causes a warning. The effect of a scar on the pump is
+judged by other limits: a screw that was backed out and driven straight holds like any other if it clamps
+(SCREW_CLAMP), stands straight (SCREW_LEAN) and has its length of thread (SCREW_THREAD). But a person who takes the
+pump apart must know of the scar, because a thread that was cut twice strips sooner.
 """
 SOFT: Final = 0.03
 """Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank that was
@@ -59,7 +61,9 @@ farther.
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
 PIN_TILT: Final = 10.0  # deg: a pin tilted by more leans out of the holder
 RACK_TILT: Final = 5.0
-"""Lean of the screwdriver (degrees) that the play of the guides allows. Out of its guides, it leans more."""
+"""Lean of the screwdriver (degrees) that the play of the guides allows. A screwdriver that is out of its guides leans
+more.
+"""
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.1
@@ -86,9 +90,9 @@ HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or t
 
 APART: Final = 3.0  # mm from where the run found a part: the next run must find the part there again
 APART_GASKET: Final = 6.0
-"""Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket on
-its stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was
-lifted; at 6.4 mm its holes would not let the fingers of the next run in.
+"""Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket on its
+stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was lifted.
+If it were displaced by 6.4 mm, the fingers of the next run would not fit into its holes.
 """
 APART_TURN: Final = 3.0
 """Turn (degrees) of a part. If the part is as long as the base, its end moves by half of the fingers' clearance."""
@@ -101,7 +105,7 @@ carrier represents a screw, a body elsewhere would mean that the screw exists tw
 FORCE: Final = 0.0  # N and N m, external, on a part or the arm: nothing may be held by an unseen hand
 MERGED: Final = 0.1
 """Greatest distance (mm) between a clamped layer and the position in which its weld holds it. Screws that are
-tightened later press the layer away from there: by up to .030 mm in pumps that the arm has made.
+tightened later press the layer away from this position: by up to .030 mm in pumps that the arm has made.
 """
 MERGED_TURN: Final = 0.1  # deg, the same limit for rotation; up to .017 deg in pumps that the arm has made
 ALTERED: Final = 0  # parts; any difference counts, because building a scene again gives the same bytes

@@ -18,7 +18,7 @@ _SIZE: Final = 512
 _BENCH: Final = 1024  # px; more than for others, because photographs show most of the bench
 _BOARDS: Final = 33
 Grain = Callable[[np.random.Generator], Array]
-"""Computes a square picture of relative intensities, shape (n, n, 3)."""
+"""Function that computes a square picture of relative intensities, shape (n, n, 3)."""
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
@@ -112,4 +112,4 @@ _LIKE: Final = {"top": "machined", "block": "machined"}  # materials that have t
 _REPEATS: Final = {
     "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip
-"""Repetitions of a grain per metre; 1: once over the whole surface."""
+"""Repetitions of a grain per metre. The value 1 means that the grain covers the whole surface once."""

@@ -58,7 +58,8 @@ LOOKS: Final = (
     *_looks(_TRIANGLE, CLOSE_UP, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
 )
 """Views through both lenses over the belt, and through the close-up lens also between the belt and the standard
-position. Between the two, half as many views suffice, because the other views give most of the information.
+position. Between belt and standard position, half as many views suffice, because the other views give most of the
+information.
 
 The fingers reach 3.5 in below the lamp, and must stay clear of the base on the belt, which is 2.75 in high.
 """

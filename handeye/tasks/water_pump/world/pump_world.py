@@ -63,8 +63,8 @@ class PumpWorld(ArmWorld):
     fixtures: dict[str, Placing]  # error of each fixture
     parts: dict[str, Placing]  # error of each part's place on its fixture, by body; pins have no error
     holes: dict[str, tuple[Point, ...]]
-    """Errors (m) of the screw holes of each part in DRILLED. The keys are the names of the parts. In the base, these
-    are the tapped holes.
+    """Errors (m) of the screw holes of each part in DRILLED. The keys are the names of the parts. The screw holes of
+    the base are tapped.
     """
     part_mass: float  # scale of the masses of base and top
     thread_phase: tuple[float, ...]  # angle at which each thread starts, rad
