@@ -53,7 +53,7 @@ def test_a_printed_page_says_how_to_open_a_linked_page(command: Command, topic: 
     assert err.startswith(f"to open a linked page: `handeye docs {linked}")
     opened = re.findall("`handeye docs (.*)`", err)[0]
     assert command("docs", opened)[0] == 0
-    assert Path(err.rstrip().rpartition(" from ")[2]).samefile(DOCS)
+    assert Path(err.rstrip().rpartition(" relative to ")[2]).samefile(DOCS)
 
 
 def test_a_path_is_one_that_can_be_opened(command: Command) -> None:

@@ -47,8 +47,8 @@ def test_a_file_of_the_name_wins_and_a_folder_does_not(command: Command) -> None
     [
         ("run water_pmup", "water_pmup: there is no such file, and no program of that name; did you mean"),
         ("run palletise",
-         "the task `palletise`: TRIG cannot run a plan of motions: each of its programs is taught in the world in "
-         "which it runs; `handeye trig palletise`, "),
+         "the task `palletise`: TRIG cannot run a plan of motions: each program of TRIG is taught in the world in "
+         "which the program runs; `handeye trig palletise`, "),
         ("export mjcf --task palletise -o out", "the task `palletise` exports no scene\n"),
         ("trig palletise --task bucket", "`trig palletise` has no option `--task` (see"),
         (

@@ -88,7 +88,7 @@ def test_a_world_of_another_version_is_refused(command: Command, recorded: str) 
 def test_a_world_with_code_of_somebody_elses_is_refused(command: Command, recorded: str) -> None:
     other = begins_otherwise(replaced={"camera": "fog.Foggy"})
     assert refused(command, recorded, "--world-of", other) == (
-        "the run in other.jsonl used code of the calling program (camera), which this command does not have"
+        "the run in other.jsonl used code of the calling program (camera); this command does not have that code"
     )
 
 

@@ -51,7 +51,7 @@ _AXES = vector(x=ONE, y=ONE, z=ONE)
 _PICTURE = name_of("picture", Refers.PICTURE)
 _PART = name_of("part", Refers.PART)
 _VALUE = count("value", 0, MAX_COUNT, f"a counter can be set to a value from 0 to {MAX_COUNT}")
-_ZERO_WHY = "write 0, which changes nothing: what other numbers meant in 1977 is unknown"
+_ZERO_WHY = "write 0, which has no effect: we do not know what other numbers meant in 1977"
 _ZERO = Operand(name="0", takes=(Number,), units=(ONE,), low=0.0, high=0.0, why=_ZERO_WHY, optional=True)
 _FORCE = Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR)
 _STOP_FORCE = replace(

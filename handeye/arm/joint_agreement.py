@@ -25,10 +25,9 @@ PATH_SHARE: Final = 0.013
 deviations of the scale error of a potentiometer (.22 %), doubled.
 """
 JUMP_STEPS: Final = 4.0
-"""Tolerance, in converter steps, for a change of the potentiometer reading within one servo period that the
-tachometer does not show.
-
-One step for rounding, and five standard deviations of the noise (.2 steps per reading, .4 at the high level).
+"""Tolerance, in converter steps, for a change of the potentiometer reading that the tachometer does not show, within
+one servo period. The tolerance is one step for rounding, plus five standard deviations of the noise (.2 steps per
+reading, .4 at the high level).
 """
 STRUCK: Final = 3.0
 """If a joint is struck, its path in one servo period is uncertain by half the change of its rate, times the period,
@@ -37,14 +36,14 @@ times this factor. The factor is our choice.
 
 
 SINGULAR: Final = 0.05
-"""Directions in which the joints hardly move the hand, by less than this fraction of the largest movement, are left
-out when a blow is estimated from the joints. The fraction is our choice.
+"""If the joints move the hand in some direction by less than this fraction of the largest movement, this direction is
+left out when a blow is estimated from the joints. The fraction is our choice.
 """
 REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
 tachometer reads zero.
 
-Two steps allow for the noise at the high level, the others for an arm that creeps.
+Two steps allow for the noise at the high level. The other steps allow for an arm that creeps.
 """
 
 

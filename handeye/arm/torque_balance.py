@@ -35,8 +35,8 @@ LIMIT: Final = 5.0
 twice their stated size.
 
 Assembling a pump takes about 350 motions. If two joints were checked in each of them, a limit of 4 would stop one
-assembly in 20 although all drives work, and a limit of 5 one in 2,500. Fewer are checked: only motions that begin
-clear of all objects.
+assembly in 20 although all drives work, and a limit of 5 one in 2,500. Fewer motions are checked: only those that
+begin clear of all objects.
 """
 OFF: Final = 0.4  # share of LIMIT above which further joints are reported with the worst one
 

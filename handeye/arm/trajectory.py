@@ -22,7 +22,8 @@ from handeye.core.units import INCH
 from handeye.program.diagnosis.reach import BelowTable
 
 DIRECT_KNOT: Final = 1 / 9
-"""Fraction of the path at which the first and last inner knots lie in a motion without departure or approach.
+"""Place of the inner knots, as a fraction of the path, in a motion without departure or approach. The first inner knot
+lies at this distance after the start, and the last inner knot lies at this distance before the end.
 
 In the worked example of Paul (1972), the fraction is 5 degrees of 45 degrees.
 """

@@ -206,10 +206,10 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def check(self, state: ArmState) -> None:
         lengths = {len(state.q), len(state.qd), len(self.dofs if state.command is None else state.command)}
         if lengths != {len(self.dofs)}:
-            raise ValueError("its arm has a different number of joints")
+            raise ValueError("the saved arm has a different number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
-            raise ValueError("its watchdog waits for a time in the past")
+            raise ValueError("the saved watchdog waits for a time in the past")
 
     def restore(self, state: ArmState) -> None:
         self._read(np.array(state.q), np.array(state.qd), braked=state.braked)

@@ -198,9 +198,9 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def check(self, state: BenchTime) -> None:
         if not 0 <= state.steps < _LATEST or any(due.microseconds >= _LATEST for due in state.due):
-            raise BadFile("its clock shows an impossible time")
+            raise BadFile("the saved clock shows an impossible time")
         if not {due.name for due in state.due} <= {*self.handlers}:
-            raise BadFile("it waits for events that this bench does not know")
+            raise BadFile("the saved state waits for events that this bench does not know")
 
     def restore(self, state: BenchTime) -> None:
         self._steps, self._due = state.steps, list(state.due)

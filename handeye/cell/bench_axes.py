@@ -303,7 +303,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
 
     def check(self, state: OutputsState) -> None:
         if {*state.values} != {*self._outputs} or not np.isfinite([*state.values.values()]).all():
-            raise BadFile("its outputs belong to another machine")
+            raise BadFile("the saved outputs belong to another machine")
 
     def restore(self, state: OutputsState) -> None:
         self._values = dict(state.values)

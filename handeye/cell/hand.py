@@ -229,7 +229,7 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         self._torque_noise, self._noise = torque_noise, noise
         self._command = self._torque = 0.0
         self.magnet = True
-        """True if the magnet of the bit is commanded on. The threads of the task compute its attraction."""
+        """True if the magnet of the bit is commanded to be on. `cell/threads.py` switches the magnet."""
 
     @property
     def speed(self) -> float:

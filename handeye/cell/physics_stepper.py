@@ -41,8 +41,8 @@ from handeye.core.errors import PhysicsFailed
 from handeye.core.small_arrays import span
 
 LONGER: Final = 4
-"""Number of short steps in a long step. Chosen so that a servo period is a whole number of long steps, and so that
-friction holds.
+"""Number of short steps in a long step. Our choice: a servo period is then a whole number of long steps, and friction
+still holds joints and parts.
 """
 MIDDLE: Final = 2
 """Number of short steps in a middle step."""
@@ -59,8 +59,9 @@ class Carrying:
     hand: str  # the body that moves everything that is carried
     pairs: tuple[tuple[str, str], ...]  # allowed in long steps: the hand and a free body, or two free bodies
     delicate: tuple[tuple[str, ...], ...] | None = None
-    """Not allowed in middle steps: two bodies that touch, or one body that touches anything. If this is None, the
-    simulation takes no middle steps.
+    """The contacts that are not allowed in middle steps. A tuple with two bodies stands for their contact with each
+    other; a tuple with one body stands for every contact of this body. If this is None, the simulation takes no middle
+    steps.
     """
     resting: tuple[str, ...] = ()  # joints that do not move during middle steps
 
@@ -115,8 +116,8 @@ class _Contacts:
     delicate: bool
     """True if a pair is not allowed in middle steps."""
     held: tuple[tuple[int, int], ...]
-    """The free bodies that the hand carries if all pairs are allowed in long steps. Each comes with the place of its
-    pose in the positions of the simulator.
+    """The free bodies that the hand carries if all pairs are allowed in long steps. Each body comes with the index of
+    its pose among the positions of the simulator.
     """
 
 

@@ -96,16 +96,16 @@ class SnapshotCell:
     def _check(self, state: CellState) -> None:
         """Raise ValueError unless every number in a state fits this cell."""
         if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
-            raise ValueError("its physics belong to another scene")
+            raise ValueError("the saved physics belong to another scene")
         if set(state.figures) != set(self._changes):
-            raise ValueError("it lacks values that change in this scene")
+            raise ValueError("the saved state lacks values that change in this scene")
         for name, values in state.figures.items():
             if values.shape != getattr(self._model, name).shape:
                 raise ValueError(f"{name} has a different size here")
         if not all(np.isfinite(values).all() for values in (state.physics, *state.figures.values())):
-            raise ValueError("some of its values are not finite numbers")
+            raise ValueError("some saved values are not finite numbers")
         if not 0 <= state.time < 1e9:
-            raise ValueError("its clock shows an impossible time")
+            raise ValueError("the saved clock shows an impossible time")
         if set(state.mechanisms) != {part.name for part in self._mechanisms}:
-            raise ValueError("it has different devices or mechanisms")
+            raise ValueError("the saved state has different devices or mechanisms")
         check_noise(state.noise)

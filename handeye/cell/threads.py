@@ -185,7 +185,7 @@ class Threads(Mechanism[ThreadsState]):
     def check(self, state: ThreadsState) -> None:
         screws = {hole.screw for hole in state.holes if hole.screw is not None} | {state.driven}
         if len(state.holes) != len(self.holes) or max(screws) >= len(self.holes):
-            raise ValueError("its screws belong to another scene")
+            raise ValueError("the saved screws belong to another scene")
         finite([hole.clamp for hole in state.holes], "a thread")
 
     def restore(self, state: ThreadsState) -> None:

@@ -23,13 +23,13 @@ BRIGHT: Final = 97  # percentile that counts as the bright parts
 are those of the signal chain in the vision study, section 0.1. They are placeholders that give a realistic picture.
 """
 GAIN_WINDOW: Final = 0.6
-"""The target voltage is adjusted to the middle of the picture: to this fraction of its width and of its height.
-Placeholder.
+"""The target voltage is adjusted to the bright parts in the middle of the picture. This fraction of the width and of
+the height counts as the middle. Placeholder.
 """
 
 F_NUMBER: Final = 2.8
 PITCH: Final = RASTER[0] / COLUMNS  # m
-"""Width (m) of a picture point on the target, used for the blur of defocus. The aperture is a placeholder."""
+"""Width (m) of a picture point on the target, used for the blur of defocus. The f-number above is a placeholder."""
 
 
 class Vidicon:

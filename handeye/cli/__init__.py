@@ -98,8 +98,8 @@ STAND_INS: Final = {
     "—": "-", "─": "-", "│": "|", "┌": "+", "├": "+", "…": "...", "“": '"', "”": '"', "„": '"', "«": '"', "»": '"',
     "‘": "'", "’": "'",
 }  # fmt: skip
-"""Replacements for characters that an encoding lacks. Each has the width of the character it replaces, except the
-three points that replace an ellipsis.
+"""Replacements for characters that an encoding lacks. Each replacement has the width of the character it replaces,
+except the three full stops that replace an ellipsis.
 """
 _PLAIN: Final = "handeye.plain"
 

@@ -68,16 +68,16 @@ def bench_agents(
     brief: Annotated[
         Path | None,
         Parameter(
-            help="Instead of --command: a new folder for the brief and the given files, without judging. For all "
-            "tasks, the folder gets a folder for each task."
+            help="Instead of --command: a new folder for the brief and the given files; nothing is judged. If "
+            "several tasks are chosen, the new folder gets a folder for each task."
         ),
     ] = None,
     attempt: Annotated[
         Path | None,
         Parameter(
             name="--try",
-            help="Instead of --command: a folder with one program for the task, such as `.`. It is judged in the "
-            "public worlds, and the command prints the feedback.",
+            help="Instead of --command: a folder with one program for the task, such as `.`. The program is judged "
+            "in the public worlds, and the command prints the feedback.",
         ),
     ] = None,
     check: Annotated[
@@ -91,7 +91,8 @@ def bench_agents(
     solutions: Annotated[
         Path | None,
         Parameter(
-            help="Instead of --command: a folder that an earlier --out wrote, whose programs are judged again."
+            help="Instead of --command: a folder that an earlier --out wrote. The programs in this folder are "
+            "judged again."
         ),
     ] = None,
     feedback: Annotated[
@@ -99,13 +100,14 @@ def bench_agents(
         Parameter(
             help="What the entrant learns between two rounds about its program in the public worlds. verdict: the "
             "verdict in each world; errors: also the errors, and what the referee measured where the program is "
-            "accepted; trace: also what each step did. Default: verdict, or errors with --try."
+            "accepted; trace: also what each step did. Default: verdict; with --try: errors."
         ),
     ] = None,
     rounds: Annotated[
         WholeNumber,
         Parameter(
-            help="How many times the command may be run for a task. It gets feedback before each run except the first."
+            help="How many times the command may be run for a task. The command gets feedback before each run "
+            "except the first."
         ),
     ] = 1,
     hidden: Annotated[

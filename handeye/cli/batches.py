@@ -221,8 +221,8 @@ def compare_trials(
     changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is from McNemar's exact test: if neither batch is better, the probability that the differences are at least as
-    uneven as here.
+    is the p-value of McNemar's exact test: the probability of differences at least as uneven as here, if neither batch
+    is better.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

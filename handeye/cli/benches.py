@@ -92,7 +92,7 @@ def insertion(
     around the condition of a published benchmark. This takes some minutes.
 
     Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
-    program never sees it. Ctrl-C stops the command and prints the trials that have finished.
+    program never sees this force. Ctrl-C stops the command and prints the trials that have finished.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program reported
         success but the pin was not in its hole.

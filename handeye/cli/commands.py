@@ -82,8 +82,8 @@ sentence of the command's docstring; a group of commands has no function. The mo
 
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
-        """Import the command. Its help is its docstring; the sentence in the table is for lists of commands, which
-        do not import the command.
+        """Import the command. The docstring of the command is its help; the sentence in the table is for lists of
+        commands, which do not import the command.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))

@@ -1,4 +1,4 @@
-"""The command that shows a recorded run: the first one to try."""
+"""The command that shows a recorded run. It is the first command to try."""
 
 import os
 import sys
@@ -30,10 +30,10 @@ def demo(
     Writes the report of a run included with handeye, as `report --demo` does, and prints the path of the page. If
     standard output is a terminal, the page opens in a browser. Nothing is simulated, and the page needs no network.
 
-    `handeye demo chess` shows another recorded run: an arm of 1981 sorts chess pieces with a single light beam as
-    its sensor. Its page lists each statement of the program and each command on the bus. `handeye demo follow` shows
-    the curve follower of 1975: an arm feels the outline of a plate. Its page draws the outline that was felt over the
-    true one, and has all tables of the machine in each cycle of 10 ms.
+    `handeye demo chess` shows another recorded run: an arm of 1981 sorts chess pieces with a single light beam as its
+    sensor. Its page lists each statement of the program and each command on the bus. `handeye demo follow` shows the
+    curve follower of 1975: an arm feels the outline of a plate. Its page draws the felt outline on top of the true
+    outline, and shows all tables of the machine in each cycle of 10 ms.
 
     Exit code 0: the page is written; 2: bad input.
     """

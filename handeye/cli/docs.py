@@ -54,7 +54,7 @@ def _say_where_links_lead(page: Path, folder: Path) -> None:
     """Say how to open a page to which this page links, if there is one."""
     linked = next(linked_pages(page, folder), None)
     if linked is not None:
-        note(f"to open a linked page: `handeye docs {linked}`; all links lead on from {page.parent}")
+        note(f"to open a linked page: `handeye docs {linked}`; the links are relative to {page.parent}")
 
 
 def _list(index: str) -> None:

@@ -56,7 +56,7 @@ def evaluate(
     ] = None,
     limit: Annotated[
         float | None,
-        Parameter(help="Time limit of an episode, simulated seconds. Default: that of the environment."),
+        Parameter(help="Time limit of an episode, in simulated seconds. Default: that of the environment."),
     ] = None,
     options: SweepOptions = ANY,
 ) -> int:
@@ -66,7 +66,7 @@ def evaluate(
     Each episode takes place in a world of its own. A false done is an episode in which the policy says that the work
     is done, but the referee disagrees. An episode that reaches its time limit counts as a failure, even if the work is
     right. Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground
-    truth; the policy never sees it. The figures are the same for any number of processes.
+    truth; the policy never sees this force. The figures are the same for any number of processes.
 
     Exit code 0: no false done; 1: no episode finished; 3: a false done; 2: bad input; 130: interrupted.
     """

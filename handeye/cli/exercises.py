@@ -46,8 +46,8 @@ def exercise(
     handeye exercise find find.al
     ```
 
-    Exit code 0: the program is right in every world; 1: not; 3: a silent failure: in some world, the program reported
-    success but its work is wrong; 2: bad input, or a program with mistakes.
+    Exit code 0: the program is right in every world; 1: the program is not right in some world; 3: a silent failure:
+    in some world, the program reported success but its work is wrong; 2: bad input, or a program with mistakes.
     """
     from handeye.exercises import exercises
 

@@ -75,7 +75,7 @@ def urdf(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Write the arm to a URDF file, as its drawing describes it, and list its joints.
+    """Write the arm to a URDF file, as the drawing of the arm describes it, and list the joints of the arm.
 
     Exit code 0: written; 2: bad input.
     """
@@ -91,7 +91,9 @@ def _told(written: "Export", *, json: bool) -> int:
 
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
-    """The state to export; what is left out is printed as notes. Raises InvalidInput if there is no such run."""
+    """The state to export. Notes are printed about everything that the export leaves out. Raises InvalidInput if there
+    is no such run.
+    """
     from handeye.runs.exported_state import initial_state, kept_state
 
     wanted = made_known(world.task)

@@ -64,13 +64,13 @@ def faults(
     noticed.
 
     Good outcomes: the program `recovered`, or it `stopped` in the right stage, with the brakes on, and named the
-    fault. Less good: it stopped but named another fault (`misnamed`). Bad outcomes, counted as undetected: the program
-    should have noticed the fault and did not (`unnoticed`), it stopped without setting the brakes (`unbraked`), or it
-    reported success although the pump is wrong (`silent`).
+    fault. Less good: the program stopped but named another fault (`misnamed`). Bad outcomes, counted as undetected:
+    the program should have noticed the fault and did not (`unnoticed`), it stopped without setting the brakes
+    (`unbraked`), or it reported success although the pump is wrong (`silent`).
 
     A whole run takes one to three CPU minutes; the time left is shown on standard error. Ctrl-C stops the command and
-    prints the runs that have finished; with --out the same command continues from there, and a command for other faults
-    in the same worlds adds its runs to the folder.
+    prints the runs that have finished; with --out, the same command continues where it stopped. A command for other
+    faults in the same worlds adds its runs to the same folder.
 
     Exit code 0: every fault was detected; 1: no trial finished; 3: a fault was undetected; 2: bad input; 130:
     interrupted.

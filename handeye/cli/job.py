@@ -126,7 +126,7 @@ class _Work:
     @contextmanager
     def keeping(self) -> Iterator[Observer]:
         """The observer that saves the run. If the user named no folder and the default folder can no longer be
-        written, the run continues without it.
+        written, the run continues without a folder.
         """
         try:
             yield Observer() if self.folder is None else self.folder

@@ -154,7 +154,7 @@ def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
 
 
 def _filmed(folder: Path, video: Path, *, overwrite: bool) -> bool:
-    """Make the video from the trace of the run. If that fails, report the error and return False."""
+    """Make the video from the trace of the run. If the video cannot be made, report the error and return False."""
     from handeye.runs.folder import TRACE
     from handeye.trace.reading import read_trace
     from handeye.video.making import make_video

@@ -48,9 +48,9 @@ def mutant_trials(
     """Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does
     another check catch the faults for which the missing one was meant?
 
-    A mutant that `handeye check --prove` does not refuse runs from the beginning of its stage, once with each fault for
-    which the missing check exists. It is `caught` if it stops, `silent` if it reports success with wrong work, and
-    `unnoticed` if all runs end with the right work. If there is no such fault, it is `not run`.
+    A mutant that `handeye check --prove` does not refuse runs from the beginning of its stage, once with each fault
+    for which the missing check exists. The mutant is `caught` if it stops, `silent` if it reports success with wrong
+    work, and `unnoticed` if all runs end with the right work. If there is no such fault, the mutant is `not run`.
 
     Exit code 0: no mutant was silent; 1: no trial finished; 3: a mutant was silent; 2: bad input; 130: interrupted.
     """

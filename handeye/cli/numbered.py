@@ -95,8 +95,8 @@ def converse(
     """Execute the lines of `typed`, then the lines that the user enters at the prompt. Returns the exit code.
 
     Args:
-        begin: function that begins the session. It is given two functions: one asks the user a question, the other
-            returns whether the panic button has been pressed.
+        begin: function that begins the session. `begin` receives two functions: one asks the user a question, and the
+            other returns whether the panic button has been pressed.
         echo: print questions even if the answers come from a pipe.
     """
     from handeye.cli.panic_button import PanicButton

@@ -1,5 +1,5 @@
-"""Ctrl-C as the panic button of the cell: it is polled in every servo period, instead of interrupting the program
-anywhere. `kill` has the same effect as Ctrl-C.
+"""Makes Ctrl-C the panic button of the cell. The button is polled in every servo period, so Ctrl-C does not interrupt
+the program at an arbitrary place. `kill` has the same effect as Ctrl-C.
 """
 
 import signal

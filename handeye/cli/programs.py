@@ -82,7 +82,7 @@ def is_program(given: Path) -> bool:
 
 def _program(given: Path) -> "tuple[Path, Task] | None":
     """The program with the given name; None if the text is a path. Raises NoSuchName if the text can only be a name,
-    and no program has it.
+    and no program has this name.
     """
     if not _is_name(given):
         return None
@@ -106,7 +106,7 @@ def _is_name(given: Path) -> bool:
 
 
 def made_known(words: str | None) -> str | None:
-    """The name of the task that `--task` gives, None if the option was left out. This call registers the task."""
+    """The name of the task that `--task` gives; None if the option was left out. This call registers the task."""
     return None if words is None else named(words).name
 
 

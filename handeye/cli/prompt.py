@@ -61,7 +61,9 @@ def typed_already() -> str | None:
 
 
 class PipedLines:
-    """Reads the lines of a file in the background; they can be waited for, or taken only if they have arrived."""
+    """Reads the lines of a file in the background; the caller can wait for a line, or take a line only if one has
+    arrived.
+    """
 
     def __init__(self, file: int) -> None:
         """Start to read a file, given by its descriptor."""

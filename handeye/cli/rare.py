@@ -105,7 +105,7 @@ class SampleOptions:
 
     @contextmanager
     def campaign(self, page: str) -> "Iterator[_Search]":
-        """Begin or continue a search; while it goes on, its runs are counted on standard error."""
+        """Begin or continue a search; while the search continues, its runs are counted on standard error."""
         from handeye.trials.folder import BatchFolder, head_of
         from handeye.trials.rare.campaign import Campaign, forget_worlds
         from handeye.trials.rare.page import PAGE
@@ -207,8 +207,9 @@ def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 
     The worlds of the first level are made from seeds. Each further level is a sample of the worlds in which the
-    program comes closer to failing: about a tenth of the level before it. The product of these shares estimates the
-    probability of the failure; it is not a bound. Only a run in a world decides whether the program fails there.
+    program comes closer to failing; about a tenth of the previous level's worlds are that close. The product of the
+    shares of all levels estimates the probability of the failure; the product is not a bound. Only a run in a world
+    decides whether the program fails there.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.
@@ -240,10 +241,11 @@ def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
 def worst_trials(
     *,
     nearest: Annotated[
-        WholeNumber, Parameter(help="Number of failing worlds from which to search for nearer ones.")
+        WholeNumber,
+        Parameter(help="Number of failing worlds from which the search for nearer failing worlds starts."),
     ] = 5,
     rounds: Annotated[
-        WholeNumber, Parameter(help="Greatest number of runs with which each of these worlds is simplified.")
+        WholeNumber, Parameter(help="Greatest number of runs in the search from one failing world.")
     ] = 24,
     options: SampleOptions = ANY_SAMPLE,
 ) -> int:

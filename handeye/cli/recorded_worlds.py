@@ -31,8 +31,8 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
     own = [part for part in begun.own_parts if part != "referee"]
     if own:
         raise Refused(
-            f"the run in {path} used code of the calling program ({' and '.join(own)}), which this command does "
-            "not have"
+            f"the run in {path} used code of the calling program ({' and '.join(own)}); this command does not have "
+            "that code"
         )
     _check_faults(path, begun, plan)
     if begun.task != plan.task:

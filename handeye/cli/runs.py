@@ -263,7 +263,7 @@ def resume(
 ) -> int:
     """Resume an interrupted run.
 
-    If the run has ended, the command shows its result and changes nothing; with `--step` you can go back in it.
+    If the run has ended, the command shows its result and changes nothing; with `--step` you can go back in the run.
 
     The folder of a run resumes from its newest valid checkpoint. The exit codes are those of `handeye run`.
     """
@@ -329,4 +329,4 @@ def check_kept(no_keep: bool, out: Path | None) -> None:
 def _check_live(live: bool, step: bool) -> None:
     """Raises InvalidInput for --live without --step."""
     if live and not step:
-        raise BadArgument("--live needs --step: it shows the lines of a stepped run as they begin")
+        raise BadArgument("--live needs --step: --live shows the lines of a stepped run as they begin")

@@ -33,7 +33,7 @@ class OptionalRecord(Observer):
     """Saves a run for which the user named no folder. If the disk is full, the run continues without being saved."""
 
     def __init__(self, saving: Callable[[], AbstractContextManager[Observer]]) -> None:
-        """`saving` gives the folder, and removes it if it cannot be written."""
+        """`saving` gives the folder. If the folder cannot be written, `saving` removes the folder."""
         self._saving = saving
 
     def event(self, event: AnyEvent) -> None:

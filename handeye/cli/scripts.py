@@ -60,8 +60,8 @@ def check(
         bool,
         Parameter(
             group=PROOF,
-            help="Also prove for each finding of the task's referee that every path to the end of the program would "
-            "notice if the finding did not hold. FILE may also be a plan.",
+            help="Also prove, for each finding of the task's referee: if the finding did not hold, the program "
+            "would notice it on every path to its end. FILE may also be a plan.",
         ),
     ] = False,
     proof: ProofOptions | None = None,

@@ -220,7 +220,7 @@ def teacher_of(
 
 
 def left_unsaved(teacher: "Teacher") -> bool:
-    """True if the file lacks taught names, which are then printed."""
+    """True if some taught names are not in the file; these names are then printed."""
     if teacher.unsaved:
         note(f"not saved: {', '.join(teacher.unsaved)}")
     return bool(teacher.unsaved)

@@ -1,4 +1,4 @@
-"""Commands that repeat a trial in many worlds and count."""
+"""Commands that repeat a trial in many worlds and count the outcomes."""
 
 import tempfile
 from collections.abc import Iterator, Sequence

@@ -29,7 +29,7 @@ FORMER: Final = {
 
 
 def usage_sentence(error: CycloptsError) -> str:
-    """A sentence about the mistake in a command line, with a likely correction and where to read more."""
+    """A sentence about the mistake in a command line, with a likely correction and a reference to further help."""
     command = " ".join(error.command_chain or ())
     tell_more = f"see `handeye {command} --help`" if command else "see `handeye --help`"
     return f"{_fault(error, quoted(command or 'handeye'))} ({tell_more})"

@@ -125,7 +125,7 @@ def drawing() -> Iterator["Progress"]:
 
 
 def filmed(make: "Callable[[Progress], object]") -> bool:
-    """Make the video of a run that has ended. If that fails, report the error and return False."""
+    """Make the video of a run that has ended. If the video cannot be made, report the error and return False."""
     try:
         with drawing() as told:
             make(told)

@@ -105,14 +105,14 @@ class ErrorOptions:
         return spec
 
     def check(self, seed: int) -> None:
-        """Check seed, level, values and factors, before the program is planned; only the program says which names
-        after --without are its own. Raises InvalidInput.
+        """Check seed, level, values and factors, before the program is planned. The names after --without are not
+        checked here, because they can be macros of the program. Raises InvalidInput.
         """
         replace(self, without=None).spec(seed)
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """Split `--without`: the options with only the errors of the world, and the senses and macros that the program
-        must do without, each once.
+        """Split `--without`. The first value has these options, with only the errors of the world in `--without`. The
+        second value has the senses and macros that the program must do without, each once.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -153,8 +153,8 @@ class WorldOptions:
         int | None,
         Parameter(
             converter=whole,
-            help="Seed of the world, a whole number from 0 to 2^53 - 1: it determines where parts lie, and every "
-            "error. Default: 0.",
+            help="Seed of the world, a whole number from 0 to 2^53 - 1: the seed determines where parts lie, and "
+            "every error. Default: 0.",
         ),
     ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
@@ -169,7 +169,7 @@ class WorldOptions:
 
     @property
     def task(self) -> str | None:
-        """The task as given, or that of the file; None if both were left out."""
+        """The task given as an option, or else the task of the file; None if both were left out."""
         if self.errors.task is None and self.file is not None:
             return read_world(self.file).task
         return self.errors.task
@@ -224,8 +224,8 @@ class WorldOptions:
         return given.world
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """Split `--without`: the options with only the errors of the world, and the senses and macros that the program
-        must do without.
+        """Split `--without`. The first value has these options, with only the errors of the world in `--without`. The
+        second value has the senses and macros that the program must do without.
         """
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared
@@ -243,7 +243,7 @@ def broken(
     """A world of a task with faults; raises InvalidInput if there is no such fault, value or stage.
 
     Args:
-        listing: the program's stages, at which faults may begin; None: faults cannot begin at stages.
+        listing: the program's stages, at which faults may begin. If this is None, faults cannot begin at stages.
     """
     if not options:
         return world

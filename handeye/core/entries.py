@@ -125,7 +125,7 @@ def _sound(entry: object) -> Entry:
     Raises BadFile or msgspec.ValidationError.
     """
     if not isinstance(entry, Entry):
-        raise BadFile(f"its entry point names {entry!r}, which is not an Entry")
+        raise BadFile(f"the entry point names {entry!r}, but this value is not an Entry")
     msgspec.convert(msgspec.to_builtins(entry), Entry)
     if entry.name in (other.name for other in _found):
         raise BadFile(f"there is already a system called {quoted(entry.name)}")

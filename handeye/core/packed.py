@@ -49,7 +49,7 @@ def _inflated(data: bytes, largest: int) -> bytes:
     inflater = zlib.decompressobj()
     inflated = inflater.decompress(data, largest)
     if inflater.unconsumed_tail or not inflater.eof:
-        raise ValueError("its state is too large or incomplete")
+        raise ValueError("the saved state is too large or incomplete")
     return inflated
 
 

@@ -44,7 +44,7 @@ UNSOURCED: Final = "unsourced"
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
 LARGEST_SCALE: Final = 4.0
-"""Greatest factor on an error, level included. With a greater one, friction could be negative."""
+"""Greatest factor on an error, level included. With a greater factor, friction could be negative."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,7 +21,7 @@ ALWAYS: Final = (
     "floor",
     "overlap",
 )
-"""Findings on the cell that must hold whatever part of the pump is built."""
+"""Findings about the cell. They must hold in every job, whichever part of the pump it builds."""
 
 
 class Job(Record, frozen=True, kw_only=True):
@@ -32,19 +32,23 @@ class Job(Record, frozen=True, kw_only=True):
     task: str
     stages: tuple[int, ...] = (0,)
     """Numbers of the stages before which an episode may start; the first stage of the program is 0. If there are
-    several, the seed chooses.
+    several numbers, the seed chooses one.
     """
     until: int | None = None  # stage of the program, from 0, before which the job ends; None: its end
     limit_s: float  # time limit of an episode, s on the cell's clock
     goal: tuple[str, ...] = ()
-    """Beginnings of the names of the referee's findings that must hold. Empty: all findings must hold."""
+    """Beginnings of the names of those findings of the referee that must hold. If this is empty, all findings must
+    hold.
+    """
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
     """For some findings, limits that replace the referee's own because only a part of the work is done."""
     plants: tuple[str, ...] = ()
     """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work in their order, each with the beginnings of the names of the findings that show it."""
+    """Steps of the work in their order, each with the beginnings of the names of the findings that show that the step
+    is done.
+    """
 
     def requires(self, finding: str) -> bool:
         """Return True if a finding of the referee must hold at the end of the job."""
@@ -64,7 +68,7 @@ _PUMP: Final = {
     "leave the rotor free": ("rotor",),
 }
 _PART: Final = ("base", "gasket", "top", "rack", "dispenser")
-"""Findings on a pump that is not finished: its layers, and what must be in its place."""
+"""Findings that must hold for an unfinished pump: those on its layers, on the rack and on the dispenser."""
 
 JOBS: Final = (
     Job(

@@ -17,9 +17,11 @@ ActionKind = Literal["torques", "hand"]
 Observation = dict[str, Any]  # see `observation_space`
 
 STEP: Final = 0.002
-"""Greatest displacement of the hand's set-point along each axis in a servo period (m): .12 m/s. Our choice."""
+"""Greatest displacement (m) of the hand's set-point along each axis in a servo period. The speed is then .12 m/s. Our
+choice.
+"""
 TURN: Final = 0.01
-"""Greatest turn of the set-point about each axis in a servo period (rad): .6 rad/s. Our choice."""
+"""Greatest turn (rad) of the set-point about each axis in a servo period. The rate is then .6 rad/s. Our choice."""
 SPINDLE: Final = 40.0
 """Greatest speed of the screwdriver (rad/s): twice the 190 turns a minute at which the program drives screws."""
 LOAD: Final = 50.0  # greatest weight in the hand that the servo compensates, N: twice that of the pump's base

@@ -38,9 +38,9 @@ class ServoPeriod(Record, frozen=True, kw_only=True):
     the computer.
     """
     wrench: Array | None = None
-    """Estimated force (N) of the hand on the world and moment (N m) about its tool centre point, in W, shape (6,).
-    If a sensor measures the force, only the force, shape (3,). None if nothing was estimated, or if only the tare
-    was estimated.
+    """Estimated force (N) of the hand on the world and moment (N m) about its tool centre point, in W, shape (6,). If
+    a sensor measures the force, the array contains only the force, shape (3,). None if nothing was estimated, or if
+    only the tare was estimated.
     """
     guards: tuple[ActiveGuard, ...] = ()  # guards that watch at its end
 

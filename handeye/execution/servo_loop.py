@@ -38,13 +38,13 @@ from handeye.touch.guards import ActiveGuard, Monitor, Trip
 from handeye.touch.senses import FREE_FORCE, off_zero
 
 DITHER = 2.0
-"""Torque that shakes a joint, as a multiple of its friction. Chosen: half of the torque overcomes friction, the
-other half moves the joint.
+"""Torque that shakes a joint, as a multiple of its friction. Our choice: half of the torque overcomes friction, and
+the other half moves the joint.
 """
 _FRESH = 0.25  # weight of the last servo period in the mean over the last few; chosen
 _AT_ONCE = 15
-"""Greatest number of servo periods for which an arm under brakes is not served. The panic button then waits up to
-.25 s.
+"""Greatest number of servo periods that the servo loop skips at a time while the brakes are set. The panic button then
+acts up to .25 s late.
 """
 LIGHT = 5.0
 """Greatest load (N) with which the drag of joints is judged. If the hand lost a heavier load, the loss would look like

@@ -157,8 +157,8 @@ class DriveState(MutableRecord, kw_only=True):
     """A jump of a reading since the last motion. None once a motion has reported it."""
     in_air: bool = False  # the last motion was a MOVE without contact
     clear: bool = True
-    """Nothing should touch the hand or what it holds: the last motion was a MOVE or CHANGE that was to meet nothing
-    and reached its end, and nothing has been grasped since.
+    """True if nothing should touch the hand, or an object that it holds. The last motion was then a MOVE or CHANGE
+    that was to meet nothing and that reached its end, and the hand has grasped nothing since.
     """
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
@@ -212,7 +212,7 @@ class ExecutionState(SystemState, kw_only=True):
     screw in its place.
     """
     held: float | None = None
-    """Gap (m) at which the hand holds an object during a reversal. None if it holds no object, or if the program
+    """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or if the program
     has continued.
     """
     unwound: dict[int, int] = msgspec.field(default_factory=dict)

@@ -20,8 +20,8 @@ class AxisSpec:
     upper: float
     speed: float  # greatest, rad/s or m/s
     force: float | None = None
-    """Greatest force (N) or torque (N m) of the axis's servo, such as the grip of a hand; None: enough for any
-    task.
+    """Greatest force (N) or torque (N m) of the axis's servo, such as the grip of a hand. None if the servo is strong
+    enough for any task.
     """
     holds: bool = False  # stays where it is when the power is off, by a brake or a gear that locks itself
 

@@ -52,7 +52,9 @@ class HandReading(Record, frozen=True, kw_only=True):
 
     gap: float  # opening between the finger tips by the hand's potentiometer, m
     touch: tuple[bool, bool]
-    """State of the microswitch inside each finger: finger on the +y side of the hand frame, finger on the -y side."""
+    """State of the microswitch inside each finger: first the switch of the finger on the +y side of the hand frame,
+    then the switch of the finger on the -y side.
+    """
 
 
 class HandPort(ABC):

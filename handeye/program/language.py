@@ -27,7 +27,8 @@ class Language(Record, frozen=True, kw_only=True):
     read: Callable[[Path], Source]  # reads a script with all it requires; raises InvalidInput
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanFinding]], list[Diagnostic]]
-    """Function that makes diagnostics from planning findings, at their places in the text."""
+    """Function that turns each planning finding into a diagnostic, at the place in the text that the finding concerns.
+    """
 
 
 class OwnLanguage(ABC):

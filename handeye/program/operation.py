@@ -12,7 +12,7 @@ from handeye.program.guards import Bounds, Guards
 Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
 """Kinds of values that a run stores.
 
-A target is a position or a part. `goal` is the goal of the last Move, and `travel` the distance of the last Change.
+A target is a position or a part. `goal` is the goal of the last Move, and `travel` is the distance of the last Change.
 """
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]

@@ -127,7 +127,7 @@ class Held(Record, frozen=True, kw_only=True, omit_defaults=True):
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
     thickness: Annotated[float, Meta(gt=0)] | None = None
-    """Nominal gap (m) of fingers that hold the object there; None if not known."""
+    """Gap (m) between fingers that hold the object, if the object has its nominal size; None if not known."""
 
 
 class Program(Record, frozen=True, kw_only=True, omit_defaults=True):

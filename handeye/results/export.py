@@ -142,8 +142,8 @@ def _names(bodies: Iterable[WeighedBody]) -> str:
 
 
 Shown = Callable[[], ExportedState]
-"""Makes the state to export. This takes a while, so the function is called only after the destination has been
-checked.
+"""Makes the state to export. Making the state takes a while, so the function is called only after the destination has
+been checked.
 """
 
 

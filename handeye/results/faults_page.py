@@ -26,7 +26,7 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     from_start: bool  # True if the fault can only be present from the start
     later: bool  # True if the fault can also begin after a time
     usual_stage: int | None
-    """Number of the stage at which the fault begins by default; None: it is present from the start."""
+    """Number of the stage at which the fault begins by default; None if the fault is present from the start."""
     expected: ExpectedDetection
     must: str  # Sentence that says what must happen in a run with this fault
     matrix: bool

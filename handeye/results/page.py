@@ -15,7 +15,8 @@ from handeye.tasks import known, known_any
 from handeye.tasks.interface import HistoricalTiming, Words
 
 TimingRow = tuple[str, float, float | None]
-"""A row of the timing table: name, seconds in this run, and seconds in 1973; None: not reported."""
+"""A row of the timing table: name, seconds in this run, and seconds in 1973 (None if the paper does not report them).
+"""
 _NEUTRAL = Words(done="The referee accepts the result.", product="the work")
 """Words for a task that is unknown here, because only the Python program that began the run defines it."""
 _MARK = {

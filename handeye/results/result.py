@@ -45,26 +45,26 @@ class Timing(Record, frozen=True, kw_only=True):
     """
 
     friction_s: float
-    """Simulated: measuring the friction of the arm's joints, before the working phase."""
+    """Simulated time in which the arm measured the friction of its joints, before the working phase."""
     calibration_s: float
-    """Simulated: calibrating the camera, before the working phase."""
+    """Simulated time in which the camera was calibrated, before the working phase."""
     manipulation_s: float
-    """Simulated: the working phase, without the time in which the arm waited for the camera."""
+    """Simulated time of the working phase, without the time in which the arm waited for the camera."""
     lens_s: float
-    """Simulated: time in which the arm waited for lens change, aim, focus and pictures."""
+    """Simulated time in which the arm waited for lens change, aim, focus and pictures."""
     overlapped_s: float
-    """Simulated: time in which the camera's mechanism was busy while the arm moved; already contained in
-    `manipulation_s`.
+    """Simulated time in which the camera's mechanism was busy while the arm moved; `manipulation_s` includes this
+    time.
     """
     working_s: float
-    """Simulated: the working phase, the sum of `manipulation_s` and `lens_s`."""
+    """Simulated time of the working phase: the sum of `manipulation_s` and `lens_s`."""
     planning_cpu_s: float
     """Computing time for planning; 0 if the plan existed already."""
     vision_cpu_s: float
     run_cpu_s: float
     run_wall_s: float
-    """From loading the command, or the call from Python, to the verdict, including the time spent waiting for the
-    user.
+    """Wall-clock time from the loading of the command, or from the call in Python, to the verdict. It includes the
+    time spent waiting for the user.
     """
     real_time_factor: float
     """Simulated seconds, including preparation, per second of `run_wall_s`; differs from run to run."""
@@ -156,7 +156,7 @@ class Result(Record, frozen=True, kw_only=True):
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]
-    """Findings of the referee by name; empty if the referee has not judged the run, see `message`."""
+    """Findings of the referee by name; empty if the referee has not judged the run (see `message`)."""
     task: str
     program: str
     seed: Seed
@@ -178,9 +178,11 @@ class Result(Record, frozen=True, kw_only=True):
     figures: dict[str, float] | UnsetType = UNSET
     """Figures that the system of the run adds. The keys are their names."""
     built: dict[str, Check] | UnsetType = UNSET
-    """Findings on the finished work of a job, before the job undid the work; `referee` has those after the undoing."""
+    """Findings on the finished work of a job, before the job undid the work; `referee` has the findings after the
+    undoing.
+    """
     legs: tuple[LegResult, ...] | UnsetType = UNSET
-    """Only for a relay: its legs, in order."""
+    """The legs of a relay, in order; set only if the run is a relay."""
 
     @property
     def judged(self) -> bool | None:

@@ -22,8 +22,8 @@ from handeye.program.world_model import rounded_place
 from handeye.vision.calibration import Calibration
 
 MOVED: Final = 3e-3
-"""Distance (m) by which the hand may be off its place in the record. Our choice: under the brakes, the hand sinks by
-less.
+"""Distance (m) by which the hand may be off its place in the record. Our choice: while the brakes are set, the hand
+sinks by less than this distance.
 """
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
@@ -58,8 +58,8 @@ class HandOver(Record, frozen=True, kw_only=True):
             )
         if len(self.hand) != SIZES["place"] or not np.isfinite([*self.hand, self.gap, self.load]).all():
             raise Refused(
-                "the hand-over record must give the hand as six finite numbers, and the gap and the load as one "
-                "each"
+                "the hand-over record must give the hand as six finite numbers, the gap as one finite number, and "
+                "the load as one finite number"
             )
         if sum(map(len, self.named.values())) > MOST_NAMES:
             raise Refused(f"the hand-over record has more than {MOST_NAMES} names")

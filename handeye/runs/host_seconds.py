@@ -24,8 +24,8 @@ class HostSeconds(Record, frozen=True, kw_only=True):
     vision_cpu_s: float = 0.0  # including steps that were undone later
     run_cpu_s: float = 0.0
     run_wall_s: float = 0.0
-    """From loading the command, or the call from Python, to the verdict, including the time spent waiting for the
-    user.
+    """Wall-clock time from the loading of the command, or from the call in Python, to the verdict. It includes the
+    time spent waiting for the user.
     """
     from_step: int = 0  # steps done before the first session that is counted
     from_clock_s: float = 0.0  # the clock when that session began: below 0 if the session prepared the cell

@@ -75,8 +75,9 @@ class LegSystem(ABC):
     undoes = False  # True: its legs can be undone
     stages_in_text = False  # True: the text itself is divided into stages; False: it is one leg
     words: frozenset[str] | None = None
-    """Operations (`program/operations.py`) for which the language has words; None: for all of them. `Restore` stands
-    for saved differences in a motion, and `Comply` for the control of the force in a motion.
+    """Operations (`program/operations.py`) for which the language has words; None if the language has words for all
+    operations. `Restore` stands for saved differences in a motion, and `Comply` for the control of the force in a
+    motion.
     """
 
     @abstractmethod

@@ -16,7 +16,7 @@ class EyeRow(TrialRow, frozen=True, kw_only=True):
     """One attempt of a trial."""
 
     attempt: dict[str, Any] = msgspec.field(default_factory=dict)
-    """The attempt, as the fields of the class that its trial defines."""
+    """The attempt, as the fields of the class `attempt` of the trial."""
     came: str = "missed"
     told: str = ""
 
@@ -38,7 +38,7 @@ EYE: Final = Sweep(
     sentence=lambda row: f"seed {row.seed:4}  {row.detail}",
     shared_worlds=True,
 )
-"""A sweep of attempts in many worlds. `eye_sweep` derives from it the sweep for one trial of a task."""
+"""A sweep of attempts in many worlds. `eye_sweep` makes the sweep for one trial of a task from this sweep."""
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:

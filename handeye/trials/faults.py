@@ -42,8 +42,8 @@ UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
 
 PANIC: Final = FaultKind(
     name="panic",
-    meaning="A person presses the panic button while the arm moves. In a run, press Ctrl-C; --fault does not accept "
-    "it.",
+    meaning="A person presses the panic button while the arm moves. In a run, press Ctrl-C; the option --fault does "
+    "not accept the panic button.",
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
@@ -139,8 +139,8 @@ class FaultWork:
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs. A run whose fault begins with a later stage starts from one of them. None:
-    every run starts at its beginning.
+    """Folder of the fault-free runs. If a fault begins with a later stage, the run with this fault starts from a
+    checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
     """
 
     def __call__(self, case: Case) -> list[FaultRow]:

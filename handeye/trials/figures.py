@@ -23,8 +23,8 @@ class Rate(Record, frozen=True, kw_only=True):
     wilson95: tuple[float, float] | None
     """Wilson's score interval: it contains the true probability in about 95 of 100 batches."""
     p_s: float | None
-    """Lower confidence bound of the probability, 95 % one-sided (Clopper and Pearson): the least p at which this
-    many successes or more have a probability of 5 %.
+    """Lower bound of the one-sided 95 % confidence interval of the probability (Clopper and Pearson): the least p at
+    which this many successes or more have a probability of 5 %.
     """
 
 

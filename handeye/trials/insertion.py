@@ -112,8 +112,8 @@ class InsertionTrial(Record, frozen=True, kw_only=True):
     peak: float = 0.0  # Greatest true force between pin and plate in any physics step, N
     felt: float = 0.0  # Greatest force that the hand felt, N
     seconds: float | None = None
-    """Time on the cell's clock (s) from the first contact of pin and plate until the pin was seated; None:
-    never.
+    """Time on the cell's clock (s) from the first contact of pin and plate until the pin was seated; None if the pin
+    was never seated.
     """
     whole: float = 0.0  # Duration of the whole trial, s on the cell's clock
     told: str = ""

@@ -39,7 +39,8 @@ not check the limit.
 """
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
-"""How a trial ends if this computer is the reason and not the program. A repetition may then end differently."""
+"""Ends of a trial that this computer causes, and not the program. If such a trial is repeated, it may end differently.
+"""
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
     "simulated limit": "reached the limit of simulated time",
@@ -206,7 +207,9 @@ class Sweep(Generic[R]):
 
 
 Work = Callable[[Case], Sequence[R]]
-"""Executes the trials of a case. It is sent to other processes; an exception is recorded as the end of the trials."""
+"""Executes the trials of a case. The function is sent to other processes. If it raises an exception, the exception is
+recorded as the end of the trials.
+"""
 
 
 @dataclass(frozen=True, slots=True)

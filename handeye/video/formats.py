@@ -69,7 +69,9 @@ def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
 
 
 _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)
-"""Pattern of the track number of a WebM file, which FFmpeg chooses at random: identifier, length, eight bytes."""
+"""Pattern of the track number of a WebM file: identifier, length, eight bytes. FFmpeg chooses the track number at
+random.
+"""
 
 
 def webm(frames: Frames, held: int) -> bytes:

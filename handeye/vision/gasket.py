@@ -38,20 +38,20 @@ ABSENT: Final = 2.2  # mean difference, levels, below which there is no gasket
 STEP: Final = (1.8, 0.3)  # least step across a border of the gasket: levels, and fraction of its difference
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
-"""Greatest permitted error (m) of the rim; CENTRE_SHIFT is that of the centre. RIM_SHIFT and the three values
-below are from the vision study, section 4.
+"""Greatest permitted error (m) of the rim. CENTRE_SHIFT is the greatest permitted error of the centre. RIM_SHIFT and
+the three values below are from the vision study, section 4.
 """
 BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the difference is measured
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""Both constants apply to the picture taken before. There, a step of more than BEFORE_STEP of the contrast is a
-border, and a point brighter than BRIGHT of the face's intensity belongs to the face.
+"""Both constants apply to the picture that was taken before the gasket was laid. In that picture, a step of more than
+BEFORE_STEP of the contrast is a border, and a point brighter than BRIGHT of the face's intensity belongs to the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
 WINDOW: Final = 9
-"""Number of neighbouring rays over which the median is taken: a quarter of the rim, which is wider than the part
-that an aligning pin hides.
+"""Number of neighbouring rays over which the median is taken. They span a quarter of the rim, and this quarter is
+wider than the part that an aligning pin hides.
 """
 CLEAR: Final = 0.06 * INCH
 """A border point of the base counts only if it lies within this distance (m) of the apparent circle of the hole.

@@ -22,9 +22,9 @@ from handeye.vision.camera_model import View, in_picture
 MOVED: Final = 0.03 * INCH
 """Greatest apparent movement (m) of a part that still counts as no movement.
 
-Two pictures of a pump at rest show .02 to .07 mm. Two pictures show .13 to .16 mm if the pump is pushed against
-its blocks between them (worlds of seeds 3 and 15 at the nominal level). A base that is .05 in off its place is
-wrong (reference test 59).
+Two pictures of a pump at rest show .02 to .07 mm. Two pictures show .13 to .16 mm if the pump is pushed against its
+blocks between them (worlds of seeds 3 and 15 at the nominal level). If a base is .05 in away from its place, the base
+is wrong (reference test 59).
 """
 SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6
@@ -42,8 +42,8 @@ FAINT: Final = 3.3
 """Least contrast (levels) of the earlier picture on the part: the difference between its 10th and its 90th percentile.
 
 Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
-(five worlds). There, a missing head gives at least 3.7 levels, so at a contrast of 2.9 levels it would give 1.6, which
-is `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
+(five worlds). There, a missing head gives at least 3.7 levels, so at a contrast of 2.9 levels it would give 1.6
+levels, which is the limit `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
 """
 BESIDE: Final = 12
 """Width (points) of a strip around the part that counts neither as part nor as surroundings.

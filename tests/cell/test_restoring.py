@@ -98,7 +98,7 @@ def test_a_state_that_is_not_finite_is_refused_and_changes_nothing(strange: floa
     state = cell.capture()
     physics = state.physics.copy()
     physics[5] = strange
-    with pytest.raises(InvalidInput, match=r"work cell: some of its values are not finite numbers$"):
+    with pytest.raises(InvalidInput, match=r"work cell: some saved values are not finite numbers$"):
         cell.restore(msgspec.structs.replace(state, physics=physics))
     assert written(cell.capture()) == written(state)
 

@@ -134,7 +134,7 @@ def test_a_head_that_does_not_match_what_is_below_it_is_refused(
 
 def test_what_would_fill_the_memory_is_refused(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checkpoint_file, "LARGEST", 1000)
-    with pytest.raises(InvalidInput, match="its state is too large"):
+    with pytest.raises(InvalidInput, match="the saved state is too large"):
         decode(data, "it")
 
 

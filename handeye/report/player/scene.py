@@ -125,7 +125,9 @@ def _texture(model: Any, number: int) -> NDArray[np.uint8]:
 
 
 _CALLED: Final = "called/"
-"""Prefix of the scene's text fields for the display name of a body, or of numbered bodies."""
+"""Prefix of the names of those text fields of the scene that give the display name of a body, or of several numbered
+bodies.
+"""
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,10 @@ ENTRY = Entry(
     leg="handeye.systems.trig.leg:LEGS",
     reasons={
         "python": "`handeye resume` continues a run",
-        "plans": "each of its programs is taught in the world in which it runs; `handeye trig palletise`, "
-        "`handeye trig bucket` and `handeye trig run FILE` teach and run one",
+        "plans": (
+            "each program of TRIG is taught in the world in which the program runs; `handeye trig palletise`, "
+            "`handeye trig bucket` and `handeye trig run FILE` teach and run a program"
+        ),
     },
     commands="""
 trig = handeye.systems.trig.cli.commands:trig: TRIG (MIT, 1982): teach a program by example, watch it grow, run it backwards.

@@ -17,7 +17,7 @@ REFUSED: Final = "line-refused"
 UNSOUND: Final = "program-unsound"
 _CODES: Final = {
     REFUSED: "a line of a script fails, even on an arm without physics; the following lines were not checked",
-    UNSOUND: "the file is not a valid program of the command W",
+    UNSOUND: "the file does not contain a valid program in the form that the command W writes",
 }
 
 

@@ -142,4 +142,4 @@ RULES: Final[Mapping[str, Rule]] = {
     "unguarded": _unguarded,
     "guard doubled": _harder,
 }
-"""The rules by name. Each returns the changed step, or None if it does not apply to a step."""
+"""The rules by name. Each returns the changed step, or None if the rule does not apply to the step."""

@@ -47,8 +47,8 @@ class Margin(Record, frozen=True, kw_only=True):
     worst: float  # Negative: beyond the limit
     worst_seed: int
     deviations: float | None
-    """Mean margin in standard deviations. The finding for which this is smallest is the most likely to fail next.
-    None: the margins hardly vary.
+    """Mean margin in standard deviations. The finding for which this number is smallest is the most likely to fail
+    next. None if the margins hardly vary.
     """
 
 

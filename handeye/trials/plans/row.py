@@ -102,7 +102,7 @@ class Row(TrialRow, frozen=True, kw_only=True):
     contacts: tuple[Contact, ...] = ()
     searches: tuple[SearchEnd, ...] = ()
     force: float | None = None
-    """Greatest force on the hand while the arm undid its work (N); None: nothing was undone."""
+    """Greatest force on the hand while the arm undid its work (N); None if nothing was undone."""
 
     def __post_init__(self) -> None:
         """Check that the row has a result, or a reason for its absence. Raises ValueError if it has neither."""

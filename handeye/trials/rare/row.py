@@ -37,7 +37,8 @@ class RareRow(Row, frozen=True, kw_only=True):
     """A run, with what the program had left."""
 
     left: Mapping[str, float] = {}
-    """For each search, each loop with a counter, and each check: the least that the program had left; see `Reserves`.
+    """For each search, each loop with a counter, and each check: the least reserve that the program had in the run;
+    see `Reserves`.
     """
     world: str = ""  # digest of the world; empty if the run was lost
 
@@ -52,8 +53,8 @@ class Margin:
     """The margin of a run, and the part that determines it."""
 
     value: float
-    """1: the run had as much left as runs usually have. 0 or less: the run failed in this way. inf: the run gives no
-    information about this kind of failure.
+    """A value of 1 means that the run had as much left as runs usually have. A value of 0 or less means that the run
+    failed in this way. An infinite value means that the run gives no information about this kind of failure.
     """
     part: str
 

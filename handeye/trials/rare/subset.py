@@ -18,9 +18,10 @@ from handeye.core.variation import LARGEST_SEED
 from handeye.trials.rare.points import Point
 
 SHARE: Final = 0.1
-"""Probability of a level, given the level before it; Au and Beck."""
+"""Probability of a level, given the level before it. The value is that of Au and Beck."""
 ACCEPTED: Final = 0.44
-"""The step of the proposal is adapted so that about this share of the candidates is accepted; Papaioannou and others.
+"""The step of the proposal is adapted so that about this share of the candidates is accepted. The value is that of
+Papaioannou and others.
 """
 FIRST_STEP: Final = 0.6  # Papaioannou and others
 SMALLEST_STEP: Final = 0.02

@@ -221,7 +221,7 @@ def test_the_kill_switch_records_nothing() -> None:
             "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last executed step",
         ),
         ("W", "no file has been read or written yet; give W a name"),
-        ("N -1", "N and P move by 1 to 100000 steps, not by -1: N down, P up"),
+        ("N -1", "N moves down and P moves up, each by 1 to 100000 steps, not by -1"),
         (
             "GOPOS B\x1b[2J",
             "`B\u241b[2J` is not a name: a name is a letter, followed by letters, digits, `-` or `_`",

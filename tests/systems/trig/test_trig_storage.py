@@ -155,7 +155,7 @@ def forged(path: str, value: object) -> bytes:
         ("nodes.21.loop.wanted", -4, "has a count of -4, but has gone back 0 times"),
         ("nodes.4.type", "jump", "step 4: Invalid enum value 'jump'"),
         ("nodes.4.type", "top", "not numbered consecutively from the top"),
-        ("nodes.4.type", "none", "step 4 has the type none, which it cannot have"),
+        ("nodes.4.type", "none", "step 4 cannot have the type none"),
         ("nodes.4.id", 5, "not numbered consecutively from the top"),
         ("nodes.4.name", "FINISH", "two steps are called FINISH"),
         ("nodes.4.name", "a name", "step 4 has a name that is not valid"),

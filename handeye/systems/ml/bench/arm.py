@@ -47,7 +47,7 @@ _PRESSED: Final = 0.2  # N: force that closes a switch inside a finger
 _SLIDES: Final = slice(1, 4)
 _SLIDE_NAMES: Final = tuple(spec.name for spec in AXES[_SLIDES])
 _WAVE: Final = np.array([0.1 if spec.kind == "prismatic" else 1.0 for spec in AXES])
-"""The travel over which a potentiometer's error repeats: m for a slide, rad for a rotation."""
+"""Travel after which a potentiometer's error repeats, in m for a slide and in rad for a rotation."""
 _NOISES: Final = 4093  # cycles after which the noise repeats
 _STRAIN_PARTS: Final = tuple(part for channel in STRAINS for part in channel.parts)
 
@@ -101,8 +101,8 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         self._range, self._signalled = RANGED, tuple[str, ...]()
         self._last: AxesReading | None = None
         self.torque: Callable[[int], float] = lambda _: 0.0
-        """Function that takes the number of a cycle and returns the torque of the power tool (N m), as indicated by its
-        motor current.
+        """Function that takes the number of a cycle and returns the torque of the power tool (N m), as indicated by
+        the tool's motor current.
         """
         self._servos = BenchAxes(bench, self.specs, period=CYCLE, name="servos", bent=self._bent)
         self._servos.power(on=False)

@@ -18,13 +18,20 @@ FORCE: Final = 20.0  # N: force that a touch may reach at the fastest allowed sp
 MARK: Final = "<!doctype html>\n<!-- handeye touches -->\n"
 PAGE: Final = Kind("page of touches", MARK.encode(), ending=".html")
 _CAPTIONS: Final = {
-    "place": "How far (in mm) the slide is below the place of contact, over time. The thin line is its set-point. Red "
-    "marks show when the sensors are read; the long red line is the first reading beyond the limit.",
+    "place": (
+        "How far (in mm) the slide is below the place of contact, over time. The thin line is the set-point of the "
+        "slide. Red marks show when the sensors are read; the long red line is the first reading beyond the limit."
+    ),
     "force": "The force (in N) of both fingers on the block, over time.",
-    "ways": "How far (in mm) the slide goes on after the contact, for each speed (in mm/s). There is a curve for each "
-    "period.",
-    "forces": "The greatest force (in N), for each speed (in mm/s). There is a curve for each period. A hollow point "
-    "means that the jolt at the start of the motion already trips the guard, in the air.",
+    "ways": (
+        "How far (in mm) the slide moves on after the contact, for each speed (in mm/s). There is a curve for each "
+        "period of the sensors."
+    ),
+    "forces": (
+        "The greatest force (in N), for each speed (in mm/s). There is a curve for each period of the sensors. A "
+        "hollow point means that the jolt at the start of the motion already trips the guard, while the hand is "
+        "still in the air."
+    ),
 }
 _EXACT: Final = 0.5  # mm/s
 
@@ -62,11 +69,11 @@ def touches_page(touches: Sequence[Touch]) -> bytes:
         element(
             "main",
             note(
-                "The hand of the rectilinear arm descends on a block, guarded by a limit of "
-                f"{touches[0].limit} g on a strain gauge in a finger. The sensors are read once per period. When a "
-                "reading is beyond the limit, the goal of the slide becomes its present position. For each period, "
-                "bandwidth and speed, contacts at four phases of the period were simulated; the page shows the contact "
-                "with the greatest force."
+                f"The hand of the rectilinear arm descends on a block. A limit of {touches[0].limit} g on a strain "
+                "gauge in a finger guards the motion. The sensors are read once per period. When a reading is "
+                "beyond the limit, the present position of the slide becomes the goal of the slide. For each "
+                "period, bandwidth and speed, contacts at four phases of the period were simulated; the page shows "
+                "the contact with the greatest force."
             ),
             _controls(),
             element("p", id="said", role="status"),

@@ -38,7 +38,7 @@ ARM: Final = (
         Fixed(0.38),
         4.0,
         "Full width of the range in which a slide stops. Each motion stops at a random place in this range, "
-        "uniformly distributed. The paper says about .38 mm.",
+        "uniformly distributed. In the paper, the width is about .38 mm.",
     ),
     quantity(
         SLIDES,
@@ -88,7 +88,7 @@ ARM: Final = (
         "N",
         Noise(0.05),
         2.0,
-        "Standard deviation of the drift of a strain gauge's zero per minute. No source: our choice, about 5 g.",
+        "Standard deviation of the drift per minute of a strain gauge's zero. No source: our choice, about 5 g.",
     ),
     quantity(
         NOISE,
@@ -110,8 +110,8 @@ ARM: Final = (
         "deg",
         Fixed(8.0),
         20.0,
-        "Half the angle of the range finder's cone: it measures the distance of the nearest object in this cone. No "
-        "source: our choice.",
+        "Half the angle of the range finder's cone. The range finder measures the distance of the nearest object "
+        "in this cone. No source: our choice.",
         8.0,
     ),
 )

@@ -59,7 +59,9 @@ def run(
     /,
     *,
     arm: ArmKind = "none",
-    back: Annotated[bool, Parameter(help="After that, run the program backwards to its start.")] = False,
+    back: Annotated[
+        bool, Parameter(help="When the program has ended, run it backwards to its start.")
+    ] = False,
     json: Json = False,
 ) -> int:
     """Run a program from its first step. If FILE is a script, its lines are first typed one by one, as in the editor.

@@ -34,7 +34,11 @@ if TYPE_CHECKING:
 
 Seed = Annotated[
     WholeNumber,
-    Parameter(help="Seed of the world: it determines the errors of teaching, machine and blocks."),
+    Parameter(
+        help=(
+            "Seed of the world. The seed determines the errors of the teaching, of the machine and of the blocks."
+        )
+    ),
 ]
 
 
@@ -159,7 +163,7 @@ def _carried_out(
     folder: "RunFolder | None",
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
-    """Teach a job and execute it. The result is written to the folder before the user can interrupt."""
+    """Teach a job and execute it. The result is written to the folder before the user can interrupt the command."""
     from handeye.results.cautions import losses
     from handeye.results.finishing import finished, outcome
     from handeye.runs.host_seconds import Meter
@@ -194,7 +198,7 @@ def _taught(
     folder: "RunFolder | None",
     observers: "Callable[[Runner], Sequence[Observer]]",
 ) -> "Runner":
-    """Start a run and teach its job. If that fails, a newly created folder is removed."""
+    """Start a run and teach its job. If the teaching fails, a folder that was created for the run is removed."""
     from handeye.execution.servo import Halted
     from handeye.runs.runner import Runner
 

@@ -44,7 +44,7 @@ class Screen(Desk):
         input: Input | None = None,
         output: Output | None = None,
     ) -> None:
-        """Attach to a session. Each step is shown for `pace` (s). `waits` is called when the session waits for
+        """Attach to a session. Each step is shown for `pace` seconds. `waits` is called when the session waits for
         input.
         """
         self.session, self.question = session, PROMPT
@@ -171,7 +171,7 @@ class Screen(Desk):
         self.scroll = max(0, min(self.scroll + 8 * by, len(self.page) - 1))
 
     def drop_line(self) -> None:
-        """Cancel the question that is being asked. At the prompt, only discard the line."""
+        """Cancel the question that is being asked. If no question is being asked, only discard the typed line."""
         if self.question != PROMPT:
             self.put_line(None)
 

@@ -178,7 +178,7 @@ def _told(screen: "Screen") -> StyleAndTextTuples:
 
 
 def _text(text: Callable[[], StyleAndTextTuples], height: Callable[[], int] | None = lambda: 1) -> Window:
-    """Return a text window. Without a height, it gets the remaining rows."""
+    """Return a text window. If no height is given, the window gets the remaining rows."""
     rows = Dimension(weight=1) if height is None else lambda: Dimension.exact(height())
     return Window(FormattedTextControl(text), height=rows)
 

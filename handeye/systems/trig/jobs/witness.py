@@ -24,8 +24,8 @@ class ObservedScene(Record, frozen=True, kw_only=True):
     """The true scene at one moment."""
 
     blocks: dict[str, tuple[float, ...]]
-    """Poses of the blocks relative to the platter, lower blocks first. Each has the three rows of a rotation
-    matrix, then the position (m).
+    """Poses of the blocks relative to the platter, lower blocks first. Each pose consists of the three rows of a
+    rotation matrix, followed by the position (m).
     """
     hand: tuple[float, ...]  # m and rad
 

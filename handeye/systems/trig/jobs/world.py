@@ -62,7 +62,8 @@ VARIATION: Final = Variation(
         "",
         Range(0.3, 0.5),
         2.0,
-        "Coefficient of friction of blocks and platter. No source: our choice, for dry aluminium.",
+        "Coefficient of friction between a block and another block or the platter. No source: our choice, for dry "
+        "aluminium.",
     ),
     _quantity(
         SLIDES,
@@ -82,7 +83,9 @@ VARIATION: Final = Variation(
 WEAK, HEAVY, SLIPPERY = "hand.weak", "blocks.heavy", "platter.slippery"
 FAULTS: Final = Catalogue(
     FaultKind(
-        name=WEAK, meaning="The hand presses with only this force; the normal force is 30 N.", when="before",
+        name=WEAK, meaning=(
+            "The hand presses with only this force. Without the fault, the force is 30 N."
+        ), when="before",
         size=Size(unit="N", usual=0.1, limits=(0.001, 30.0)),
     ),
     FaultKind(

@@ -25,11 +25,11 @@ from handeye.systems.trig.language.trig_arm import (
 )
 
 APPROACH: Final = 5e-3
-"""The last part (m) of a set-down, which is vertical, because a slanted path would push a stack over."""
+"""Length (m) of the last part of a set-down. This part is vertical, because a slanted path would push a stack over."""
 DEEPER: Final = 2e-3
 """Distance below a place (m) within which the arm must find support when it puts an object back. Places are taught
-with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released. It may also have been
-grasped too high, by the same distance.
+with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released. The arm may also have
+grasped the object too high, by the same distance.
 """
 AGAIN: Final = 1.5
 """Permitted force during a reversal, as a multiple of the force met in the move itself. The factor is the same as for

@@ -16,7 +16,7 @@ from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.trig_arm import Arrival, Halted, TrigArm
 
 TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), math.radians(170)),))
-"""Travel of the axes (m and rad). The paper does not give it; it is the same as that of our Purbrick arm."""
+"""Travel of the axes (m and rad). The paper does not give the travel, so the travel is that of our Purbrick arm."""
 BLOCK: Final = 0.030  # m, along and across
 OPEN: Final = 0.048  # m between the fingers
 HEIGHT: Final = 0.012  # m, of a block

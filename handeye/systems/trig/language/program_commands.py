@@ -89,7 +89,7 @@ def told_run(ran: RunResult, *, back: bool = False) -> str:
 def _distance(given: Arguments) -> int:
     count = 1 if given.count is None else given.count
     if not 0 < count <= _MAX_DISTANCE:
-        raise BadArgument(f"N and P move by 1 to {_MAX_DISTANCE} steps, not by {count}: N down, P up")
+        raise BadArgument(f"N moves down and P moves up, each by 1 to {_MAX_DISTANCE} steps, not by {count}")
     return count
 
 

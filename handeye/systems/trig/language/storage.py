@@ -24,7 +24,7 @@ def faults(graph: Graph, positions: Positions) -> Iterator[str]:
     """Yield the violations of the invariants in words; none if the program is valid."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
-        torn = ["its steps are not all connected to the top"]
+        torn = ["some steps are not connected to the top"]
     yield from torn
     if not torn:
         yield from _loop_faults(graph)
@@ -37,7 +37,7 @@ def faults(graph: Graph, positions: Positions) -> Iterator[str]:
 def _edge_faults(graph: Graph) -> Iterator[str]:
     for id, node in graph.nodes.items():
         if node.type == "none" or (node.type == "top") != (id == TOP):
-            yield f"step {id} has the type {node.type}, which it cannot have"
+            yield f"step {id} cannot have the type {node.type}"
         if len(node.sons) != (2 if node.type == "guarded" else 1):
             yield f"step {id} is {node.type} and has {len(node.sons)} sons"
         for son in node.sons:

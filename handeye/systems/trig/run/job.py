@@ -21,8 +21,8 @@ from handeye.systems.trig.language.running import RunResult
 from handeye.systems.trig.run.running_job import RunningJob, plan_of
 
 Outcome = Literal["right", "stopped", "silent", "halted"]
-"""The outcome of a job: `right`; `stopped` early by the program or the arm; `silent` if it finished but the
-referee disagrees; `halted` by the user.
+"""The outcome of a job. `right`: the job finished, and the referee agrees. `stopped`: the program or the arm stopped
+early. `silent`: the job finished, but the referee disagrees. `halted`: the user stopped the job.
 """
 
 When = Literal["taught", "run", "undone"]
