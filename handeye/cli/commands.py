@@ -37,7 +37,7 @@ mcp = agents:mcp: Serve an agent (model context protocol over standard input and
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.
-export urdf = exports:urdf: Write the arm to a URDF file, as its drawing describes it, and list its joints.
+export urdf = exports:urdf: Write the arm to a URDF file, as the drawing of the arm describes it, and list the joints of the arm.
 export lerobot = datasets:lerobot: Write runs as a data set for learned policies, in the format of LeRobot 3, with a data card; needs the extra `lerobot`.
 inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
 diff = scripts:diff: Compare what two plans do, step by step.
