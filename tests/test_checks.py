@@ -97,5 +97,5 @@ def test_the_summary_counts_the_rows() -> None:
     nominal = sum("nominal" in found and "drawn" not in found for found in worlds)
     assert f"The tests cover {fully} rows fully and {len(LINES) - fully} rows partly." in DOC
     assert f"The tests of {drawn} rows run in drawn worlds" in DOC
-    assert f"and those of {nominal} rows only in the nominal world." in DOC
+    assert f"and the tests of {nominal} rows run only in the nominal world." in DOC
     assert f"The other {len(LINES) - drawn - nominal} rows need no world" in DOC
