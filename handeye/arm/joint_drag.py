@@ -40,13 +40,13 @@ reached a ratio of 1.4.
 """
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
-"""Possible relative error of weight and inertia torques if a joint moved in one direction only. It allows for
+"""Possible relative error of weight and inertia torques if a joint moved in one direction only. This value allows for
 errors of masses, mass centres and drives up to three times their spreads at the high level, which is six times their
 stated spreads.
 """
 AT_HAND: Final = 0.15
-"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Our choice: it
-reaches beyond the palm, but not to the wrist centre.
+"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Our choice: this
+lever arm reaches beyond the palm, but not to the wrist centre.
 """
 ALONE: Final = 0.9  # share of the squares of all unexplained torques that one joint must have; chosen
 

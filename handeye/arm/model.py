@@ -112,8 +112,8 @@ class ComplianceModel:
     turn_limit: float  # rad, at most
     ramp: int  # servo periods to full speed of a motion that does not press
     friction: tuple[float, ...]
-    """Expected Coulomb friction of each joint, in N m or N. It is used for checks before a run; during a run, the
-    measured friction is used.
+    """Expected Coulomb friction of each joint, in N m or N. This friction is used for checks before a run; during a
+    run, the measured friction is used.
     """
 
 

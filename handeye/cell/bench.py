@@ -105,7 +105,9 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def advance(self, seconds: float) -> None:
         if self._passing:
-            raise BadArgument("time is already advancing on the bench: a hook or an event cannot advance it")
+            raise BadArgument(
+                "time is already advancing on the bench: a hook or an event cannot advance time"
+            )
         end = self._steps + whole_steps(seconds, float(self.tick))
         self._passing, self._ending = True, False
         try:

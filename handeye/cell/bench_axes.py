@@ -254,7 +254,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         if not len(state.goal) == len(state.way) == len(self._specs) or not 0 <= state.left <= self._steps:
             raise BadFile("its machine has different axes")
         if not np.isfinite((*state.goal, *state.way, *chain.from_iterable(state.latched.values()))).all():
-            raise BadFile("a goal or a channel of its machine is not a finite number")
+            raise BadFile("a saved goal or a saved channel of the machine is not a finite number")
         widths = {channel.name: channel.width for channel in self._senses if channel.latched}
         if any(widths.get(name) != len(values) for name, values in state.latched.items()):
             raise BadFile("its machine has different channels")

@@ -106,6 +106,6 @@ class Defect:
     line: str
     effect: Effect
     stage: int | None = None
-    """Number of the stage, from 1, with which the defect begins. None if it is present when the cell is switched
-    on.
+    """Number of the stage, from 1, with which the defect begins. None if the defect is present when the cell is
+    switched on.
     """

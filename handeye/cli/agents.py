@@ -113,7 +113,7 @@ def bench_agents(
     hidden: Annotated[
         Path | None,
         Parameter(
-            help="File of hidden seeds. It must match the SHA-256 in the task. Default: the public worlds."
+            help="File of hidden seeds. The file must match the SHA-256 in the task. Default: the public worlds."
         ),
     ] = None,
     out: Annotated[

@@ -47,7 +47,7 @@ trace show = traces:show: Show what happened in a run, and why.
 trace stats = traces:stats: Count and time what happened in a run, stage by stage.
 trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
 trace verify = traces:verify: Repeat a recorded run and compare the two.
-trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the motion that is needed to show the run is kept.
+trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the smaller trace keeps the motion that is needed to show the run.
 trace plot = exports:plot: Plot joints, hand force and events of a run against time; needs the extra `plot` (matplotlib).
 trace export: Write joints, forces and events of a run as tables.
 trace export csv = exports:csv: Write tables of a run as CSV, with a README that describes the columns.
@@ -63,7 +63,7 @@ trials compare = batches:compare_trials: Compare batches of trials with a first 
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
-trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch the faults for which the missing one was meant?
+trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch the faults for which the missing check was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
 trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 trials worst = rare:worst_trials: Find the nearest worlds in which a program fails, and the quantities that push it to fail.

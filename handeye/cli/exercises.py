@@ -108,7 +108,7 @@ def _describe(chosen: "Exercise", *, json: bool) -> int:
 
 
 def _begin(chosen: "Exercise", *, overwrite: bool, json: bool) -> int:
-    """Write the program from which a student starts. Nothing is written if one of the files exists."""
+    """Write the program from which a student starts. Nothing is written if one of the files already exists."""
     program = Path(chosen.start)
     files = {program: chosen.program.text}
     if chosen.positions is not None:

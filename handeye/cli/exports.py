@@ -177,7 +177,7 @@ def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> in
 
 
 def _cut(recorded: "RecordedRun") -> int:
-    """1 if the trace was cut short, with a note; 0 if it is complete."""
+    """1, and a printed note, if the trace was cut short; 0 if the trace is complete."""
     name = recorded.trace.name
     if recorded.whole or name.endswith(".part"):  # a .part file has a note of its own
         return 0
@@ -192,7 +192,8 @@ def thin(
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="File for the thinned trace (.mcap).")],
     overwrite: Overwrite = False,
 ) -> int:
-    """Shrink a trace to about a tenth of its size, for sharing; the motion that is needed to show the run is kept.
+    """Shrink a trace to about a tenth of its size, for sharing; the smaller trace keeps the motion that is needed to
+    show the run.
 
     Every command can read the thinned trace except `trace verify`, which needs the whole trace.
     """

@@ -143,7 +143,7 @@ def carry_out_job_trials(
 
 
 def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
-    """Raise InvalidInput before the run if the video could not be written after it."""
+    """Raise InvalidInput before the run if the video could not be written after the run."""
     from handeye.cell.opengl import context
     from handeye.core.files import check_place
     from handeye.video.formats import format_of

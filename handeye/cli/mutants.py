@@ -46,7 +46,7 @@ def mutant_trials(
     options: SweepOptions = ANY,
 ) -> int:
     """Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does
-    another check catch the faults for which the missing one was meant?
+    another check catch the faults for which the missing check was meant?
 
     A mutant that `handeye check --prove` does not refuse runs from the beginning of its stage, once with each fault
     for which the missing check exists. The mutant is `caught` if it stops, `silent` if it reports success with wrong
@@ -89,7 +89,7 @@ def _chosen(made: "list[Mutant]", only: list[str] | None) -> "list[Mutant]":
     """The mutants with one of these texts in their names; all mutants if no texts are given."""
     for text in only or ():
         if not any(text in each.name for each in made):
-            raise NoSuchName(f"no mutant has {quoted(text)} in its name; --list lists them")
+            raise NoSuchName(f"no mutant has {quoted(text)} in its name; --list lists the mutants")
     return [each for each in made if not only or any(text in each.name for text in only)]
 
 

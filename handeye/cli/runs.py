@@ -170,8 +170,8 @@ def run(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder of checkpoints, or of a run: --from and --stage begin from its checkpoints, and new "
-            "checkpoints are saved there."
+            help="Folder of checkpoints, or of a run: --from and --stage begin from the checkpoints in this folder, "
+            "and new checkpoints are saved there."
         ),
     ] = None,
     on_stop: OnStop = None,

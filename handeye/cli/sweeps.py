@@ -99,8 +99,8 @@ def carry_out_sweep(
     engine: "Engine | None" = None,
     more: Mapping[str, object] | None = None,
 ) -> int:
-    """Run a sweep: save and report each trial as it ends, then print the figures, even if interrupted; returns the
-    exit code.
+    """Run a sweep: save and report each trial as it ends, then print the figures, even if the sweep was interrupted;
+    returns the exit code.
 
     Args:
         again: a function that gives the command to repeat the trial of a row.

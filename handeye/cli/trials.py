@@ -48,8 +48,8 @@ class AttemptOptions:
         Known,
         Parameter(
             help="How the program knows the pose of its camera. `lamp`: from a calibration with the lamp on the "
-            "arm. `sightings`: from simulated sightings of the lamp, which are faster, and more accurate than real "
-            "ones. `drawn`: from the drawing of the cell. `true`: exactly."
+            "arm. `sightings`: from simulated sightings of the lamp; simulated sightings are faster and more "
+            "accurate than real ones. `drawn`: from the drawing of the cell. `true`: exactly."
         ),
     ] = "lamp"
     camera: Camera = "auto"
@@ -259,7 +259,7 @@ def _folder(named: Path | None) -> Iterator[Path]:
 
 
 def _own_setup(words: str | None, camera: str) -> Setup:
-    """A run of a task by its own plan, with the world still to be chosen."""
+    """A run of a task by its own plan. The world is chosen later."""
     work = any_task(DEFAULT) if words is None else named(words)
     if isinstance(work, Task):
         return Setup(plan=plan_or_own(None, words), world=WorldSpec(seed=0), camera=camera)

@@ -31,7 +31,10 @@ def view(
     /,
     *,
     demo: Annotated[
-        bool, Parameter(negative="", help="Run a short program included with handeye; it takes no pictures.")
+        bool,
+        Parameter(
+            negative="", help="Run a short program included with handeye; this program takes no pictures."
+        ),
     ] = False,
     teach: Annotated[
         Path | None,
@@ -49,10 +52,10 @@ def view(
 ) -> int:
     """Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
 
-    Prints the address to open, which contains a secret and works on this computer only. Several pages can
-    show the run, but only one controls it; the other pages neither change nor slow the run. The exit codes are
-    those of `handeye run` or, with --teach, those of `handeye teach`. For a recorded run, Ctrl-C ends the command
-    with exit code 0.
+    Prints the address to open, which contains a secret and works on this computer only. Several pages can show the
+    run, but only one page controls the run; the other pages neither change nor slow the run. The exit codes are those
+    of `handeye run` or, with --teach, those of `handeye teach`. For a recorded run, Ctrl-C ends the command with exit
+    code 0.
     """
     from handeye.cli.job import Job, work
     from handeye.core import resources

@@ -29,10 +29,9 @@ Faults = Annotated[
         name="--fault",
         group=WORLD,
         consume_multiple=False,
-        help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. "
-        "A fault of the arm in a job of ML begins after a time, such as @30s. "
-        "`handeye faults --list` lists the faults of the pump; with `--task NAME`, it lists those of another task. "
-        "May be repeated.",
+        help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. A "
+        "fault of the arm in a job of ML begins after a time, such as @30s. `handeye faults --list` lists the "
+        "faults of the pump; with `--task NAME`, the command lists the faults of another task. May be repeated.",
     ),
 ]
 
@@ -91,7 +90,7 @@ class ErrorOptions:
         off = self._names()
         if "" in off:
             raise BadArgument(
-                "--without needs names of errors, separated by single commas; `handeye world` lists them"
+                "--without needs names of errors, separated by single commas; `handeye world` lists the names"
             )
         lacking = next((name for name in off if name in SENSES), None)
         if lacking is not None:

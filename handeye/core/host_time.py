@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from typing import Self
 
 _LOADED = time.monotonic(), time.process_time()
-"""Wall-clock and processor time at which this module was imported. A command imports it before anything else."""
+"""Wall-clock and processor time at which this module was imported. A command imports this module before anything else.
+"""
 
 
 @dataclass(frozen=True, slots=True)

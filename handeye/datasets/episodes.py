@@ -15,7 +15,9 @@ from handeye.trace.trace import Trace
 
 EpisodeOutcome = Literal["right", "false done", "stopped", "not judged"]
 """`right`: the program ended, and the referee accepts the work. `false done`: the program ended, but the referee does
-not accept the work. `stopped`: the program did not end. `not judged`: it ended, and no referee judged the work."""
+not accept the work. `stopped`: the program did not end. `not judged`: the program ended, and no referee judged the
+work.
+"""
 
 OUTCOMES: Final[dict[EpisodeOutcome, str]] = {
     "right": "the program ended, and the referee accepted the work",

@@ -12,9 +12,9 @@ from handeye.results.judging import findings_so_far, limited
 from handeye.runs.runner import Runner
 
 Outcome = Literal["right", "false done", "not done", "stopped"]
-"""`right`: the policy reported that the work is done, and the referee agrees. `false done`: the policy reported it,
-but the referee disagrees. `not done`: the time limit came first, whatever the state of the work. `stopped`: the arm
-stopped for good.
+"""`right`: the policy reported that the work is done, and the referee agrees. `false done`: the policy reported that
+the work is done, but the referee disagrees. `not done`: the time limit came first, whatever the state of the work.
+`stopped`: the arm stopped for good.
 """
 
 REWARDS: Final[Mapping[Outcome, float]] = {"right": 1.0, "false done": -1.0, "not done": 0.0, "stopped": 0.0}

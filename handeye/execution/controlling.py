@@ -13,7 +13,7 @@ from handeye.ports.workcell import Sensed
 from handeye.program.events import CommandedPeriod
 
 Controller = Callable[[Sensed], CommandedPeriod | None]
-"""A function from the readings of a servo period to the commands for the next one; None ends the control."""
+"""A function from the readings of a servo period to the commands for the next one; the value None ends the control."""
 
 
 def repeated(periods: Sequence[CommandedPeriod]) -> Controller:

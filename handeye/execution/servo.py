@@ -34,8 +34,8 @@ class ServoPeriod(Record, frozen=True, kw_only=True):
 
     sensed: Sensed  # readings of all devices at its end
     effort: Array
-    """Commanded joint torques, shape (n,), N m (N if prismatic). They are zero under brakes, and for servos outside
-    the computer.
+    """Commanded joint torques, shape (n,), N m (N if prismatic). The torques are zero while the brakes are set, and
+    for servos outside the computer.
     """
     wrench: Array | None = None
     """Estimated force (N) of the hand on the world and moment (N m) about its tool centre point, in W, shape (6,). If

@@ -9,7 +9,7 @@ from handeye.core.errors import BadArgument
 
 LONGEST: Final = 86400.0  # s that may pass at once: a day, far longer than any job
 _ROUNDING: Final = 1e-6
-"""Tolerated deviation of a period from a whole number of steps, as a fraction of a step. It allows for the
+"""Tolerated deviation of a period from a whole number of steps, as a fraction of a step. The tolerance allows for the
 rounding of floating-point numbers.
 """
 _DIGITS: Final = ".12g"  # digits of a period in a message, so that a user can type this period

@@ -11,8 +11,8 @@ class Phase(Record, frozen=True, kw_only=True):
 
     by: tuple[Evidence, ...] = ()
     undone: tuple[Evidence, ...] = ()
-    """Kinds of steps after which the phase must be shown again, because they may change what it has shown. They do so
-    even if they raise an error.
+    """Kinds of steps after which the phase must be shown again, because these steps may change what the phase has
+    shown. This holds even if such a step raises an error.
     """
 
 

@@ -38,8 +38,8 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     """
     way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None
-    """Index, in the path, of the last step from which some other path leads to a step that shows the claim. It is None
-    if the path passes no such step.
+    """Index, in the path, of the last step from which some other path leads to a step that shows the claim. The index
+    is None if the path passes no such step.
     """
     undone: int | None = None
     """Index, in the path, of the last step after which the claim must be shown again; None if there is none."""

@@ -21,7 +21,7 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
         return
     here = None if runner.system.cell is None else runner.cell.renderer
     if here is not None and begun.camera != here:
-        yield f"the run began with the renderer {renderer_name(begun.camera)}; now it uses {renderer_name(here)}"
+        yield f"the run began with the renderer {renderer_name(begun.camera)}; now the run uses {renderer_name(here)}"
     changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
     if changed:
         yield f"the run began with other versions of {', '.join(changed)}; the result may differ"
@@ -40,7 +40,7 @@ def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:
         yield (
-            f"the trace in {folder.path} was lost or damaged: it does not contain the motions before "
+            f"the trace in {folder.path} was lost or damaged: the trace does not contain the motions before "
             f"{runner.time:.2f} s"
         )
     if folder.journal_lost:

@@ -97,7 +97,7 @@ class ExportedSolids:
     solids: int
     open: tuple[str, ...]  # names of bodies whose surface is not closed
     weighed: tuple[WeighedBody, ...]
-    """Bodies of known density, with both their masses."""
+    """Bodies of known density, each with its computed mass and its mass in the model."""
 
 
 def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:

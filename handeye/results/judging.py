@@ -73,7 +73,7 @@ def limited(findings: Findings, limits: Limits) -> Findings:
     found = dict(findings)
     for name, limit in limits.items():
         if name not in found:
-            near = suggestion(name, found) or f"its findings are {', '.join(map(quoted, found))}"
+            near = suggestion(name, found) or f"the findings are {', '.join(map(quoted, found))}"
             raise NoSuchName(f"the referee has no finding {quoted(name)}; {near}")
         found[name] = found[name].limited(limit)
     return found

@@ -69,7 +69,9 @@ class Timing(Record, frozen=True, kw_only=True):
     real_time_factor: float
     """Simulated seconds, including preparation, per second of `run_wall_s`; differs from run to run."""
     host_from_step: int
-    """Number of steps done before computing time was recorded. If it is 0, the computing times cover the whole run."""
+    """Number of steps done before computing time was recorded. If this number is 0, the computing times cover the
+    whole run.
+    """
 
 
 class Check(Record, frozen=True, kw_only=True):
@@ -172,7 +174,7 @@ class Result(Record, frozen=True, kw_only=True):
     without: tuple[str, ...] | UnsetType = UNSET
     """Senses that were switched off in the program."""
     apart: bool | UnsetType | None = UNSET
-    """Only for a run that undid its work: True if the referee finds every part back in its place; None if the
+    """Set only for a run that undid its work. True if the referee finds every part back in its place; None if the
     referee has not judged the run, or if only a part of the work was undone.
     """
     figures: dict[str, float] | UnsetType = UNSET

@@ -21,7 +21,7 @@ class Rate(Record, frozen=True, kw_only=True):
     trials: int
     rate: float | None  # Successes over trials; None, as the bounds: nothing was tried
     wilson95: tuple[float, float] | None
-    """Wilson's score interval: it contains the true probability in about 95 of 100 batches."""
+    """Wilson's score interval. In about 95 of 100 batches, the interval contains the true probability."""
     p_s: float | None
     """Lower bound of the one-sided 95 % confidence interval of the probability (Clopper and Pearson): the least p at
     which this many successes or more have a probability of 5 %.

@@ -32,7 +32,7 @@ class Television:
     """A copy of the picture on the television, with what vision found in it. The run does not change the copy."""
 
     picture: SeenPicture | None = None
-    """The last picture that the program took or examined, with its time; None if it has taken none."""
+    """The last picture that the program took or examined, with its time; None if the program has taken no picture."""
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:

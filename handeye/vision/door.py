@@ -135,7 +135,7 @@ def characterise(
     _scan(scan)
     place = places(seed, "the seed must be a place (u, v)")
     if place.shape != (2,):
-        raise BadArgument(f"the seed must be a place (u, v), but the given one has shape {place.shape}")
+        raise BadArgument(f"the seed must be a place (u, v), but the given place has shape {place.shape}")
     _settings(polarity, step, beyond)
     length = _number(reach, "the reach of a beam must be a number of pixels")
     if length <= 0:
@@ -170,7 +170,7 @@ def _settings(polarity: object, step: object, beyond: object) -> None:
 def _number(given: object, said: str) -> float:
     found = numbers(given, said)
     if found.shape:
-        raise BadArgument(f"{said}, but the given one has shape {found.shape}")
+        raise BadArgument(f"{said}, but the given array has shape {found.shape}")
     return float(found)
 
 

@@ -48,7 +48,7 @@ def test_a_second_of_a_smooth_motion_takes_less_than_two_kilobytes() -> None:
     "data", [b"", b"no way", packed(way(9))[:-3], packed(RecordedPath(q=np.ones((3, 4)), gap=np.ones(3)))]
 )
 def test_bytes_that_are_no_way_of_the_arm_are_refused(data: bytes) -> None:
-    with pytest.raises(ValueError, match=r"^it does not contain a recorded path"):
+    with pytest.raises(ValueError, match=r"^the record does not contain a "):
         unpacked(data, JOINTS)
 
 

@@ -23,7 +23,7 @@ from handeye.program.guards import GuardKind
 SAME_GAP: Final = 5e-4  # m, of an unchanged hold
 SAME_PLACE: Final = (0.005, 0.02)
 """Tolerance (m), sideways and in height, between the place at which an object is put down and the place at which
-it is taken up. Fingers slide on an object.
+it is taken up. The tolerance is needed because fingers slide on an object.
 """
 
 

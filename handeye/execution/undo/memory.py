@@ -43,7 +43,7 @@ def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
     program.
     """
     if not before.keys() <= set(REMEMBERED):
-        raise ValueError("it contains data that no program can produce")
+        raise ValueError("the record contains data that no program can produce")
     found = {name: decoded(data, _TYPES[name]) for name, data in before.items()}
     try:
         check_fits(replace(run.state, **_UNCHECKED, **found), run.plan, run.arm)

@@ -77,10 +77,10 @@ def unpacked(data: bytes, joints: int) -> RecordedPath:
     try:
         inflated = inflater.decompress(data, _LONGEST)
     except zlib.error as error:
-        raise ValueError(f"it does not contain a recorded path: {error}") from None
+        raise ValueError(f"the record does not contain a valid path: {error}") from None
     numbers = np.frombuffer(inflated, "<i4") if len(inflated) % 4 == 0 else np.empty(0)
     if not inflater.eof or not len(numbers) or len(numbers) % (joints + 1):
-        raise ValueError("it does not contain a recorded path of this arm")
+        raise ValueError("the record does not contain a path of this arm")
     second = numbers.reshape(joints + 1, -1).T
     whole = np.cumsum(np.cumsum(second.astype(np.int64), axis=0), axis=0)
     rows: Array = np.asarray(whole * GRAIN, dtype=np.float64)

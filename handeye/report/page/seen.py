@@ -36,8 +36,7 @@ def _content(pictures: Sequence[SeenPicture], lost: int) -> Iterator[Markup]:
     rows, columns = pictures[0].picture.shape
     yield note(
         f"Each picture is shown exactly as the program received it: {columns} x {rows} pixels in 16 grey levels. "
-        "The features "
-        "that the program detected are drawn over it."
+        "The features that the program detected are drawn over the picture."
     )
     box = element("input", type="checkbox", id="marks", checked=True, aria_keyshortcuts="m")
     yield element(

@@ -97,7 +97,7 @@ def _unseen(run: RecordedRun) -> Iterator[Markup]:
     if run.begins > 0:
         yield note(
             f"This run was resumed from a checkpoint, and its trace begins at {clock(run.begins)}. Events before "
-            "that time come from the checkpoint; motions, pictures and forces before it were not recorded."
+            "that time come from the checkpoint; motions, pictures and forces before that time were not recorded."
         )
     if not run.whole:
         yield note(f"The trace is truncated: it ends at {clock(run.ends)}.")

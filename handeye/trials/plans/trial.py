@@ -44,7 +44,7 @@ class Trial:
     camera: str = "auto"
     without: tuple[str, ...] = ()
     on_stop: str = "abort"
-    """The rule that answers calls to the operator, in the words that `parse_policy` reads; it must not ask a
+    """The rule that answers calls to the operator, in the words that `parse_policy` reads; the rule must not ask a
     person.
     """
     simulated_limit_s: float = SIMULATED_LIMIT_S

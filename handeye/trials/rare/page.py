@@ -43,8 +43,8 @@ def estimates(found: Sequence[Estimated]) -> Iterator[Markup]:
     yield note(
         "Each level is a sample of the worlds in which the margin of a run is at most the threshold of the level "
         "before it. A share is the fraction of a level's runs that are within the level's own threshold. A run "
-        "usually has a margin of about 1; at 0, the program fails. The estimate is the product of the shares. It "
-        "is not a bound."
+        "usually has a margin of about 1; at 0, the program fails. The estimate is the product of the shares. The "
+        "estimate is not a bound."
     )
 
 

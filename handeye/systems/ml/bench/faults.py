@@ -28,7 +28,7 @@ _FIXED: Final[dict[str, dict[str, float]]] = {
     "range.silent": {"range": RANGED},
     "current.dead": {"torque": 0.0},
 }
-"""For each fault of a sensor: the channels that it affects, and the constant value that they read."""
+"""For each fault of a sensor: the channels that the fault affects, and the constant value that these channels read."""
 _MEANINGS: Final = {
     "wand.open": "The switch of the wand is stuck open: the wand never signals a touch.",
     "wand.closed": "The switch of the wand is stuck closed: the wand always signals a touch.",

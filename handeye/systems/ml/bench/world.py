@@ -95,8 +95,8 @@ ARM: Final = (
         "N",
         Noise(0.02),
         1.0,
-        "Standard deviation of a strain gauge's noise. Our choice: it keeps the error of a reading below the 5 g "
-        "of the paper.",
+        "Standard deviation of a strain gauge's noise. Our choice: this noise keeps the error of a reading below "
+        "the 5 g of the paper.",
     ),
     quantity(
         RANGE,

@@ -77,7 +77,7 @@ def code_explained(code: str) -> str | None:
     code = code.upper() if code.upper() in MEANINGS else code.casefold()
     known = CODES.get(code) or SYMBOLIC.get(code)
     if known is None:
-        more = "The checker does not look for this mistake. A running program stops at it."
+        more = "The checker does not look for this mistake. A running program stops at this mistake."
         return f"error[{code}]: {MEANINGS[code]}\n{more}" if code in MEANINGS else None
     symbolic = code in SYMBOLIC
     language = SYMBOLIC_LANGUAGE if symbolic else LANGUAGE

@@ -116,9 +116,9 @@ def bucket(
     """Drop a block into a bucket, and put another block where the first one was: the paper's first example, with
     physics.
 
-    The program is taught and run in a random world, and a referee judges the result. It is not run backwards,
-    because a block in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back`
-    shows where the attempt stops).
+    The program is taught and run in a random world, and a referee judges the result. The program is not run backwards,
+    because a block in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows
+    where the attempt stops).
 
     Exit code 0: done and right; 1: the arm stopped before that; 3: done, but the referee disagrees; 2: bad input;
     130: interrupted.
