@@ -65,7 +65,7 @@ class Explain(Request, frozen=True, kw_only=True):
     word: Annotated[
         str,
         Meta(max_length=200, description="A diagnostic code (label-twice), an error number (23) or an instruction "
-             "(CHANGE). Default: list them."),
+             "(CHANGE). Default: list all of these."),
     ] = ""  # fmt: skip
 
 
@@ -97,7 +97,7 @@ class PlanOf(Request, frozen=True, kw_only=True):
             Meta(
                 ge=1,
                 le=1000,
-                description="List the steps of the stage with this number. Default: the stages alone.",
+                description="List the steps of the stage with this number. Default: list only the stages.",
             ),
         ]
         | None
@@ -188,7 +188,10 @@ class Fork(Request, frozen=True, kw_only=True):
     stage: Annotated[
         str,
         Meta(
-            max_length=200, description="Begin the new run before this stage. Default: where the run is now."
+            max_length=200,
+            description=(
+                "Begin the new run before this stage. Default: begin at the present state of the run."
+            ),
         ),
     ] = ""
 

@@ -80,7 +80,7 @@ TOOLS: Final = (
     ),
     Tool(
         name="submit", takes=requests.Submit, act=Toolbox.submit, queues=True,
-        about="Run a script to its end in several worlds, and let the referee judge each. Nothing is kept.",
+        about="Run a script to its end in several worlds, and let the referee judge each run. Nothing is kept.",
     ),
 )  # fmt: skip
 _BY_NAME: Final = {tool.name: tool for tool in TOOLS}

@@ -69,7 +69,8 @@ def factor(text: str) -> float | None:
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())
     if number is None or not SLOWEST <= float(number[1]) <= FASTEST:
         raise BadArgument(
-            f"`pace` takes `1x`, `4x`, another number from {SLOWEST:g}x to {FASTEST:g}x, or `{FREE}`, not {quoted(text)}"
+            f"`pace` takes `1x`, `4x`, another number from {SLOWEST:g}x to {FASTEST:g}x, or `{FREE}`, "
+            f"not {quoted(text)}"
         )
     return float(number[1])
 

@@ -118,7 +118,7 @@ class DebugSession:
         if self.going is None:
             raise Refused("the run is already paused")
         if self.going == "back":
-            raise Refused("the run is already going back, and pauses when it arrives")
+            raise Refused("the run is already going back to an earlier state, and pauses there")
         self._pause_asked = True
 
     @contextmanager

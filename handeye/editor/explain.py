@@ -135,8 +135,8 @@ class Remedy:
 
 REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_LIMIT: Remedy(
-        "The planner reports this for a planned position. During a run, the error occurs when a part lies farther away "
-        "than planned: take another path.",
+        "The planner reports this error for a planned position. During a run, the error occurs when a part lies "
+        "farther away than planned: take another path.",
         "MOVE T\nSKIPE 1 ;T is too far away\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.NOTHING_HELD: Remedy(
@@ -146,9 +146,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE P\nCLOSE .1\nSKIPN 2 ;something is in the hand\nWAIT "NO PIN THERE"\nMOVE T',
     ),
     errors.NO_SOLUTION: Remedy(
-        "The planner reports this for a planned position. During a run, the error occurs when the camera sees a "
-        "part too "
-        "far away: leave that part alone.",
+        "The planner reports this error for a planned position. During a run, the error occurs when the camera sees a "
+        "part that is too far away: leave that part alone.",
         "MOVE T\nSKIPE 3 ;T is out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(

@@ -183,8 +183,8 @@ class Task(AnyTask):
     elsewhere.
     """
     other_scripts: tuple[str, ...] = ()
-    """Further programs of the task, given in the same way as `script`. Commands find each by its file name without
-    the extension.
+    """Further programs of the task, given in the same way as `script`. Commands find each program by its file name
+    without the extension.
     """
     eye: CameraSetup | None = None
     period: HistoricalTiming | None = None

@@ -167,7 +167,7 @@ def _help(repl: Repl, rest: str) -> Answer:
             raise NoSuchName(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
         return answer(repl.workplace, said=f"{definition.usage}: {definition.help}")
     lines = (
-        "A line is an instruction of the arm language, which is collected, or one of",
+        "A line is either an instruction of the arm language, which the REPL collects, or one of these commands:",
         *rows(_TABLE),
         "Collected lines stay until CLEAR. `HELP MOVE` explains an instruction.",
     )

@@ -27,7 +27,9 @@ deflection of the arm under 18 N.
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CentringStep:
-    """Changes of set-points in one servo period: of the finger gap (m), and of the hand along its y axis (m)."""
+    """Changes of set-points in one servo period: of the finger gap (m), and of the hand along the y axis of the hand
+    (m).
+    """
 
     gap: float = 0.0
     hand: float = 0.0

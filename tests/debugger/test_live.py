@@ -85,7 +85,8 @@ def test_a_pause_is_asked_of_a_run_that_goes_on_alone(stepper: Stepper) -> None:
     del stepper.session.runner.history[1:-1]
     replies = heard(stepper, {5: ["pause"]})
     assert stepper.do("back").position == 8
-    assert [reply.error for reply in replies] == ["the run is already going back, and pauses when it arrives"]
+    refusal = "the run is already going back to an earlier state, and pauses there"
+    assert [reply.error for reply in replies] == [refusal]
 
 
 # -- lines that are typed while the run goes ------------------------------------------------------------

@@ -126,8 +126,8 @@ def arm() -> Iterator[Quantity]:
             unsourced="the masses were published without a tolerance. To correct the error of the masses, the arm "
             f"weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-            "Distance between a link's centre of mass and its joint: relative deviation of the true value from the "
-            "controller's.", least=-90.0,
+            "Distance between a link's centre of mass and its joint: relative deviation of the true distance from "
+            "the controller's value.", least=-90.0,
             unsourced="the centres of mass were also published without a tolerance. To correct their error, the arm "
             f"weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",

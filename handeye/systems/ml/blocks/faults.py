@@ -41,7 +41,7 @@ FAULTS: Final = Catalogue(
     planted(LARGE, "The side of the third block is 6 mm too long.", _MET, _NONE),
     planted(OCCUPIED, "A block already stands where the stack is to be built.", _HIGH),
     planted(
-        SLIPPERY, "The blocks are oiled; the value is their friction coefficient.",
+        SLIPPERY, "The blocks are oiled; the value is the friction coefficient of the blocks.",
         harmless="The fingers press with 90 N, and a block weighs only 16 g.",
         size=Size(unit="", usual=0.1, limits=(0.01, 0.3)),
     ),

@@ -34,8 +34,8 @@ def touch(
     page: Annotated[
         Path | None,
         Parameter(
-            help="Write a page (.html) with sliders for the period (2 to 50 ms), the bandwidth of the servo (10 to 100 "
-            "Hz) and the speed (5 to 200 mm/s). This takes about 10 s."
+            help="Write a page (.html) with sliders for the period (2 to 50 ms), the bandwidth of the servo (10 to "
+            "100 Hz) and the speed (5 to 200 mm/s). Writing the page takes about 10 s."
         ),
     ] = None,
     overwrite: Overwrite = False,

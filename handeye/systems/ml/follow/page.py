@@ -99,7 +99,7 @@ def _drawn(done: FollowReport) -> Markup:
         *_depths(true, touches),
         wide=_WIDE,
         high=_HIGH,
-        label="The outline that was felt, drawn over the true one, and the errors of the touches",
+        label="The outline that the wand felt, drawn over the true outline, and the errors of the touches",
     )
 
 

@@ -36,8 +36,8 @@ _MOTORS: Final = (
     MotorSpec(number=11, axis="separation", lower=0, upper=4000, peak=7874, output=7),
     MotorSpec(number=12, axis="angle", lower=-2500, upper=2500, unit=ROTARY, peak=_TURNING, output=8),
 )
-"""Each motor except that of the base is driven by one of the eight analog outputs of the System/7. A digital word sets
-the detent of the base.
+"""Each motor except the motor of the base is driven by one of the eight analog outputs of the System/7. A digital word
+sets the detent of the base.
 """
 
 STRAINS: Final = tuple(f"{finger}_strain_{part}" for finger in ("left", "right") for part in "xyz")

@@ -36,7 +36,9 @@ class MlPlan(Record, frozen=True, kw_only=True):
     """The statement at which the program of the left arm begins; None if there is no left arm."""
     stimuli: Annotated[tuple[Stimulus, ...], msgspec.Meta(max_length=MOST_STIMULI)] = ()  # for perfect motors
     outline: Annotated[tuple[Point, ...], msgspec.Meta(max_length=MOST_CORNERS)] = ()
-    """The corners (y, x), in ML units, of an object that the wand touches. Only an arm with perfect motors has one."""
+    """The corners (y, x), in ML units, of an object that the wand touches. Only an arm with perfect motors has such an
+    object.
+    """
     job: str = ""  # the job that the program does; empty: none
     variant: str = ""  # variant of the job
 

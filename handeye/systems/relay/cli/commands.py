@@ -121,7 +121,7 @@ def relay_trials(
 
 
 def _setup(file: Path, seed: int, errors: OwnErrorOptions, camera: CameraKind) -> "Setup":
-    """Return the setup of a relay in a world. Raises InvalidInput if its legs do not fit together."""
+    """Return the setup of a relay in a world. Raises InvalidInput if the legs of the relay do not fit together."""
     from handeye.core.source import read_source
     from handeye.runs.setup import Setup
     from handeye.systems.relay.check import check_plan

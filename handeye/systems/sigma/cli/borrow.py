@@ -24,9 +24,9 @@ def borrow(
     """Run a MAL program with the Stanford arm in place of arm 1: X1, Y1 and Z1 move the tool of the Stanford arm, and
     there is no bus.
 
-    The arm moves over the table of the water-pump cell. It moves at up to 150 mm/s. Without LIMIT, no force stops
-    the arm; after LIMIT, a force above the limit stops the arm within a servo period of 1/60 s. Programs that use
-    arm 2, a light beam or a device other than HAND1 are refused. The run is not kept.
+    The arm moves over the table of the water-pump cell. The greatest speed of the arm is 150 mm/s. Without LIMIT, no
+    force stops the arm; after LIMIT, a force above the limit stops the arm within a servo period of 1/60 s. Programs
+    that use arm 2, a light beam or a device other than HAND1 are refused. The run is not kept.
 
     Exit code 0: all tasks have ended; 1: the program stopped before its end; 2: bad input; 130: interrupted.
     """

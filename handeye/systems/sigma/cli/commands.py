@@ -45,8 +45,8 @@ Arm = Annotated[
     Parameter(
         name="--arm",
         help="What the program drives. `none`: perfect motors. `wired`: ten microcomputers that run their firmware, "
-        "each sampling the wires of their bus with its own clock. Neither of these two has obstacles. `gantries`: the "
-        "same microcomputers, and a simulated machine with two gantries over an empty board.",
+        "each sampling the wires of their bus with its own clock. `none` and `wired` have no obstacles. `gantries`: "
+        "the same microcomputers, and a simulated machine with two gantries over an empty board.",
     ),
 ]
 

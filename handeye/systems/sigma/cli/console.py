@@ -97,7 +97,7 @@ class Console:
     # -- the program ----------------------------------------------------------------------------------
 
     def _enter(self, line: str) -> None:
-        """Store a line with a number. A number alone removes its line."""
+        """Store a line with a number. A number alone removes the line that has this number."""
         if bare := re.fullmatch(r"([0-9]{1,5})", line):
             if int(bare[1]) not in self._lines:
                 raise NoSuchName(f"there is no line {bare[1]}")

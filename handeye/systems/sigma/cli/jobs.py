@@ -67,7 +67,7 @@ def handover(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Hand four pieces from arm to arm: arm 1 brings them, arm 2 presses their pins in and takes them away.
+    """Hand four pieces from arm to arm: arm 1 brings the pieces; arm 2 presses in their pins and takes the pieces away.
 
     `plans/handover_pieces.mal` runs on two simulated gantries, in a world with errors. A referee then checks
     that each piece stands at its last place, within 3 mm and 3 degrees, with its pin pressed in to within .5 mm;
@@ -260,7 +260,8 @@ def _check(subject: str, count: int, most: int, noun: str) -> None:
 
 def _plan(job: "JobName", pieces: int | None, file: Path | None) -> "MalPlan | None":
     """Return the plan of a job's own program, or of the program in `file` for the same pieces. Prints the mistakes of
-    that program, and returns None if it has errors."""
+    that program, and returns None if the program has errors.
+    """
     from handeye.core.source import read_source
     from handeye.systems.sigma.cli.commands import reported
     from handeye.systems.sigma.run.jobs import job_plan, job_task

@@ -125,9 +125,9 @@ class Strategy:
             if (grip.done or 0.0) < means.SIDEWAYS_N:
                 late = (grip.later or 0.0) >= means.SIDEWAYS_N
                 why = (
-                    "they meet the block only after the hand has reported the end of its motion"
+                    "the fingers meet the block only after the hand has reported the end of its motion"
                     if late
-                    else "they do not close"
+                    else "the fingers do not close"
                 )
                 raise Found(f"fingers of hand {arm}", why)
 

@@ -11,8 +11,8 @@ CODES: Final[dict[str, Mistake]] = {
     "axis-shared": Mistake(
         meaning="two tasks move the same axis",
         example="10 START OTHER\n20 MOVE X1 TO 5\n30 TASK OTHER\n40 MOVE X1 TO 9",
-        cure="move each axis in only one task, or use flags to pass it from task to task; "
-        "`handeye sigma check FILE --interleavings` tries every order in which the tasks can run",
+        cure="move each axis in only one task, or use flags to pass the axis from task to task; `handeye sigma "
+        "check FILE --interleavings` tries every order in which the tasks can run",
         severity="warning",
     ),
     "axis-twice": Mistake(
@@ -28,7 +28,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="set the flag with SET in another task, or correct its name", severity="warning",
     ),
     "for-without-next": Mistake(
-        meaning="a FOR has no NEXT of the same name after it in its task", example="10 FOR I = 1 TO 4\n20 PRINT I",
+        meaning="no NEXT of the same name follows a FOR in its task", example="10 FOR I = 1 TO 4\n20 PRINT I",
         cure="write NEXT after the lines to repeat",
     ),
     "line-missing": Mistake(
@@ -48,7 +48,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="give each line a different number",
     ),
     "next-without-for": Mistake(
-        meaning="a NEXT has no FOR of the same name before it in its task", example="10 PRINT I\n20 NEXT I",
+        meaning="no FOR of the same name precedes a NEXT in its task", example="10 PRINT I\n20 NEXT I",
         cure="write FOR before the lines to repeat",
     ),
     "number-too-large": Mistake(

@@ -57,7 +57,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "START": Word(
         "statement", "START task {, task}",
-        "Start tasks, which then run at the same time as this one.",
+        "Start tasks, which then run at the same time as this task.",
         "40 START FEEDER, SCREWER",
     ),
     "KILL": Word(
@@ -172,7 +172,9 @@ MAL_DEVICES: Final[dict[str, tuple[int, str]]] = {
     "LAMP": (1, "LAMP"),
     "BELL": (1, "BELL"),
 }
-"""For each device: the arm whose hand microcomputer drives it, and the name that this microcomputer has for it."""
+"""For each device: the arm whose hand microcomputer drives the device, and the name that this microcomputer has for
+the device.
+"""
 assert {device for _, device in MAL_DEVICES.values()} == {*DEVICES}
 RESERVED: Final = {*WORDS, *LINE_AXES, "DIM"}
 """Words that cannot be names of variables, flags or tasks."""

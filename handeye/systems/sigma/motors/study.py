@@ -189,7 +189,7 @@ def verdict(found: AxisStudy) -> list[str]:
     else:
         where = "behind" if found.lost > 0 else "ahead"
         away = f"{counted(abs(found.lost), 'pole')} ({abs(found.lost) * POLE * STEP_MM:.2f} mm)"
-        out.append(f"the rotor slips, and ends {away} {where}; the count does not show it")
+        out.append(f"the rotor slips, and ends {away} {where}; the count does not show the slip")
     return out
 
 

@@ -162,7 +162,8 @@ class PumpClaims:
         moves = (*self.places.drives(), Turned(axis=self.places.axis))
         pump = Region(at=self.places.on_pump(0.0, 0.0), radius=0.5 * INCH, height=Limits(-0.01, 0.01))
         return Claim(
-            says="a push brings the pump home against the block, and two pictures show that it still stands there",
+            says="a push brings the pump home against the block, and two pictures show that the pump still stands "
+            "there",
             where=f"the {block} block",
             phases=(
                 Phase(by=(push,), undone=moves),
@@ -240,7 +241,7 @@ class PumpClaims:
         pump = Region(at=self.places.on_pump(0.0, 0.0), radius=0.5 * INCH, height=Limits(-0.01, 0.01))
         lifted = (Gripped(where=laid), before)
         return Claim(
-            says="two pictures, taken before and after the gasket was laid on the base, show it in its place",
+            says="two pictures, taken before and after the gasket was laid on the base, show the gasket in its place",
             phases=(
                 Phase(by=(before,)),
                 Phase(by=(Released(where=laid, least=1.0 * INCH),), undone=lifted),
@@ -260,8 +261,8 @@ class PumpClaims:
         limits = Limits(high - 0.16 * INCH, high + 0.12 * INCH)
         by = HeightWithin(of=self.places.touched(end), over=self.places.table, limits=limits)
         return Claim(
-            says="after letting go of the pin, the fingers feel its end in the holder, 3.5 in over the table to "
-            "within .12 in",
+            says="after letting go of the pin, the fingers feel the end of the pin in the holder, 3.5 in over the "
+            "table to within .12 in",
             where=f"pin {number + 1}",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )
@@ -275,8 +276,8 @@ class PumpClaims:
             of=self.places.touched(end), over=self.places.table, limits=Limits(7.95 * INCH, 8.25 * INCH)
         )
         return Claim(
-            says="after letting go of the screwdriver, the fingers feel its end in the rack, 8.1 in over the table "
-            "to within .15 in",
+            says="after letting go of the screwdriver, the fingers feel the end of the screwdriver in the rack, 8.1 "
+            "in over the table to within .15 in",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )
 

@@ -52,7 +52,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(
             finding="screws",
             claims=(*driven, *heads),
-            rests="Only a screw resists the driver and has its head at this height.",
+            rests="Only a screw resists the driver, and only a screw has a head at the height that the fingers feel.",
         ),
         Obligation(
             finding="screws_depth", claims=heads,
@@ -91,7 +91,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         ),
         Obligation(finding="rotor_place", claims=bearing, rests=_BEARING),
         Obligation(finding="rotor_lean", claims=bearing, rests=_BEARING),
-        Obligation(finding="hand", claims=(claims.away(),), rests="No part stands at that place."),
+        Obligation(finding="hand", claims=(claims.away(),), rests="No part stands at the parking place."),
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
@@ -112,7 +112,7 @@ _RACK: Final = (
 )
 _BEARING: Final = (
     "Only the height of the crank pin's end is felt. A bent crank may remain unnoticed, and so may a rotor that is "
-    "less than .07 in out of its bearing; the referee allows .004 in."
+    "out of its bearing by less than .07 in; the referee allows .004 in."
 )
 _SERVO: Final = "Arm and hand have no command left, because each step waits for the end of its motion."
 _UNSENSED: Final = {
@@ -124,11 +124,14 @@ _UNSENSED: Final = {
         "body stays on its tray."
     ),
     "still": "No step waits to see whether a part comes to rest.",
-    "arm_still": "The program does not measure this; the servo ends each motion at rest, or raises an error.",
+    "arm_still": (
+        "The program does not measure whether the arm is at rest; the servo ends each motion at rest, or raises an "
+        "error."
+    ),
     "overlap_bores": "It is a property of the simulation: solids do not pass through each other.",
     "overlap": "It is a property of the simulation: solids do not pass through each other.",
     "as_drawn": "It is a property of the simulation: no part changes during a run.",
-    "bonds": "It is a property of the simulation: it opens and closes each bond as the work requires.",
+    "bonds": "It is a property of the simulation: bonds open and close only as the work requires.",
     "held": "It is a property of the simulation: nothing but the arm acts on the parts.",
     "numbers": "It is a property of the simulation: its numbers are finite.",
 }

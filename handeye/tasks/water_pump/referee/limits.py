@@ -38,12 +38,12 @@ SCREW_SIZE: Final = 0.35
 hole.
 """
 SCREW_THREAD: Final = 6.35
-"""Least length of thread in the base (mm): one diameter of a 1/4 in screw, the rule for steel. A seated screw
-has 6.93 mm.
+"""Least length of thread in the base (mm): one diameter of a 1/4 in screw, the rule for steel. A seated screw has 6.93
+mm of thread in the base.
 """
 SCREW_PLACE: Final = 0.12
 """Greatest distance (mm) between the axes of a screw and its hole: the loosest fit of a 1/4-20 thread of class 2,
-with pitch diameters of .2127 in and .2224 in; ASME B1.1.
+with pitch diameters of .2127 in and .2224 in (ASME B1.1).
 """
 SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0

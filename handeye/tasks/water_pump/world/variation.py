@@ -58,8 +58,8 @@ def _make() -> Iterator[Quantity]:
     yield Quantity(
         name=SCREWS, unit="", distribution=Choice(tuple(map(float, MAKES))), nominal=float(USUAL),
         source="Number of screws, and of tapped holes: part of the job, not an error. The number does not depend on "
-        "seed or level. The seventh screw and its hole belong to a later version of the pump, which the program of "
-        "1973 does not know.",
+        "seed or level. The seventh screw and its hole belong to a later version of the pump; the program of 1973 "
+        "does not know this version.",
     )  # fmt: skip
 
 
