@@ -32,8 +32,8 @@ def _tables() -> Iterator[str]:
     there = list(table.present({}).values())
     without = sum(bool(quantity.unsourced) for quantity in there)
     yield (
-        f"\nThe world of a pump has {len(there)} uncertain quantities. For {without} of them, no source gives the "
-        "size of the error.\n"
+        f"\nThe world of a pump has {len(there)} uncertain quantities. For {without} of these quantities, no source "
+        "gives the size of the error.\n"
     )
     yield "\n## Without a source\n\n| quantities | size | what | why there is none, and a bound |\n|---|---|---|---|\n"
     for those in _rows([quantity for quantity in there if quantity.unsourced]):

@@ -21,7 +21,7 @@ a reference to a variable: `&17` is the value of variable 17, `-&17` is the nega
 value of the variable whose number is in variable 17. There are 256 variables. A reference can have up to six `&`. A
 line that begins with `*` is a remark.
 
-In the forms below, you may leave out what is in `[ ]`, and `...` means that you may repeat the parameter before it.
+In the forms below, you may leave out what is in `[ ]`, and `...` means that you may repeat the parameter before the dots.
 `n` is the number of a statement, `v` and `w` are numbers of variables, `m` is the number of a motor, and `s` is the
 number of a sensor. `t` is the name of a table, and `f` is the name of a file. `x` and `y` are values. Positions of
 motors 2, 3, 4 and 11 are in .001 inch; positions of motors 1, 8, 9, 10 and 12 are in .01 degree.
@@ -43,9 +43,9 @@ def page() -> str:
         "## Tables\n",
         "The name of a table is also a command, which shows the table. `MT` shows every line that has a word other "
         "than 0, `MT 3` shows line 3 with the names of its words, and `MT 3 1` shows word 1 of this line. GET and "
-        "QUERY read words; PUT and FILE write words. Internal tables are in main memory, where the real-time level "
-        "uses them. External tables are on the disk; a page of such a table is brought into main memory when it is "
-        "needed.\n",
+        "QUERY read words of a table; PUT and FILE write words of a table. Internal tables are in main memory, "
+        "where the real-time level uses them. External tables are on the disk; a page of such a table is brought "
+        "into main memory when the page is needed.\n",
         "| table | contents | lines | words | |",
         "|---|---|---|---|---|",
     ]
@@ -66,8 +66,8 @@ def page() -> str:
     out += [f"| `{code}` | {each.severity}: {each.meaning} | {each.cure} |" for code, each in known.items()]
     out += [
         "",
-        "The errors below stop a running program. Like every error in a running program, each of them is an "
-        "emergency: all motors freeze, and the pump is switched off.\n",
+        "The errors below stop a running program. Like every error in a running program, each of these errors is "
+        "an emergency: all motors freeze, and the pump is switched off.\n",
         "| code | |",
         "|---|---|",
     ]
