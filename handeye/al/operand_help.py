@@ -38,7 +38,7 @@ def part(definition: Instruction) -> str:
     role = definition.role.value if named else "instruction"
     said = f"handeye adds this {role}." if definition.ours else f"Documents of the 1970s contain this {role}."
     modified = ", ".join(f"`{word}`" for word in definition.fits)
-    return f"{said} It can modify {modified}." if modified else said
+    return f"{said} `{definition.op}` can modify {modified}." if modified else said
 
 
 def _units(operand: Operand) -> str:
