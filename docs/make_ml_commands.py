@@ -21,9 +21,9 @@ a reference to a variable: `&17` is the value of variable 17, `-&17` is the nega
 value of the variable whose number is in variable 17. There are 256 variables. A reference can have up to six `&`. A
 line that begins with `*` is a remark.
 
-In the forms below, you may leave out what is in `[ ]`, and `...` means that you may repeat the parameter before the dots.
-`n` is the number of a statement, `v` and `w` are numbers of variables, `m` is the number of a motor, and `s` is the
-number of a sensor. `t` is the name of a table, and `f` is the name of a file. `x` and `y` are values. Positions of
+In the forms below, you may leave out what is in `[ ]`, and `...` means that you may repeat the parameter before the
+dots. `n` is the number of a statement, `v` and `w` are numbers of variables, `m` is the number of a motor, and `s` is
+the number of a sensor. `t` is the name of a table, and `f` is the name of a file. `x` and `y` are values. Positions of
 motors 2, 3, 4 and 11 are in .001 inch; positions of motors 1, 8, 9, 10 and 12 are in .01 degree.
 
 [ML](ml.md) is the tutorial; `handeye ml words MOVE` explains a command in a terminal. `docs/make_ml_commands.py`

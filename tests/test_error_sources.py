@@ -29,7 +29,9 @@ def test_a_size_without_a_source_has_a_reason_and_a_bound() -> None:
 
 
 def test_every_page_gives_the_number_of_sizes_without_a_source() -> None:
-    told = re.search(r"has (\d+) uncertain quantities. For (\d+) of them", PAGE.read_text(encoding="utf-8"))
+    told = re.search(
+        r"has (\d+) uncertain quantities. For (\d+) of these quantities", PAGE.read_text(encoding="utf-8")
+    )
     assert told is not None
     for page in ("README.md", "docs/figures.md"):
         text = " ".join((ROOT / page).read_text(encoding="utf-8").split())
