@@ -50,7 +50,8 @@ class PumpClaims:
         where = places.over_hole(hole, 0.35 * INCH, top - 0.02 * INCH, top + 0.8 * INCH)
         high = places.head_height
         return Claim(
-            says=f"the fingers feel the head, {inches(high)} in over the face of the base to within .02 in",
+            says=f"the fingers feel the head {inches(high)} inch over the face of the base, with a tolerance of .02 "
+            "inch",
             where=f"hole {hole + 1}",
             phases=(
                 Phase(
@@ -124,8 +125,8 @@ class PumpClaims:
         here = Contact(where=places.socket(hole), force=force)
         others = [places.socket(other) for other in range(places.screws) if other != hole]
         return Claim(
-            says="before the screw is driven, its head stands at the right height over the thread to within .12 in, "
-            "compared with its place in the dispenser or with another screw",
+            says="before the screw is driven, the height of its head over the thread is right, with a tolerance of "
+            ".12 inch, compared with the screw's place in the dispenser or with another screw",
             where=f"hole {hole + 1}",
             phases=(
                 Phase(
@@ -178,7 +179,8 @@ class PumpClaims:
         limits = Limits(base_top() - 0.04 * INCH, base_top() + 0.04 * INCH)
         over = HeightWithin(of=self.corner(corner), over=places.table, limits=limits)
         return Claim(
-            says=f"the fingers feel the face of the base, {inches(base_top())} in over the table to within .04 in",
+            says=f"the fingers feel the face of the base {inches(base_top())} inches over the table, with a "
+            "tolerance of .04 inch",
             where=f"hole {_CORNERS[corner] + 1}",
             phases=(Phase(by=(over,), undone=self.base_in_hand()),),
         )
@@ -194,7 +196,8 @@ class PumpClaims:
         )
         limits = Limits(-0.03 * INCH, 0.03 * INCH)
         return Claim(
-            says="the fingers feel the table on both sides of the base, at the same height to within .03 in",
+            says="the fingers feel the table at the same height on both sides of the base, with a tolerance of .03 "
+            "inch",
             phases=(
                 Phase(
                     by=(
@@ -211,7 +214,8 @@ class PumpClaims:
         first, second = self.corner(one), self.corner(other)
         limits = Limits(-0.02 * INCH, 0.02 * INCH)
         return Claim(
-            says="the fingers feel the face of the base at both holes of a side, at the same height to within .02 in",
+            says="the fingers feel the face of the base at the same height at both holes of a side, with a "
+            "tolerance of .02 inch",
             where=f"holes {_CORNERS[one] + 1} and {_CORNERS[other] + 1}",
             phases=(
                 Phase(
@@ -261,8 +265,8 @@ class PumpClaims:
         limits = Limits(high - 0.16 * INCH, high + 0.12 * INCH)
         by = HeightWithin(of=self.places.touched(end), over=self.places.table, limits=limits)
         return Claim(
-            says="after letting go of the pin, the fingers feel the end of the pin in the holder, 3.5 in over the "
-            "table to within .12 in",
+            says="after letting go of the pin, the fingers feel the end of the pin in the holder 3.5 inches over "
+            "the table, with a tolerance of .12 inch",
             where=f"pin {number + 1}",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )
@@ -276,8 +280,8 @@ class PumpClaims:
             of=self.places.touched(end), over=self.places.table, limits=Limits(7.95 * INCH, 8.25 * INCH)
         )
         return Claim(
-            says="after letting go of the screwdriver, the fingers feel the end of the screwdriver in the rack, 8.1 "
-            "in over the table to within .15 in",
+            says="after letting go of the screwdriver, the fingers feel the end of the screwdriver in the rack 8.1 "
+            "inches over the table, with a tolerance of .15 inch",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )
 
@@ -311,7 +315,8 @@ class PumpClaims:
             of=self.places.touched(circle), over=self.places.face, limits=Limits(2.79 * INCH, 2.93 * INCH)
         )
         return Claim(
-            says="the fingers feel the end of the crank pin, 2.86 in over the face of the base to within .07 in",
+            says="the fingers feel the end of the crank pin 2.86 inches over the face of the base, with a tolerance "
+            "of .07 inch",
             phases=(Phase(by=(by,), undone=self.places.drives()),),
         )
 
