@@ -186,8 +186,10 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
         ("TESTAO", "x y", "Set analog output x to y. The pump must be off, because no limits are checked.",
          "TESTAO 3 100"),
-        ("TESTDO", "x y [mask]", "Set digital output word x to y. With a mask, set only the bits that the "
-                                   "mask selects. The pump must be off.", "TESTDO 1 1"),
+        ("TESTDO", "x y [mask]", (
+            "Set digital output word x to y. If a mask is given, set only the bits that the mask selects. The pump "
+            "must be off."
+        ), "TESTDO 1 1"),
     ),
     "host": (
         ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),
