@@ -79,7 +79,7 @@ def test_a_stop_that_friction_hides_is_told_once_a_line_and_no_other(felt: Runne
     assert faint.limit < faint.friction < 9 * OUNCE_FORCE
     (told,) = warnings(felt.events)
     assert told.startswith(
-        "line 7: a stop on a force of 5.0 ounces is hard to distinguish from joint friction"
+        "line 7: a stop at a force of 5.0 ounces is hard to distinguish from joint friction"
     )
 
 

@@ -67,7 +67,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         ),
         Obligation(
             finding="screws_size", claims=sizes,
-            rests="Only the length of a screw is felt, to .12 in; the referee allows .014 in.",
+            rests="Only the length of a screw is felt, with a tolerance of .12 in; the referee allows .014 in.",
         ),
         Obligation(finding="screws_lean", claims=heads, rests="A leaning screw rests on one side of its head."),
         Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops at least .17 in too high."),
