@@ -58,7 +58,7 @@ def test_the_summary_counts_the_rows() -> None:
     assert "28 need no physics, and tests on the ideal arm demonstrate them fully" in DOC
     assert "The other 12 concern touch, speed and carried blocks" in DOC
     assert "Eight of the 12 are demonstrated fully" in DOC
-    assert "Four concern the palletiser with all its blocks" in DOC
+    assert "The other four concern the palletiser with all its blocks" in DOC
 
 
 @pytest.mark.parametrize("row", sorted(NEED_PHYSICS))
