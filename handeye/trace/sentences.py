@@ -200,9 +200,7 @@ def _faint(event: happened.GuardFaint) -> str:
     moment = event.guard is GuardKind.MOMENT
     si, unit = (OUNCE_INCH, "ounce-inches") if moment else (OUNCE_FORCE, "ounces")
     limit, felt = f"{event.limit / si:.1f}", f"{event.friction / si:.1f}"
-    hard = (
-        f"a stop at a {'moment' if moment else 'force'} of {limit} {unit} is hard to distinguish from joint friction"
-    )
+    hard = f"a stop at a {'moment' if moment else 'force'} of {limit} {unit} is hard to distinguish from joint friction"
     return f"{hard}: up to {felt} {unit} can be felt here in free air"
 
 
