@@ -110,8 +110,8 @@ def test_it_is_not_kept_in_the_folder_of_the_run(command: Command, taken: Path, 
     code, _, err = command("dismantle", str(taken), "--out", out, "--overwrite")
     assert (code, err) == (
         2,
-        f"handeye: --out {out} is in the folder of the run {taken}, which must not change; choose another "
-        "folder\n",
+        f"handeye: --out {out} is in the folder of the run {taken}, but the folder of a run must not change; "
+        "choose another folder\n",
     )
     assert files(taken) == before
 

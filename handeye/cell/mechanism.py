@@ -30,7 +30,9 @@ class Mechanism(ABC, Generic[S]):
     name: str  # by which its state is found
     kind: type[S]  # the type of its state
     changes: ClassVar[tuple[str, ...]] = ()
-    """Fields of the MuJoCo model that the mechanism changes as it runs. They are part of the state of the cell."""
+    """Fields of the MuJoCo model that the mechanism changes as it runs. These fields are part of the state of the
+    cell.
+    """
 
     def begin_stage(self, number: int) -> None:
         """Apply the effects that are due at a stage of the program, given by its number from 1, or at an earlier

@@ -19,7 +19,7 @@ from handeye.core.pose import Array, Pose
 TABLE: Final = "table"  # link of the frame W
 TOOL: Final = "tool"  # link of the frame T
 _LOADED: Final = {"fusestatic": "false", "discardvisual": "false", "strippath": "false"}
-"""Settings for MuJoCo, which would otherwise drop the shapes and the links `table` and `tool`."""
+"""Settings for MuJoCo. Without these settings, MuJoCo would drop the shapes and the links `table` and `tool`."""
 _HINGE: Final = int(mujoco.mjtJoint.mjJNT_HINGE)
 
 

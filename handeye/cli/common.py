@@ -122,7 +122,7 @@ NoKeep = Annotated[
     bool,
     Parameter(
         name="--no-keep",
-        help="Keep no record of the run. By default the run is saved in a new folder in the folder `runs`, which "
+        help="Keep no record of the run. By default, the run is saved in a new folder in `runs`. The folder `runs` "
         "keeps only the newest ten runs.",
     ),
 ]

@@ -48,7 +48,8 @@ def dismantle(
     whole = path.parent.parent if path.parent.name == CHECKPOINTS else path
     if out is not None and whole.is_dir() and whole.resolve() in (out.resolve(), *out.resolve().parents):
         raise CannotWrite(
-            f"--out {out} is in the folder of the run {path}, which must not change; choose another folder"
+            f"--out {out} is in the folder of the run {path}, but the folder of a run must not change; choose "
+            "another folder"
         )
     wanted = made_known(task)
     kept = _newest(path)

@@ -138,7 +138,7 @@ def disturbed_trials(
     arm does damage?
 
     The stop is in time if, up to the stop, no part outside the hand moved by more than 2 mm in one step, and the
-    hand felt at most 60 N. Each trial builds the pump first, which takes one CPU minute.
+    hand felt at most 60 N. Each trial first builds the pump; the building takes one CPU minute.
 
     Exit code 0: every trial was stopped in time; 3: a trial was not stopped in time; 2: bad input; 130: interrupted.
     """
@@ -215,8 +215,8 @@ def chaos_trials(
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
     and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). A
-    schedule that fails is shortened as long as it still fails, then printed as a command. First, one complete run
-    is made in each world, which takes one CPU minute; a schedule takes some seconds.
+    schedule that fails is shortened as long as it still fails, then printed as a command. First, one complete run is
+    made in each world. A complete run takes one CPU minute, and a schedule takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

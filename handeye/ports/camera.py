@@ -11,7 +11,7 @@ from handeye.core.record import Record
 COLUMNS: Final = 333
 ROWS: Final = 256
 RASTER: Final = (0.0128, 0.0096)
-"""Width and height of the raster on a one-inch vidicon (m). Inferred; picture points are not square."""
+"""Width and height (m) of the raster on a one-inch vidicon. We inferred these values. Picture points are not square."""
 
 WIDE: Final = 0.025  # focal length of a lens of the turret, m, like CLOSE_UP
 CLOSE_UP: Final = 0.050

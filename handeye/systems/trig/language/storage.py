@@ -47,7 +47,7 @@ def _edge_faults(graph: Graph) -> Iterator[str]:
                 yield f"step {son} does not name its father {id}"
         for father in node.fathers:
             if father not in graph or id not in graph[father].sons:
-                yield f"step {id} names the father {father}, which does not lead to it"
+                yield f"step {id} names the father {father}, but step {father} does not lead to step {id}"
         if any(not 0 <= branch < len(node.sons) or node.sons[branch] == NONE for branch in node.links):
             yield f"step {id} has a link without a target"
     if graph[TOP].fathers:
@@ -92,7 +92,7 @@ def _step_faults(node: Node, positions: Positions) -> Iterator[str]:
     elif position is not None and position.relative and node.type == "savpos":
         yield f"step {node.id} saves a relative position"
     elif position is not None and node.negate and not position.relative:
-        yield f"step {node.id} uses the opposite of an absolute position, which does not exist"
+        yield f"step {node.id} uses the opposite of an absolute position, but only a relative position has an opposite"
     if (node.type == "guarded") != (node.threshold is not None and node.vector is not None):
         yield f"the threshold and the force vector of step {node.id} do not fit its type, {node.type}"
     if node.threshold is not None and not node.threshold >= 0:
