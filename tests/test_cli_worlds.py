@@ -346,6 +346,6 @@ def test_faults_are_listed_for_programs(command: Command) -> None:
     assert known["gap_potentiometer.off"]["size"] == {"unit": "in", "usual": 0.5, "limits": [-4.0, 4.0]}
     assert known["lamp.dead"]["size"] is None
     assert known["gap_potentiometer.off"]["must"].startswith(
-        "The program stops with error 51 (the gap differs"
+        "The program stops with error 51 (the finger gap differs"
     )
     assert known["thread.1.scarred"]["must"] == "The work is right."
