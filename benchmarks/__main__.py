@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal, NoReturn
 
+import msgspec
 from cyclopts import App, CycloptsError, Parameter
 
 from benchmarks.peers import Comparison
@@ -412,6 +413,35 @@ def turns(
     for line in lines(done):
         say(line, whole=True)
     return 0 if all(first.digest == second.digest for first, second in done) else 1
+
+
+@app.command
+def simulators(
+    folder: Annotated[
+        Path, Parameter(help="Folder for the virtual environments of the other libraries (2 GB).")
+    ],
+    /,
+    *,
+    rounds: Annotated[WholeNumber, Parameter(help="How often to step each environment.")] = 5,
+    seconds: Annotated[WholeNumber, Parameter(help="Simulated time of each measurement, s.")] = 10,
+    json: Json = False,
+) -> int:
+    """Measure how fast the environments of handeye run, beside those of gymnasium-robotics, robosuite and metaworld.
+
+    Each library is installed in a virtual environment of its own, with versions on which it runs. The environments are
+    stepped in turn, with random actions of a fifth of their range, and without pictures. All times are processor times.
+    Exit code 0.
+    """
+    from benchmarks.simulators import lines, measure
+
+    positive(rounds, "round")
+    positive(seconds, "second")
+    costs = list(measure(folder, rounds, seconds, notes.print))
+    for line in lines(costs):
+        say(line, notes if json else screen, whole=True)
+    if json:
+        put_json({"measured": [msgspec.to_builtins(cost) for cost in costs]})
+    return 0
 
 
 def _tell(comparisons: Sequence[Comparison], json: bool) -> None:

@@ -6,15 +6,15 @@ from typing import Final
 
 from handeye.agents.bench_result import HEADS, TEXTS, BenchResult, TaskScore, rows
 from handeye.agents.judging import Outcome
-from handeye.core.files import Kind
+from handeye.core.files import page_kind
 from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.core.plain_text import counted
 from handeye.report.page.document import head, resource
 
-_MARK: Final = "<!doctype html>\n<!-- handeye agents' bench -->\n"
+_MARK: Final = "<!DOCTYPE html>\n<!-- handeye agents' bench -->\n"
 _CLASSES: Final[dict[Outcome, str]] = {"silent": "bad", "stopped": "doubtful", "accepted": "good"}
 _ORDER: Final = (*_CLASSES,)
-PAGE: Final = Kind("page", _MARK.encode(), ending=".html")
+PAGE: Final = page_kind("page", _MARK)
 
 
 def bench_page(result: BenchResult) -> bytes:

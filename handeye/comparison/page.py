@@ -22,7 +22,7 @@ from handeye.comparison.text import (
     stop_words,
     turning_words,
 )
-from handeye.core.files import Kind
+from handeye.core.files import page_kind
 from handeye.core.markup import (
     Markup,
     cell,
@@ -44,8 +44,8 @@ from handeye.report.page.moments import json_markup
 from handeye.report.page.overlay import overlay
 from handeye.report.recorded import RecordedRun
 
-_MARK: Final = "<!doctype html>\n<!-- handeye comparison -->\n"
-PAGE: Final = Kind("comparison of handeye", _MARK.encode(), ending=".html")
+_MARK: Final = "<!DOCTYPE html>\n<!-- handeye comparison -->\n"
+PAGE: Final = page_kind("comparison of handeye", _MARK)
 Animations = tuple[Animation, Animation]
 
 

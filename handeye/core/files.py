@@ -42,6 +42,11 @@ class Kind:
         return f"{'an' if self.name.startswith(('MP4', 'SVG')) else 'a'} {self.name}"
 
 
+def page_kind(name: str, mark: str) -> Kind:
+    """Return the kind of the web pages that begin with a mark. Earlier versions wrote `doctype` in lower case."""
+    return Kind(name, mark.replace("DOCTYPE", "(?i:doctype)").encode(), ending=".html")
+
+
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
     """Read a whole file. Raises BadFile if the file is missing, not a regular file, larger than `largest` bytes, or
     unreadable.

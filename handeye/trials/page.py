@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.core.files import Kind
+from handeye.core.files import page_kind
 from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.core.plain_text import counted
 from handeye.report.page.document import head, resource
@@ -12,8 +12,8 @@ from handeye.trials.figures import ConditionFigures, Figures
 from handeye.trials.sweep import Details, R, Sweep, percent
 from handeye.trials.text import sure
 
-_MARK: Final = "<!doctype html>\n<!-- handeye batch -->\n"
-PAGE: Final = Kind("page of trials", _MARK.encode(), ending=".html")
+_MARK: Final = "<!DOCTYPE html>\n<!-- handeye batch -->\n"
+PAGE: Final = page_kind("page of trials", _MARK)
 _WIDE, _HIGH = 240.0, 16.0  # plot in a table row, drawing units
 
 

@@ -20,7 +20,7 @@ from handeye.tasks.interface import AnyTask
 from handeye.trace.messages import Poses
 from handeye.view.moment import FIGURES, Newest
 
-_MARK: Final = "<!doctype html>\n"
+_MARK: Final = "<!DOCTYPE html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
 """Permissions in addition to the report's: the page may communicate with its server, and nothing else."""
 

@@ -23,7 +23,7 @@ def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Page, P
     shown = json.dumps(read_trace(resources.demo() / "trace.mcap")._repr_html_()).replace("</", "<\\/")
     file = folder / "notebook.html"
     file.write_text(
-        "<!doctype html><meta charset=utf-8><h1>A notebook</h1><div id=out></div>"
+        "<!DOCTYPE html><meta charset=utf-8><h1>A notebook</h1><div id=out></div>"
         f"<script>document.getElementById('out').innerHTML = {shown}</script>"
     )
     with Browser.started(folder / "profile") as browser:

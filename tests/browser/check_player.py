@@ -71,7 +71,7 @@ def file(trace: Trace, tmp_path_factory: pytest.TempPathFactory) -> Path:
     body = "".join(f"<script>{part}</script>" for part in scripts)
     path = tmp_path_factory.mktemp("page") / "player.html"
     path.write_text(
-        f'<!doctype html>{head}<style>{style}</style><canvas tabindex="0"></canvas>{body}', encoding="utf-8"
+        f'<!DOCTYPE html>{head}<style>{style}</style><canvas tabindex="0"></canvas>{body}', encoding="utf-8"
     )
     return path
 

@@ -46,7 +46,7 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 def opened(browser: Browser, folder: Path, element: str) -> Page:
     """A page with nothing but a video or picture, which has the name `it`."""
-    (folder / "page.html").write_text(f"<!doctype html><title>it</title>{element}", encoding="utf-8")
+    (folder / "page.html").write_text(f"<!DOCTYPE html><title>it</title>{element}", encoding="utf-8")
     return browser.page(folder / "page.html")
 
 

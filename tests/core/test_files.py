@@ -8,7 +8,16 @@ from pathlib import Path
 import pytest
 
 from handeye.core.errors import InvalidInput
-from handeye.core.files import Kind, LineFile, is_there, read_whole, settle, write_over, write_whole
+from handeye.core.files import (
+    Kind,
+    LineFile,
+    is_there,
+    page_kind,
+    read_whole,
+    settle,
+    write_over,
+    write_whole,
+)
 
 
 def test_ctrl_c_in_the_middle_of_writing_leaves_the_file_before_and_nothing_beside_it(
@@ -66,6 +75,16 @@ def test_a_file_of_another_kind_is_not_written_over(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match=r"a exists and is not a list; nothing was written$"):
         write_over(path, b"# list of mine", kind)
     assert path.read_bytes() == b"# something else"
+
+
+def test_a_page_of_an_earlier_version_is_written_over(tmp_path: Path) -> None:
+    path, kind = tmp_path / "a.html", page_kind("list", "<!DOCTYPE html>\n<!-- list -->\n")
+    path.write_bytes(b"<!doctype html>\n<!-- list -->\n<p>")
+    write_over(path, b"<!DOCTYPE html>\n<!-- list -->\n<i>", kind)
+    with pytest.raises(InvalidInput):
+        write_over(
+            path, b"<!DOCTYPE html>\n<!-- map -->\n", page_kind("map", "<!DOCTYPE html>\n<!-- map -->\n")
+        )
 
 
 LONGEST = "n" * 255

@@ -231,7 +231,7 @@ def test_one_setting_is_tried_where_one_is_named(command: Command) -> None:
 
 
 @pytest.mark.usefixtures("canned")
-@pytest.mark.parametrize(("name", "begins"), [("b.html", b"<!doctype html>"), ("b.csv", b"trial,seed,")])
+@pytest.mark.parametrize(("name", "begins"), [("b.html", b"<!DOCTYPE html>"), ("b.csv", b"trial,seed,")])
 def test_it_is_written_as_its_name_says(command: Command, name: str, begins: bytes) -> None:
     command(*BENCH, "--n", "4", "--sd", "1", "--out", name)
     assert Path(name).read_bytes().startswith(begins)

@@ -103,7 +103,7 @@ def test_the_nearest_worlds_need_only_what_makes_the_program_fail(command: Comma
         assert aside(read_world(Path("rare") / each["file"]).world) >= FAR
     pushes = msgspec.json.decode(out)["pushes"]["stopped"]
     assert {push["quantity"] for push in pushes[:2]} == {"plate.x", "plate.y"}
-    assert Path("rare/worst.html").read_bytes().startswith(b"<!doctype html>")
+    assert Path("rare/worst.html").read_bytes().startswith(b"<!DOCTYPE html>")
     done = len(runs)
     _, text, _ = command("trials", "worst", *WORDS, "--out", "rare", "--nearest", "3", "--rounds", "40")
     assert len(runs) == done

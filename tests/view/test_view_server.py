@@ -23,7 +23,7 @@ from handeye.view.moment import Newest, Television
 from handeye.view.server import MAX_BEHIND, MAX_MESSAGE_BYTES, Server
 from handeye.view.stepping import drive
 
-PAGE = b"<!doctype html>the page"
+PAGE = b"<!DOCTYPE html>the page"
 PICTURE = SeenPicture(
     time=1.0, name="NEAR", lens=0.05, picture=np.zeros((3, 4), dtype=np.uint8), marks=(), findings=()
 )

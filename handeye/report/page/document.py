@@ -7,7 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Final
 
-from handeye.core.files import Kind
+from handeye.core.files import page_kind
 from handeye.core.markup import Markup, PagePart, contents, element, lines, section
 from handeye.core.plain_text import printable
 from handeye.report import player
@@ -31,8 +31,8 @@ from handeye.report.photographs import Album
 from handeye.report.recorded import RecordedRun
 from handeye.trace.account import account
 
-MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
-REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
+MARK: Final = "<!DOCTYPE html>\n<!-- handeye report -->\n"
+REPORT: Final = page_kind("report of handeye", MARK)
 
 
 def report_page(run: RecordedRun, photographs: Album, animated: Animation | None) -> bytes:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from math import isfinite
 from typing import Final
 
-from handeye.core.files import Kind
+from handeye.core.files import page_kind
 from handeye.core.markup import Markup, cell, element, figure_cell, figure_heads, heads, note, section, table
 from handeye.report.page.document import head, resource
 from handeye.report.page.plots import Scale, bar, drawing, rule
@@ -20,8 +20,8 @@ from handeye.trials.rare.text import (
     sentence,
 )
 
-_MARK: Final = "<!doctype html>\n<!-- handeye rare failures -->\n"
-PAGE: Final = Kind("page of rare failures", _MARK.encode(), ending=".html")
+_MARK: Final = "<!DOCTYPE html>\n<!-- handeye rare failures -->\n"
+PAGE: Final = page_kind("page of rare failures", _MARK)
 _WIDE, _HIGH = 200.0, 16.0  # plot in a table row, drawing units
 _TITLES: Final = {"stopped": "The program stops", "silent": "The program fails silently"}
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from handeye.core.files import Kind
+from handeye.core.files import page_kind
 from handeye.core.markup import Markup, element, note
 from handeye.report.page.document import head, resource
 from handeye.report.page.moments import json_markup
@@ -15,8 +15,8 @@ BANDWIDTHS: Final = (10.0, 20.0, 50.0, 100.0)  # Hz
 SPEEDS: Final = (5.0, 10.0, 25.0, 50.0, 100.0, 200.0)  # mm/s
 SPEED: Final = 50.0  # the speed that the page shows at first
 FORCE: Final = 20.0  # N: force that a touch may reach at the fastest allowed speed
-MARK: Final = "<!doctype html>\n<!-- handeye touches -->\n"
-PAGE: Final = Kind("page of touches", MARK.encode(), ending=".html")
+MARK: Final = "<!DOCTYPE html>\n<!-- handeye touches -->\n"
+PAGE: Final = page_kind("page of touches", MARK)
 _CAPTIONS: Final = {
     "place": (
         "How far (in mm) the slide is below the place of contact, over time. The thin line is the set-point of the "
