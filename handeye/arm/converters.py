@@ -32,8 +32,8 @@ def _half_step(arm: ArmModel) -> Array:
 
 @lru_cache(maxsize=16)
 def rate_step(arm: ArmModel) -> Array:
-    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. The steps of a converter are taken to
-    span the rates of its joint.
+    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. We assume that the steps of a
+    converter span the rates of its joint.
     """
     return 2 * constants(arm).speed / 2**SENSE_BITS
 

@@ -65,7 +65,7 @@ class Stiffness:
 
 def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:
     """Find the joint that resists a motion with much more than its measured `friction`, shape (n,). Returns None if
-    there is none.
+    there is no such joint.
 
     Torques are averaged over each direction of sliding of each joint, in arrays of shape (2, n).
     """

@@ -97,7 +97,7 @@ def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple
 
 def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Samples | IKResult:
     """Find the joint positions, rates and accelerations for hand poses, shape (N, 4, 4), twists, shape (N, 6), and
-    rates of twists, shape (N, 6). Returns the reason if that is impossible.
+    rates of twists, shape (N, 6). Returns the reason if the arm cannot follow the poses.
     """
     if len(X) == 0:
         none = np.zeros((0, len(q_start)))
@@ -127,7 +127,7 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
 
 
 def _shortest(step: Array, turn: Array) -> Array:
-    """Remove whole turns from `step`, so that it goes in the shorter direction."""
+    """Remove whole turns from `step`, so that the joint turns in the shorter direction."""
     whole = np.round(step / turn)
     return np.asarray(step - np.where(whole == 0, 0.0, whole * np.where(np.isinf(turn), 0.0, turn)))
 

@@ -1,4 +1,4 @@
-"""A cell whose state can be saved and restored. It consists of a MuJoCo model, and of mechanisms with states."""
+"""A cell whose state can be saved and restored. The cell consists of a MuJoCo model, and of mechanisms with states."""
 
 import copy
 from collections.abc import Sequence
@@ -28,7 +28,9 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change, and mechanisms with distinct names. They act in the given order."""
+        """Take a scene that will not change, and mechanisms with distinct names. The mechanisms act in the given
+        order.
+        """
         self._model, self._data, self._noise = model, data, noise
         self._drawn = copy.deepcopy(model)
         self._mechanisms = tuple(mechanisms)
@@ -52,7 +54,7 @@ class SnapshotCell:
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of the cell's camera. Its method is `none` if the cell has no camera."""
+        """The renderer of the cell's camera. The renderer's method is `none` if the cell has no camera."""
         return Renderer(method="none")
 
     def capture(self) -> CellState:

@@ -98,7 +98,7 @@ _registered: Final[dict[str, Entry]] = {}
 
 
 def register(entry: Entry) -> None:
-    """Make a system known in this process. It replaces a registered system of the same name."""
+    """Make a system known in this process. The system replaces a registered system of the same name."""
     _registered[entry.name] = entry
 
 
@@ -147,8 +147,8 @@ def entry_named(name: str) -> Entry:
 
 
 def loaded(place: str, what: str = "") -> Any:
-    """Import the object at `module:NAME`. Raises BadFile if it cannot be imported; `what` precedes the location in
-    the error message.
+    """Import the object at `module:NAME`. Raises BadFile if the object cannot be imported; `what` precedes the
+    location in the error message.
     """
     module, _, name = place.partition(":")
     try:

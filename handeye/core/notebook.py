@@ -1,5 +1,5 @@
-"""HTML elements for notebooks. They use no style sheets or scripts, so they do not affect the rest of the notebook
-page.
+"""HTML elements for notebooks. These elements use no style sheets or scripts, so they do not affect the rest of the
+notebook page.
 """
 
 from collections.abc import Iterable, Sequence
@@ -56,8 +56,8 @@ def svg(drawing: str, what: str) -> Markup:
 
 
 def sandbox(file: bytes, what: str, height: int) -> Markup:
-    """Show a separate HTML page within the notebook page. Its scripts run, but cannot reach the notebook or its
-    kernel.
+    """Show a separate HTML page within the notebook page. The scripts of the separate page run, but cannot reach the
+    notebook or its kernel.
 
     The page is given by a `data:` address instead of `srcdoc`. With `srcdoc`, links to moments of the run would
     lead to the address of the notebook.

@@ -34,7 +34,7 @@ def _model() -> str:
 
 
 def _kernels() -> str:
-    """Return the name of the kernels that NumPy's OpenBLAS has selected, or "" if it is unknown."""
+    """Return the name of the kernels that NumPy's OpenBLAS has selected, or "" if this name is unknown."""
     import numpy
 
     for file in (Path(numpy.__file__).parents[1] / "numpy.libs").glob("*openblas*"):

@@ -1,4 +1,5 @@
-"""Runs tasks together under one clock. Each task waits for a time or a condition, and their order is deterministic.
+"""Runs tasks together under one clock. Each task waits for a time or a condition, and the order of the tasks is
+deterministic.
 
 Time is counted exactly, in rational seconds or whole microseconds, so that periods of 10 ms and 1/60 s do not drift
 apart.

@@ -37,7 +37,7 @@ class Finding:
 
     @property
     def beyond(self) -> float:
-        """Amount by which the value exceeds its limit, in `unit`; negative if it is within the limit."""
+        """Amount by which the value exceeds its limit, in `unit`; negative if the value is within the limit."""
         return self.value - self.limit if self.relation == "at most" else self.limit - self.value
 
 

@@ -56,8 +56,9 @@ class TvCamera(ABC):
 
     @abstractmethod
     def focus(self, distance: float) -> float:
-        """Focus on a distance (m). Returns the duration (s). Raises InvalidInput if no lens can focus on so
-        near a distance."""
+        """Focus on a distance (m). Returns the duration (s). Raises InvalidInput if the distance is too short for
+        every lens.
+        """
 
     @abstractmethod
     def pots(self) -> tuple[float, float]:

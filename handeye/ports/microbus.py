@@ -1,7 +1,7 @@
 """Defines a bus of microcomputers as it appears to the central computer, which runs the user's program.
 
 The interface carries commands of five bytes, levels of status lines, one interrupt, bytes of answers, and a
-clock in whole microseconds. It reveals nothing else of the machine.
+clock in whole microseconds. The interface reveals nothing else of the machine.
 """
 
 from abc import ABC, abstractmethod

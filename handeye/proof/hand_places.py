@@ -28,7 +28,7 @@ class Block(NamedTuple):
     high: Vector3
 
     def moved(self, by: Vector3, least: float = 1.0) -> "Block":
-        """Shift the block by a share of a vector, which is anything from `least` to 1."""
+        """Shift the block by a share of a vector. The share may be anything from `least` to 1."""
         ends = [(least * d, d) for d in by]
         return Block(
             _rounded(tuple(a + min(e) for a, e in zip(self.low, ends, strict=True))),
@@ -83,7 +83,7 @@ class HandPlaces:
             self.before = self._solved()
 
     def references(self, node: int) -> list[Situations]:
-        """Return the situations at the saves with which a HEIGHT may compare."""
+        """Return the situations at the saves to which a HEIGHT may refer."""
         if node not in self._saved:
             self._saved[node] = self._references(node)
         return self._saved[node]

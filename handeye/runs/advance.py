@@ -187,7 +187,7 @@ def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pa
 
 
 def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
-    """Execute one step. Returns the pause that follows it, or None."""
+    """Execute one step. Returns the pause that follows the step, or None if no pause follows."""
     happened = len(runner.events)
     try:
         runner.step()

@@ -83,8 +83,8 @@ def in_cell(known: Taught, work: Task) -> Taught:
 
 
 def plan_script(file: Path, known: Taught | None = None, work: Task | None = None) -> "PlannedScript":
-    """Compile and plan a script. By default, the taught file beside the script and the script's own task are
-    used. Raises InvalidInput.
+    """Compile and plan a script. By default, the function uses the script's own task, and the taught file in the
+    script's folder. Raises InvalidInput.
     """
     entry, _ = entry_of_file(file.name)
     if entry is not None:

@@ -186,7 +186,7 @@ class RunningSystem(Protocol):
     @property
     def switched_on(self) -> float:
         """The reading of the clock (s) when this object began to simulate. The clock reads 0 at the end of the
-        preparation, so the reading is negative, unless an earlier run stored the preparation: it is then 0.
+        preparation. This reading is therefore negative, or 0 if an earlier run stored the preparation.
         """
         return 0.0
 
@@ -247,8 +247,8 @@ class RunningSystem(Protocol):
         return "", ()
 
     def built(self) -> Findings:
-        """Return the referee's findings on the finished work before the arm undid it. Empty if the work was not
-        undone, or was not judged.
+        """Return the referee's findings on the finished work, made before the arm undid the work. Empty if the work
+        was not undone, or was not judged.
         """
         return {}
 
@@ -268,7 +268,7 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state; the cell must already be in its state of the same moment. Raises
+        """Continue from a copy of a state. The cell must already be in the state that it had at the same moment. Raises
         InvalidInput if the state does not fit the plan.
         """
 
@@ -299,7 +299,7 @@ class RunningSystem(Protocol):
 
     @property
     def live(self) -> LiveNews | None:
-        """What only this system shows in the page of a live run; None if nothing."""
+        """What only this system shows in the page of a live run; None if there is nothing to show."""
         return None
 
     def settables(self) -> Mapping[str, Settable]:
@@ -409,7 +409,7 @@ class System(ABC):
             raise BadFile(f"this is not a plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
-        """Return the default plan for a task. Raises InvalidInput if there is none."""
+        """Return the default plan for a task. Raises InvalidInput if the task has no such plan."""
         raise refusal(self.name, "plans")
 
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:

@@ -77,7 +77,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def hole(self) -> dict[str, float]:
-        """The quantities of a world with the hole of this condition, at the hole's taught position."""
+        """The quantities of a world in which the hole of this condition is at its taught position."""
         return bench().hole(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
 
     @property
@@ -207,8 +207,9 @@ def trials_in_world(condition: Condition, last: InsertionTrial) -> list[Insertio
 
 
 def fetched(plan: Plan, seed: int) -> Runner:
-    """Execute a run in the world of a seed until its second stage begins, with the pin in the hand, or until
-    the run stops earlier."""
+    """Execute a run in the world of a seed until its second stage begins. The hand then holds the pin. If the run
+    stops earlier, execute it until it stops.
+    """
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
     setup = Setup(plan=plan, world=world, camera="ray")
     runner = Runner(Checkpoint(setup=setup))

@@ -105,7 +105,7 @@ def assemble_each(
         camera: renderer of the TV camera: `auto`, `gl` or `ray`.
         search: search pattern, as for `handeye.begin`.
         referee: referee or limits, as for `handeye.begin`.
-        jobs: number of parallel processes. If there is more than one, the calling program must be guarded by
+        jobs: number of parallel processes. If there is more than one process, the calling program must be guarded by
             `if __name__ == "__main__":`, `search` cannot be Python code, and `referee` can only be limits.
 
     Returns:
@@ -138,8 +138,8 @@ def _result(record: Plan, camera: str, limits: Limits | None, world: WorldSpec) 
 
 
 def why(result: Result) -> str:
-    """Return the reason why a result is not right; if several findings failed, the first of them. Empty if the
-    result is right.
+    """Return the reason why a result is not right. If several findings failed, the reason is the first of these
+    findings. The text is empty if the result is right.
     """
     if not result.completed:
         return f"{result.stopped_at or ''}: {result.message}"

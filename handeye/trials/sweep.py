@@ -57,7 +57,7 @@ class Case(Record, frozen=True, kw_only=True):
     condition: str = ""  # Condition under which the trials run; empty: there is only one condition
 
     def __post_init__(self) -> None:
-        """Check the seed. Raises BadArgument if it is out of range."""
+        """Check the seed. Raises BadArgument if the seed is out of range."""
         checked_seed(self.seed)
 
 
@@ -202,7 +202,7 @@ class Sweep(Generic[R]):
     """True if several trials share a world, so that the seed of a trial does not follow from its number."""
 
     def standing(self, row: R) -> Standing:
-        """Say how a trial's outcome counts: as a success, a failure, or a silent failure, or not at all."""
+        """Say how a trial's outcome counts: as a success, as a failure, as a silent failure, or not at all."""
         return "wrong" if row.broken_off else self.outcomes[row.outcome]
 
 

@@ -90,7 +90,7 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
 
 
 def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
-    """Yield buttons. Each is given by the line that it sends, and by its label."""
+    """Yield buttons. Each button is given by the line that it sends, and by its label."""
     return (element("button", shown, type="button", value=line, class_="say") for line, shown in said)
 
 

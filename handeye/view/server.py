@@ -1,7 +1,7 @@
 """The server: a thread, parallel to the run, that delivers the page and sends messages to the viewers.
 
-It sends the newest state of the run `MOMENTS_PER_S` times per second and drops all others. A viewer that falls
-too far behind is disconnected, so that no viewer can slow the run down.
+The server sends the newest state of the run `MOMENTS_PER_S` times per second, and drops all states in between. A
+viewer that falls too far behind is disconnected, so that no viewer can slow the run down.
 """
 
 import asyncio
@@ -127,8 +127,9 @@ class Server:
         server.close()
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Return the page, or the reason why the request is refused. None permits the browser to open the
-        socket."""
+        """Return the page, or the reason why the request is refused. The result None permits the browser to open the
+        socket.
+        """
         headers = request.headers
         refusal = self.access.refusal(request.path, headers.get_all("Host"), headers.get_all("Origin"))
         if refusal is not None:

@@ -102,7 +102,7 @@ SCREW_HOLES: Final = 2 / 3  # fraction that must be visible at the places given 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failure:
-    """A part could not be located, with the cause."""
+    """The cause for which a part could not be located."""
 
     cause: SightCause
 
@@ -209,8 +209,8 @@ def locate_specific(
 def _found(
     finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
 ) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
-    """Yield candidates for the holes: first near the expected holes, then anywhere in the box with each search, and
-    last in shadow.
+    """Yield candidates for the holes: first near the expected places, then anywhere in the box with each finder, and
+    last near the expected places again, in case a shadow covers the hole.
     """
     yield finders[0], finders[0].expected(place)
     for finder in finders:
@@ -219,7 +219,7 @@ def _found(
 
 
 def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
-    """Return the box of a general location as this view shows it, or None if the box is not in the picture."""
+    """Return the box of a general location as this view shows it, or None if too little of the box is in the picture."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))
     right, bottom = (int(n) for n in np.ceil(uv.max(axis=0)))

@@ -74,8 +74,8 @@ def localise(
     fits: Callable[[BoundingBox], bool] = lambda box: True,
     tries: int = 12,
 ) -> BoundingBox | None:
-    """Find the box around the first blob that lies completely within a window and that `fits` accepts. Returns None
-    if there is none.
+    """Find the box around the first blob that lies completely within a window and that `fits` accepts. Returns None if
+    there is no such blob.
 
     Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box grows
     from this area until all its sides are in the background. A blob that reaches the border of the window or of the
@@ -117,8 +117,8 @@ def characterise(
     None if a beam finds no edge.
 
     The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
-    sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help, and so does a
-    second seed, whose result should agree.
+    sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help against this. A second
+    seed is a check: its result should agree with that of the first.
 
     Args:
         seed: a position (u, v) inside the blob, points.

@@ -2,8 +2,7 @@
 
 A gasket changes the intensity of the face that it covers, in light and in shadow. Where a piece of the gasket is
 missing, the face looks the same in both pictures. A pin also looks the same, but its intensity usually differs from
-that of the face, so only those points count that, in the picture taken before, look like the face that the gasket then
-covers.
+that of the face, so a point counts only if it looks like the face in the picture without the gasket.
 """
 
 from typing import Final

@@ -41,8 +41,8 @@ def places(given: object, said: str) -> Array:
 
 
 def quadrilateral(given: object) -> Array:
-    """Convert an argument to the corners (u, v) of a convex quadrilateral, shape (4, 2). Raises BadArgument if it
-    is not one.
+    """Convert an argument to the corners (u, v) of a convex quadrilateral, shape (4, 2). Raises BadArgument if the
+    argument is no such quadrilateral.
     """
     said = "a window must have four corners (u, v) in order, shape (4, 2)"
     found = places(given, said)
@@ -84,7 +84,7 @@ class Scan:
     """
 
     def __init__(self, picture: NDArray[np.generic]) -> None:
-        """`picture` holds intensities, shape (rows, columns). Raises BadArgument if it does not."""
+        """`picture` holds intensities, shape (rows, columns). Raises BadArgument if `picture` is anything else."""
         self.image: NDArray[np.float32] = _intensities(picture)
         self.rows, self.columns = self.image.shape
         self._levels = memoryview(self.image.ravel().data)
@@ -102,7 +102,9 @@ class Scan:
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
-        """Remove the window. Beams may then go everywhere except on the margin, which is the outermost points."""
+        """Remove the window. After this call, beams may go everywhere in the picture except on its margin, the
+        outermost points.
+        """
         low, high = MARGIN - 0.5, MARGIN + 0.5
         self._look_within(
             np.array(

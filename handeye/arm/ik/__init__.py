@@ -41,7 +41,8 @@ _SOLVERS: Final[Mapping[Structure, Solver]] = {
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find joint positions for the hand at `X_WT`: within the joint limits, the branch nearest to `near`.
+    """Find joint positions that bring the hand to `X_WT`. Of the branches within the joint limits, the result is the
+    one nearest to `near`.
 
     The distance between configurations is the sum of the travel times of the joints. Joints that do not affect the
     pose stay as in `near`, and held joints stay at their fixed positions. If a pose is out of reach only because

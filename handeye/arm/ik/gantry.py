@@ -102,8 +102,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
-    """Return the given configuration. If both roll axes are in line, return all ways within the limits to share
-    their common turn.
+    """Return the given configuration. If both roll axes are in line, return all configurations within the limits that
+    divide the common turn between the two joints.
     """
     if abs(math.sin(q[-2])) >= _COLLINEAR:
         return [q]

@@ -24,11 +24,12 @@ _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to join
 
 
 def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
-    """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if
-    there are none.
+    """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if there
+    are no such positions.
 
-    The search begins at the solutions `starts`, and then again slightly beside them: from a configuration in which
-    joint axes are in line, some poses nearby cannot be approached by any first step.
+    The search begins at the solutions `starts`, and then again slightly beside each solution. The second search is
+    needed for a solution in which joint axes are in line: from there, no first step leads towards some of the nearby
+    poses.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]

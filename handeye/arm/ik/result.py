@@ -29,8 +29,8 @@ class IKResult:
         return "" if self.reason is None else reach_sentence(arm, self.reason)
 
     def cause(self, arm: ArmModel, goal: str = "") -> BeyondArm:
-        """Return the failure as the cause of an error. `goal` is the name of the goal position, or "" if it has
-        none.
+        """Return the failure as the cause of an error. `goal` is the name of the goal position, or "" if the goal has
+        no name.
         """
         # solvers compute with the numbers of arrays, which do not go to disk
         plain = msgspec.to_builtins(self.reason, enc_hook=np.generic.item)

@@ -1,4 +1,4 @@
-"""Finds executed steps that changed only the memory of the program. One lift of the hand reverses all of them.
+"""Finds executed steps that changed only the memory of the program. One lift of the hand reverses all these steps.
 
 Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is taken
 to be in the state in which it was after that step, under these conditions: since then no stage began and the

@@ -230,13 +230,13 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChaosWork:
-    """Executes schedules. Each starts from the fault-free run of its world, which is kept in a folder."""
+    """Executes schedules. Each schedule starts from the fault-free run of its world. These runs are kept in a folder."""
 
     setup: Setup  # The setup of the runs without their worlds
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:
-        """Execute a schedule. If it fails, reduce it as far as possible while it still fails."""
+        """Execute a schedule. If the schedule fails, reduce it as far as possible while it still fails."""
         schedule = parse_schedule(case.condition)
         sound = sound_run(self.folder, self.setup, WorldSpec(seed=schedule.seed, level=schedule.level))
         drawn = try_schedule(schedule, sound)

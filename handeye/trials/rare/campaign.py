@@ -35,7 +35,7 @@ WORLDS: Final = "worlds"  # folder of the worlds in which the program fails
 
 
 class LimitingPart(Record, frozen=True, kw_only=True):
-    """What determined the margins at a level most often."""
+    """The part that most often determined the margins at a level."""
 
     part: str
     share: float  # of the runs of the level
@@ -191,7 +191,7 @@ class _Measured:
 
     @property
     def limiting(self) -> Iterator[LimitingPart]:
-        """What determined the margins of each level most often."""
+        """The part that most often determined the margins, for each level."""
         for parts in self._parts.values():
             part, count = parts.most_common(1)[0]
             yield LimitingPart(part=part, share=count / parts.total())

@@ -20,7 +20,7 @@ class Reserves(Observer):
     """Records the least that a program had left, by name: places of a search, rounds of a counted loop, and the
     distance (mm) of each measurement from the limit at which the program would have called the operator.
 
-    A check whose error the next step tests is left out: if it fails, the program goes on in another way.
+    A check is left out if the next step tests for its error: if such a check fails, the program goes on in another way.
     """
 
     def __init__(self, runner: Runner) -> None:

@@ -34,7 +34,7 @@ class RareCase(Case, frozen=True, kw_only=True):
 
 
 class RareRow(Row, frozen=True, kw_only=True):
-    """A run, with what the program had left."""
+    """A run, with the reserves that the program had left."""
 
     left: Mapping[str, float] = {}
     """For each search, each loop with a counter, and each check: the least reserve that the program had in the run;
@@ -50,7 +50,7 @@ class RareRow(Row, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Margin:
-    """The margin of a run, and the part that determines it."""
+    """The margin of a run, and the part that determines the margin."""
 
     value: float
     """A value of 1 means that the run had as much left as runs usually have. A value of 0 or less means that the run
@@ -61,7 +61,9 @@ class Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Usual:
-    """What runs usually have left: the medians over the first level. They make the parts of a margin comparable."""
+    """What runs usually have left: the medians over the first level. These medians make the parts of a margin
+    comparable.
+    """
 
     program: Mapping[str, float]
     referee: Mapping[str, float]
@@ -97,8 +99,8 @@ def usual(rows: Sequence[RareRow]) -> Usual:
 
 
 def limits_left(checks: Mapping[str, Check]) -> dict[str, float]:
-    """Return how far each finding is within its limit, in its unit. A finding that is exactly at its limit is a
-    count that is right, and is left out.
+    """Return how far each finding is within its limit, in its unit. A finding that is exactly at its limit is left
+    out, because it is a correct count.
     """
     found = {name: check_left(check) for name, check in checks.items() if not check.caution}
     return {name: left for name, left in found.items() if left or not checks[name].ok}
