@@ -275,7 +275,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
     kind = OutputsState
 
     def __init__(self, bench: Bench, name: str, outputs: Mapping[str, Callable[[float], None]]) -> None:
-        """Make outputs by name. Each has a function that sets its value in the mechanism concerned."""
+        """Make outputs by name. Each output has a function that sets the output's value in its mechanism."""
         self.name, self._outputs = name, outputs
         self._values = dict.fromkeys(outputs, 0.0)
         bench.add(self)

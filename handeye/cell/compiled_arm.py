@@ -1,4 +1,4 @@
-"""Kinematics and dynamics of an arm in MuJoCo's C code. For a single configuration this is about twenty times as
+"""Kinematics and dynamics of an arm in MuJoCo's C code. For a single configuration, this code is about twenty times as
 fast as the formulas.
 
 The model is made only from the arm model of the controller, so it contains nothing about the true cell.

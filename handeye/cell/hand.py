@@ -200,8 +200,8 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
-    """The motor of a screwdriver. Its torque is read from actuators of the model. The threads of the task compute
-    the effect of its speed.
+    """The motor of a screwdriver. Its torque is read from actuators of the model. The threads of the task compute the
+    effect of the screwdriver's speed.
     """
 
     name = "screwdriver"
@@ -218,7 +218,8 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         watchdog: Watchdog,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Make a screwdriver at rest. `torque_noise` is the standard deviation of its torque reading, in N m.
+        """Make a screwdriver at rest. `torque_noise` is the standard deviation of the screwdriver's torque reading, in
+        N m.
 
         The torque of the screwdriver is the sum of the torques of `motors`, counter-clockwise about the spindle.
         The watchdog of the arm that carries the screwdriver also stops its motor. The lines are

@@ -67,7 +67,7 @@ CameraMaker = Callable[[mujoco.MjModel], PictureMaker]
 
 
 class ReplacedCamera(SceneRenderer):
-    """A picture maker supplied by the user. It gets copies of the state, so it cannot change the run."""
+    """A picture maker supplied by the user. The picture maker gets copies of the state, so it cannot change the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
         """Make the picture maker of the user for a scene. `name` is the name of the user's code. Raises

@@ -1,14 +1,14 @@
 """Screw threads: when the tip of a screw enters a tapped hole and the screw is turned the right way, the carrier of
 the hole replaces the screw.
 
-Threads are too fine to simulate by contact. Each tapped hole has a carrier in the model (`carriers.py`). A loose
-screw is an ordinary body until three conditions are met at the same tick: its tip is in the bore, near the axis and
-deep enough; the screw turns clockwise; and it is at the phase of the thread. The body of the screw is then parked
-out of sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that
-angle, and jams before it is seated. From there on everything is physics again: the shank touches the holes of the
-parts above, the head touches the part beneath, and friction grows with the clamp force. The motor turns the carrier
-against the body of the driver, so the bodies that hold the driver and the tapped part carry the torque. A screw
-that is turned back to where its thread began is loose again. The limits of the model are in
+Threads are too fine to simulate by contact. Each tapped hole has a carrier in the model (`carriers.py`). A loose screw
+is an ordinary body until three conditions are met at the same tick: its tip is in the bore, near the axis and deep
+enough; the screw turns clockwise; and it is at the phase of the thread. The body of the screw is then parked out of
+sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that angle, and
+jams before it is seated. Once the carrier has taken the place of the screw, everything is physics again: the shank
+touches the holes of the parts above, the head touches the part beneath, and friction grows with the clamp force. The
+motor turns the carrier against the body of the driver, so the bodies that hold the driver and the tapped part carry
+the torque. A screw that is turned back to where its thread began is loose again. The limits of the model are in
 scenes/water_pump/README.md.
 
 A scene with screws numbers them from 0 and uses these names. Each screw is a free body `screw0`, whose origin is
@@ -89,7 +89,7 @@ class Driver(Protocol):
 
     @property
     def speed(self) -> float:
-        """Speed of the spindle, in rad/s; positive drives a screw in."""
+        """Speed of the spindle, in rad/s; a positive speed drives a screw in."""
 
     @property
     def magnet(self) -> bool:

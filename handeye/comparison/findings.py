@@ -25,7 +25,7 @@ class Correction(Record, frozen=True, kw_only=True):
 
 
 class Corrections(Record, frozen=True, kw_only=True):
-    """The same correction in two runs. None stands for a run that did not make it."""
+    """The same correction in two runs. None stands for a run that did not make the correction."""
 
     a: Correction | None
     b: Correction | None
@@ -67,7 +67,7 @@ class Stop(Record, frozen=True, kw_only=True):
 
 
 class Stops(Record, frozen=True, kw_only=True):
-    """The same guarded motion in two runs. None stands for a run that did not reach it."""
+    """The same guarded motion in two runs. None stands for a run that did not reach the motion."""
 
     a: Stop | None
     b: Stop | None
@@ -102,7 +102,7 @@ class Search(Record, frozen=True, kw_only=True):
 
 
 class Searches(Record, frozen=True, kw_only=True):
-    """The same search in two runs. None stands for a run that did not reach it."""
+    """The same search in two runs. None stands for a run that did not reach the search."""
 
     a: Search | None
     b: Search | None

@@ -150,7 +150,7 @@ def _turns(run: RecordedRun, numbers: Mapping[int, int]) -> Iterator[CarriedOut]
 
 
 def side_by_side(a: Mapping[Turn, Fact], b: Mapping[Turn, Fact]) -> Iterator[tuple[Fact | None, Fact | None]]:
-    """Yield, for each executed step in the order of the script, the facts that the two runs have about it. None
+    """For each executed step, in the order of the script, yield the facts that the two runs have about this step. None
     stands for a run that has no fact about the step.
     """
     for turn in sorted({*a, *b}):
@@ -214,7 +214,7 @@ def course(runs: TwoRuns) -> Course:
 
 
 def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
-    """Return the steps of a run with their times, preceded by the time before the first step. Each step lasts
+    """Return the steps of a run with their times. The first item is the time before the first step. Each step lasts
     until the next one begins.
     """
     begun = [each.place for each in steps]

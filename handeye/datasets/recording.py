@@ -53,8 +53,8 @@ def _begun(place: Path, plan: Plan, world: WorldSpec, camera: str) -> Run:
 
 
 def worlds(plan: Plan, first: WorldSpec, n: int, faulty: int) -> tuple[RecordedWorld, ...]:
-    """Return `n` worlds without faults, and then `faulty` worlds with one fault each. The seeds follow each other,
-    and the faults are those of the task's standard set, one after another.
+    """Return `n` worlds without faults, and then `faulty` worlds with one fault each. The seeds are consecutive, and
+    the faults are taken from the task's standard set, one after another.
 
     Raises:
         Refused: the task has no standard set of faults.

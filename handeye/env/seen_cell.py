@@ -123,7 +123,7 @@ class SeenClock(Clock):
             self._commands.step()
 
     def done(self) -> None:
-        """Say that the work is done. Raises EpisodeOver, because that ends the episode."""
+        """Say that the work is done. Always raises EpisodeOver, because this report ends the episode."""
         self._commands.step(done=True)
 
 

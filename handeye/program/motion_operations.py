@@ -1,4 +1,4 @@
-"""Operations that move the arm or the hand, and operations that check how far they moved."""
+"""Operations that move the arm or the hand, and operations that check how far the hand moved."""
 
 import math
 from typing import Annotated, ClassVar, Final
@@ -23,7 +23,7 @@ class Restore(Record, frozen=True, kw_only=True):
 
 
 class ArmMotion(Operation, frozen=True, kw_only=True):
-    """Base class of arm motions. A motion with guards raises an error if none of them trips."""
+    """Base class of arm motions. A motion with guards raises an error if none of its guards trips."""
 
     family: ClassVar = "motion"
     moves: ClassVar = True
@@ -190,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check how far (m) above the place of a saved difference the last motion ended. Raises error 9 if this height is
-    outside the range.
+    """Check the height (m) at which the last motion ended, above the place of a saved difference. Raises error 9 if
+    this height is outside the range.
     """
 
     family: ClassVar = "test"

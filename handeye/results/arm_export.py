@@ -36,7 +36,7 @@ class ExportedArm(Record, frozen=True, kw_only=True):
 
     @property
     def lines(self) -> Iterator[str]:
-        """The joints as a table, a line each."""
+        """The joints as a table, with one line for each joint."""
         yield f"{self.path}: the arm {self.arm}, {len(self.joints)} joints and two fingers"
         for joint in self.joints:
             turns = joint.kind == "revolute"

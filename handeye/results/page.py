@@ -127,7 +127,7 @@ def stages(result: Result) -> Table:
 
 
 def timing(result: Result) -> Table:
-    """Return the table of times. It has a column for 1973 if the program was timed then."""
+    """Return the table of times. The table has a column for 1973 if the program was timed in 1973."""
     t, then = result.timing, period(result)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", "here", "" if then is None else str(then.year)):

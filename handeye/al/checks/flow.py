@@ -40,7 +40,9 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after an operation of another kind; if `later` is True, only before one."""
+    """An operation that makes sense only after an operation of another kind or, if `later` is True, only before an
+    operation of that kind.
+    """
 
     code: str
     of: type[Operation]

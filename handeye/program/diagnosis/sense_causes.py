@@ -96,8 +96,8 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
 
 
 class RateScatters(CauseRecord, frozen=True, kw_only=True):
-    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound tachometer scatters by
-    at most `limit`. Both are median deviations from the median, rad/s or m/s.
+    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound tachometer scatters by at
+    most `limit`. `scatter` and `limit` are median deviations from the median, in rad/s or m/s.
     """
 
     joint: JointName
@@ -118,7 +118,7 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
 
 
 class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The drives of these joints give these multiples of the commanded torque, or an external force acts on the
+    """Either the drives of these joints give these multiples of the commanded torque, or an external force acts on the
     hand.
     """
 
@@ -136,8 +136,8 @@ class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
 
 
 class CurrentShort(CauseRecord, frozen=True, kw_only=True):
-    """The motor was held fast. For a second it showed the torque `torque` (N m), which is less than the requested
-    torque `asked` (N m).
+    """The motor was held fast. For a second, the motor showed the torque `torque` (N m), which is less than the
+    requested torque `asked` (N m).
     """
 
     torque: float
@@ -157,7 +157,9 @@ class MotorFast(CauseRecord, frozen=True, kw_only=True):
 
 
 class ScrewHard(CauseRecord, frozen=True, kw_only=True):
-    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw needs at most `limit`."""
+    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw needs at most the torque
+    `limit` (N m).
+    """
 
     torque: float
     limit: float

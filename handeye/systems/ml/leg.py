@@ -103,7 +103,7 @@ class MlLegState(MlState, kw_only=True):
 
 
 class SlideAxes(Axes):
-    """The tool of the arm as slides of the rectilinear arm."""
+    """Moves the tool of the arm as the slides of the rectilinear arm would move it."""
 
     name = "slides"
 

@@ -26,8 +26,8 @@ class Shape(NamedTuple):
 
 
 class View(Protocol):
-    """Contents of a table that another part of MOS keeps. Lines and words count from 1; callers ask only for existing
-    ones.
+    """Contents of a table that another part of MOS keeps. Lines and words count from 1; callers ask only for lines and
+    words that exist.
     """
 
     def read(self, line: int, word: int) -> int:
@@ -82,7 +82,7 @@ class Level(ABC):
 
     @abstractmethod
     def view(self, table: str, contents: View) -> None:
-        """Make a table show contents that the background level keeps."""
+        """Make a table show contents that are stored in the background level."""
 
     # -- sensors --------------------------------------------------------------------------------------
 
@@ -97,8 +97,8 @@ class Level(ABC):
 
     @abstractmethod
     def open(self, sensor: int | None = None) -> None:
-        """Open the limits of a sensor, which may then read anything, and clear its flag. Without a number, do this for
-        all sensors. Raises MlError (M11).
+        """Open the limits of a sensor, which may then read anything, and clear its flag. If no number is given, do
+        this for all sensors. Raises MlError (M11).
         """
 
     @abstractmethod
@@ -107,8 +107,8 @@ class Level(ABC):
 
     @abstractmethod
     def calibrate(self, sensors: Sequence[int]) -> None:
-        """Take the mean of the last 8 readings of each sensor as its zero. Without numbers, do this for all analog
-        sensors. Raises MlError (M11).
+        """Take the mean of the last 8 readings of each sensor as its zero. If no numbers are given, do this for all
+        analog sensors. Raises MlError (M11).
         """
 
     @abstractmethod
@@ -178,5 +178,5 @@ class Level(ABC):
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
-        """Set those bits of a digital output word that are 1 in a mask. Raises MlError (M11; M15 while the pump is
+        """In a digital output word, set the bits for which the mask has a 1. Raises MlError (M11; M15 while the pump is
         on)."""

@@ -152,10 +152,9 @@ class Ml:
             phase: when in the period the contact occurs. 0 is just after a reading; a value near 1 is just before the
                 next.
 
-        Returns:
-            when the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the
-            greatest force of both fingers (`force`, N), the force on a finger at the start of the motion (`jolt`, N),
-            and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
+        Returns: when the limit was noticed (`noticed`, ms after the contact), how far the slide moved after the
+            contact (`way`, mm), the greatest force of both fingers (`force`, N), the force on a finger at the start of
+            the motion (`jolt`, N), and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
 
         Raises:
             BadArgument: a value is out of range.

@@ -29,7 +29,8 @@ def cache(
     calibration takes about 6 kB. All calibrations together take at most 16 MB; to keep this limit, the oldest are
     removed. The environment variable HANDEYE_CACHE names another folder; if it is empty, nothing is kept.
 
-    The environments for learned policies also keep the states in which their episodes start, at most 256 MB.
+    The environments for learned policies also keep the states in which their episodes start. These states take at most
+    256 MB.
     """
     from handeye.runs.starts import kept_starts, starts_folder
     from handeye.systems.stanford.kept_calibrations import KeptCalibrations

@@ -127,7 +127,7 @@ def _place(folder: Path, conditions: Conditions) -> Path:
 
 
 def _decoded(data: bytes, wanted: Conditions) -> Preparation:
-    """Return the preparation in a file. Raises ValueError unless it was made under these conditions."""
+    """Return the preparation in a file. Raises ValueError if the preparation was made under other conditions."""
     line, _, rest = data.partition(b"\n")[2].partition(b"\n")
     if line != wanted.line or data != sealed(MAGIC, VERSION, line + b"\n" + rest):
         raise ValueError("it is damaged, or was made under different conditions")

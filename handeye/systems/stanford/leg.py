@@ -97,7 +97,7 @@ class PlanLeg(RunningPlan, RunningLeg):
         )
 
     def _held(self) -> str:
-        """Return the name of the part in the hand, as far as the program knows it."""
+        """Return the name of the part that is in the hand according to the program."""
         if not self.state.grasping or self.context.drive.sensed.gap < EMPTY_GAP:
             return ""
         held = self.plan.program.held.items()

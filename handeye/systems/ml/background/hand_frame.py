@@ -1,4 +1,4 @@
-"""Computes motions in the frame of the right arm's gripper. In MOS, this is work of the host.
+"""Computes motions in the frame of the right arm's gripper. In MOS, the host computes these motions.
 
 When all three angles are 0, the gripper's axes are parallel to those of the slides: x to the right (motor 4), y back
 (motor 3), and z down (motor 2), along the fingers. Roll (motor 8) turns about z, then yaw (9) about x, then pitch (10)

@@ -101,7 +101,7 @@ class Interpreter:
         self.check()
 
     def check(self) -> bool:
-        """Stop the program if an emergency has stopped the arm. Returns True if it has been stopped."""
+        """Stop the program if an emergency has stopped the arm. Returns True if an emergency has stopped the program."""
         if not self.memory.stopped and (why := self._emergency):
             self._stop(why)
         return bool(self.memory.stopped)
@@ -122,7 +122,9 @@ class Interpreter:
         return True
 
     def statement(self) -> None:
-        """Execute the next stored statement. An error in it is an emergency, which stops the program."""
+        """Execute the next stored statement. If the statement causes an error, the error is an emergency, which stops
+        the program.
+        """
         memory = self.memory
         number = memory.at
         if not number:

@@ -57,7 +57,7 @@ class StoredProgram:
         self._numbers = None
 
     def erase(self, first: int, last: int) -> None:
-        """Erase the statements in a range of numbers. Raises MlError (M07) if there are none."""
+        """Erase the statements in a range of numbers. Raises MlError (M07) if the range has no statements."""
         gone = self.between(first, last)
         if not gone:
             raise MlError("M07", none_stored(first, last))

@@ -45,8 +45,8 @@ def arm_fault(name: str, *calls: str, harmless: str = "") -> FaultKind:
     """Declare a fault of the arm.
 
     Args:
-        calls: the messages that name the fault. For a fault of a motor or a potentiometer, the message that the motor
-            does not reach its goal is added.
+        calls: the messages that name the fault. If the fault is in a motor or a potentiometer, this function adds the
+            message that the motor does not reach its goal.
         harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
     """
     kind, axis, what = [*name.split("."), "", ""][:3]

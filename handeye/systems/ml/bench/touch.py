@@ -61,16 +61,16 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def bound(self) -> float:
-        """How far (mm) the slide can move on after the contact, to within a few per cent. It moves on until the force
-        on the fingers reaches the limit, then for one period, and then for the time by which the servo lags behind its
-        set-point.
+        """How far (mm) the slide can move on after the contact, to within a few per cent. The slide moves on until the
+        force on the fingers reaches the limit, then for one period, and then for the time by which the servo lags
+        behind its set-point.
         """
         lag = 2 * _DAMPING / (2 * pi * self.bandwidth)
         return self.limit * GRAM_FORCE / STIFFNESS / MILLIMETRE + self.speed * (self.period * _MS + lag)
 
     @property
     def trips(self) -> bool:
-        """True if a guard that was set before the motion would trip in the air, when the motion starts."""
+        """True if the start of the motion, in the air, would trip a guard that was set before the motion."""
         return self.jolt > self.limit * GRAM_FORCE
 
 

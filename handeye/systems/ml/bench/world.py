@@ -143,8 +143,8 @@ class ArmWorld:
         return next((1.0 if each.value is None else each.value for each in faults if each.name == name), None)
 
     def normal(self, name: str, sigma: str) -> float:
-        """Draw the normally distributed number called `name`. Its standard deviation is the world's value of the
-        quantity `sigma`, and it is clipped at two standard deviations.
+        """Draw the normally distributed number called `name`. The standard deviation is the world's value of the
+        quantity `sigma`, and the number is clipped at two standard deviations.
         """
         if self.spec is None:
             return 0.0

@@ -39,12 +39,12 @@ class Segment(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """The names of the words of a line; empty if they have none."""
+        """The names of the words of a line; empty if the words have no names."""
         names = self.shape.names
         return [name.replace("_", " ") for name in names] if len(names) == self.shape.words else []
 
     def name(self, word: int) -> str:
-        """Return the name of a word of a line; empty if it has none."""
+        """Return the name of a word of a line; empty if the word has no name."""
         return self.names[word - 1] if self.names else ""
 
 

@@ -104,7 +104,7 @@ def lay(
 
 def placed(points: Array, R: Array, centre: Array) -> Array:
     """Convert points of a plate, shape (n, 2), to where they lie on the table, in units of the slides. The plate has
-    the true rotation `R`, shape (3, 3), and its middle is at `centre` (m, shape (3,)) in the scene.
+    the true rotation `R`, shape (3, 3), and the plate's middle is at `centre` (m, shape (3,)) in the scene.
     """
     flat = np.array([[1.0, 0.0], [0.0, -1.0]])  # from coordinates of the slides to those of the scene
     lying = points * LINEAR @ flat @ R[:2, :2].T + centre[:2] - [CENTRE, 0.0]

@@ -158,8 +158,8 @@ def perfect_machine(
     stimuli: Sequence[Stimulus] = (),
     outline: Sequence[Point] = (),
 ) -> "tuple[Machine, dict[Side, PerfectArm]]":
-    """Return a machine of perfect motors, and its arms. The stimuli act on the right arm, and it is the right arm's
-    wand that touches the outline.
+    """Return a machine of perfect motors, and its arms. The stimuli act on the right arm, and only the right arm's
+    wand can touch the outline.
     """
     clock = PerfectClock()
     arms = {

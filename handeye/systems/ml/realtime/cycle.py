@@ -223,7 +223,7 @@ class Cycles:
         return memory.fine[n] != was
 
     def _put(self) -> None:
-        """Write the tactical goals to the output words, and the output words to the motors."""
+        """Write the tactical goals to the output words, and send the output words to the motors."""
         memory, goal = self._memory, np.zeros(len(self._axes.specs))
         for axis, motor, line in self._motors:
             words, point = (memory.AO, line.output) if line.output > 0 else (memory.DO, -line.output)
@@ -256,8 +256,8 @@ class Cycles:
         self._told(LimitCrossed, sensor=number, reading=sensor.reading, lower=lower, upper=upper)
 
     def _hold(self) -> None:
-        """Replace the strategic goal of every motor by its position, or by the end of its travel if a potentiometer
-        shows a position beyond it.
+        """Replace the strategic goal of every motor by its position, or by the end of the motor's travel if a
+        potentiometer shows a position beyond that end.
         """
         for _, motor, line in self._motors:
             line.strategic = min(max(nearest_detent(line.position, line.detent), motor.lower), motor.upper)

@@ -99,7 +99,7 @@ def add_support(spec: mujoco.MjSpec, drawing: Drawing) -> None:
 def _part(
     shaper: Shaper, name: str, lie: Lie, z: float, mass: float, size: tuple[float, ...]
 ) -> mujoco.MjsBody:
-    """Add a free body. Its origin is the middle of its underside, which is at the height `z` (mm)."""
+    """Add a free body. The origin of the part is the middle of its underside, which is at the height `z` (mm)."""
     body = add_loose(shaper, name, lie.at, z)
     body.quat[:] = [cos(lie.turned / 2), 0, 0, sin(lie.turned / 2)]
     body_inertia(body, mass, (0, 0, size[2] / 2 * MM), box_moments(mass, [each * MM for each in size]))

@@ -2,10 +2,10 @@
 motion is refused.
 
 The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A
-MOVE of one axis is a straight motion, and so is a MOVE with LINE; any other MOVE of several axes is a motion on any
-path. A LIMIT becomes a guard of the motions of its axis. A test of FORCE right after a motion becomes a guard of this
-motion: the motion stops at this force, and the program no longer tests the force afterwards. Without a LIMIT there is
-no guard, because an arm that is not balanced feels several newtons even in free motion.
+MOVE of one axis becomes a straight motion, and so does a MOVE with LINE. Any other MOVE of several axes becomes a
+motion whose path is free. A LIMIT becomes a guard of the motions of its axis. A test of FORCE right after a motion
+becomes a guard of this motion: the motion stops at this force, and the program no longer tests the force afterwards.
+Without a LIMIT there is no guard, because an arm that is not balanced feels several newtons even in free motion.
 """
 
 from collections.abc import Iterator, Sequence
@@ -89,7 +89,7 @@ class _Draft(NamedTuple):
 
 
 def translated(source: Source, taught: Taught, at: tuple[float, float] = AT) -> Compiled:
-    """Translate a program. Returns None with the reasons if a line cannot become a motion.
+    """Translate a program. If a line cannot become a motion, returns None and the reasons.
 
     Args:
         at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).
@@ -117,7 +117,9 @@ def _refused(line: Line, why: str, *labels: Label) -> Diagnostic:
 
 
 def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Sort refusals. What a plan can contain is said only in the last refusal, because it is the same for all."""
+    """Sort refusals. Only the last refusal says what a plan can contain, because that help is the same for all
+    refusals.
+    """
     *others, last = arranged(found)
     return [*others, replace(last, help=_CURE)]
 

@@ -200,8 +200,8 @@ class BusOperations:
             raise Trap(f"NOTSTARTED: {what.to} has not begun to execute its command")
 
     def _compare(self, name: str, axis: str) -> None:
-        """Raise Trap if the count of a motor is not the one that the program's commands give. The cause is that its
-        microcomputer missed or misread a command.
+        """Raise Trap if the count of a motor is not the one that the program's commands give. If the counts differ,
+        the motor's microcomputer missed or misread a command.
         """
         sent = self.memory.counts.get(axis, 0)
         count = protocol.signed(self.ask(name, protocol.position(axis)))

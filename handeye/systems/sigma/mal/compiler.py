@@ -114,7 +114,7 @@ class MalProgram:
 
     @property
     def hands(self) -> int:
-        """Number of hand microcomputers of that machine."""
+        """Number of hand microcomputers of the machine for which the program is written."""
         return sum(name.startswith("HAND") for name in (NUMBERS if self.beyond is None else LINE_NUMBERS))
 
     @cached_property
@@ -139,7 +139,7 @@ class MalProgram:
 
 
 def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]:
-    """Compile a text. Returns the program, or None if there are errors, and the diagnostics."""
+    """Compile a text. Returns two values: the program (None if the text has errors) and the diagnostics."""
     lines, found = checked(source)
     if has_errors(found):
         return None, found
@@ -148,11 +148,11 @@ def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]
 
 @lru_cache(maxsize=8)
 def program_of(name: str, text: str, *, line: bool = False) -> MalProgram:
-    """Compile a text. Raises BadFile if it has errors.
+    """Compile a text. Raises BadFile if the text has errors.
 
     Args:
-        line: True if the program may use the axes and hands of the assembly line. By default, a program that uses them
-            is refused.
+        line: True if the program may use the axes and hands of the assembly line. By default, a program that uses
+            these axes or hands is refused.
     """
     program, found = compile_source(Source(name=name, text=text))
     if program is None:
@@ -385,7 +385,9 @@ class _Ways:
 
     @cached_property
     def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
-        """The lines after each FOR and each GOSUB, by task, instruction and operand."""
+        """Lists of the lines that follow FORs and GOSUBs. The key of a list has the task, the instruction and its
+        operand.
+        """
         behind: dict[tuple[str, str, Operand], list[int | None]] = {}
         for index, line in enumerate(self._program.lines):
             for op, operand, _ in self._code(index):

@@ -74,8 +74,9 @@ class Printed(SystemEvent, frozen=True, kw_only=True):
 
 
 class MotorAborted(SystemEvent, frozen=True, kw_only=True):
-    """A motor was stopped by the end of its rail or by a force, and the central computer has queried its
-    position."""
+    """A motor was stopped by the end of its rail or by a force, and the central computer has queried the motor's
+    position.
+    """
 
     importance: ClassVar[Importance] = "warning"
     task: str  # the task that had started the motion

@@ -37,7 +37,7 @@ class Binary(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A call of a function. The argument is an expression or an axis, or None."""
+    """A call of a function. The argument is an expression, an axis or None."""
 
     function: str
     argument: "Expression | Token | None"
@@ -47,7 +47,7 @@ Expression = Number | Variable | Unary | Binary | Call
 
 
 class Text(NamedTuple):
-    """A text in quotes, in PRINT and STOP."""
+    """A quoted text in a PRINT or STOP statement."""
 
     text: str
 

@@ -70,7 +70,7 @@ class VirtualMachine:
 
     @property
     def idle(self) -> float:
-        """Fraction of the time since the program began in which the central computer was idle."""
+        """Idle time of the central computer, as a fraction of the time since the program began."""
         passed = self.machine.now - self.memory.began
         return 1.0 - self.memory.worked / passed if passed else 0.0
 
@@ -80,7 +80,7 @@ class VirtualMachine:
         return self.memory.turn
 
     def waits_for(self, task: str) -> str:
-        """Say in words what a task waits for. Empty if it waits only for its turn."""
+        """Say in words what a task waits for. The text is empty if the task waits only for its turn."""
         match self.memory.tasks[task].waits:
             case Flags(names=names):
                 return f"{'flag' if len(names) == 1 else 'flags'} {' and '.join(names)}"

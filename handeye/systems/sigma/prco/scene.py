@@ -122,8 +122,8 @@ def _add_pins(shaper: Shaper, pump: Pump) -> None:
 
 
 def _add_screws(shaper: Shaper, pump: Pump) -> None:
-    """Add the screws in their dispenser. Also add, out of sight, a tray that holds the loose bodies of screws that are
-    in threads.
+    """Add the screws in their dispenser. Also add a tray, which is out of sight. While a screw is in a thread, the
+    tray holds the screw's loose body.
     """
     (x, y), top = pump.dispenser, DISPENSER_HEIGHT
     dispenser = shaper.spec.worldbody.add_body(name="dispenser")

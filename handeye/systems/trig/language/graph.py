@@ -79,8 +79,8 @@ class Graph:
     # -- looking ---------------------------------------------------------------------------------------
 
     def order(self) -> list[int]:
-        """Return all nodes in drawing order. Each node comes before the sons that are drawn below it, and the
-        normal son before the guarded one.
+        """Return all nodes in drawing order. Each node comes before the sons that are drawn below it, and the normal
+        son before the guarded son.
         """
         found, waiting = [], [TOP]
         while waiting:
@@ -287,7 +287,7 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """Place the nodes below a node along own edges. An edge to a node that is already placed becomes a link."""
+    """Place the nodes that own edges connect below a node. An edge to a node that is already placed becomes a link."""
     waiting = [start]
     while waiting:
         node = graph[waiting.pop()]

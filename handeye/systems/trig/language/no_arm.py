@@ -124,8 +124,8 @@ class NoArm(TrigArm, Tabletop):
         self.blocks, self.held = [], None
 
     def _met(self, goal: Place) -> float | None:
-        """Return the height of the hand at the first contact on the way down to a goal (m), or None if there is
-        none.
+        """Return the height of the hand at the first contact on the way down to a goal (m), or None if there is no
+        contact.
         """
         if self.held is not None:
             there, tips = self.held.moved(goal.seen_from(self._at)), self._at.z - self.held.z + HEIGHT

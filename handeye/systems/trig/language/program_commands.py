@@ -17,7 +17,9 @@ _MAX_DISTANCE = 100_000  # steps of the cursor
 
 
 def next_step(session: Session, given: Arguments) -> None:
-    """N: move the cursor down by a number of steps. At a loop, the cursor moves on instead of back."""
+    """N: move the cursor down by a number of steps. At a loop, the cursor moves on to the step after the loop, and not
+    back to the loop's target.
+    """
     program = session.program
     for _ in range(_distance(given)):
         branch = session.branch(None)
@@ -108,7 +110,7 @@ def write(session: Session, given: Arguments) -> None:
 
 
 def read(session: Session, given: Arguments) -> None:
-    """R: replace the program by one read from a file."""
+    """R: replace the program by a program from a file."""
     _check_files(session)
     file = trig_file(Path(given.file or ""))
     program = read_program(file)

@@ -102,7 +102,7 @@ def _off_hold(kept: float, arm: TrigArm) -> HoldOff | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunResult:
-    """How a run ended: the number of steps executed, and the reason."""
+    """How a run ended: the number of executed steps, and the reason for the end."""
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]
@@ -129,7 +129,7 @@ class Interpreter:
         return self._from_top(None)
 
     def forward(self, wanted: int) -> RunResult:
-        """Execute a number of steps from the active one on."""
+        """Execute a number of steps, from the active step on."""
         program = self.program
         halted_here = program.paused == program.cursor or self._is_cut(program.active)
         if program.cursor in (TOP, program.first) and not halted_here:

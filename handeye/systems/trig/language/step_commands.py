@@ -95,7 +95,7 @@ def save(session: Session, given: Arguments) -> None:
 
 
 def check_no_opposite(session: Session, name: str) -> None:
-    """Raise Refused if a step uses the opposite of the position `name`, which therefore cannot become absolute."""
+    """Raise Refused if a step uses the opposite of the position `name`. Such a position cannot become absolute."""
     if any(node.negate for node in session.program.users(name)):
         raise Refused(f"{name} cannot become absolute, because a step goes to -{name}; D deletes the step")
 
@@ -190,7 +190,7 @@ def change_vector(session: Session, given: Arguments) -> None:
 
 
 def delete(session: Session, given: Arguments) -> None:
-    """D: delete one step. If it is guarded, keep only branch n or g."""
+    """D: delete one step. If the step is guarded, keep only branch n or g."""
     program, node = session.program, _named_or_active(session, given)
     keep = _kept_branch(session, given, node)
     above = program.above(node.id)
@@ -288,6 +288,6 @@ def _reached_otherwise(program: TrigProgram, node: Node, branch: int, entry: int
 
 
 def _after(program: TrigProgram, above: int) -> None:
-    """Move the cursor to the step above the deleted ones."""
+    """Move the cursor to the step above the deleted steps."""
     program.put_cursor(above if above in program.graph else TOP)
     program.taken, program.changed = None, True

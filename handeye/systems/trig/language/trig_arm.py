@@ -24,15 +24,16 @@ class Resistance(Record, frozen=True, kw_only=True, tag="resisted"):
 
 
 class HoldOff(Record, frozen=True, kw_only=True, tag="hold_off"):
-    """The gap between the fingers (m) differs from the gap during the step, because the hand holds another
-    object, or none."""
+    """The gap between the fingers (m) differs from the gap during the step, because the hand holds another object or
+    no object.
+    """
 
     gap: float
     kept: float
 
 
 class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
-    """An axis lags behind its goal (by m or rad). Axes are numbered from 0, as in AXES."""
+    """An axis lags behind its goal. The lag is in m or rad. Axes are numbered from 0, as in AXES."""
 
     axis: int
     off: float
@@ -93,7 +94,7 @@ class TrigArm(ABC):
 
     @abstractmethod
     def here(self) -> Place:
-        """Return the commanded place. The true place differs from it by the sag of the servos."""
+        """Return the commanded place. The true place differs from the commanded place by the sag of the servos."""
 
     @property
     @abstractmethod

@@ -126,7 +126,7 @@ def steps_of(program: TrigProgram) -> tuple[TaughtStep, ...]:
 
 
 def told_difference(planned: Sequence[TaughtStep], taught: Sequence[TaughtStep]) -> str:
-    """Say where the steps that a script has taught in a world differ from the planned ones."""
+    """Say where the steps that a script has taught in a world differ from the planned steps."""
     first = next(one or other for one, other in zip_longest(planned, taught) if one != other)
     assert first is not None
     return (
