@@ -69,7 +69,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         mujoco.mj_forward(self.model, self.data)
 
     def add(self, part: Mechanism[Any]) -> None:
-        """Add a mechanism that acts on the scene as time passes. Mechanisms act in the order in which they were added."""
+        """Add a mechanism that acts on the scene as time passes. Mechanisms act in the order of these calls."""
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
@@ -119,7 +119,7 @@ class Bench(Clock, Mechanism[BenchTime]):
             self._passing = False
 
     def end_early(self) -> None:
-        """Let `advance` end with the present physics step. Only a function that is called at every step may call this."""
+        """Let `advance` end with the present physics step. Only a function that runs at every step may call this."""
         self._ending = True
 
     def call_at(self, microseconds: int, name: str) -> None:

@@ -37,7 +37,7 @@ class Lack(NamedTuple):
 
 
 class RunningLeg(RunningSystem):
-    """A program during its legs. Between its legs, the program keeps its memory, and other programs may move the arm."""
+    """A program during its legs. Between these legs, it keeps its memory, and other programs may move the arm."""
 
     @abstractmethod
     def stand_at(self, stage: str) -> None:

@@ -134,7 +134,7 @@ class BatchFolder(Generic[R]):
 
     @property
     def unlocked(self) -> str:
-        """The reason why the folder cannot be locked against writing by other commands; empty if the folder is locked."""
+        """The reason why the folder cannot be locked against writing by other commands; empty if there is a lock."""
         return self._file.unlocked
 
     def append(self, row: R) -> None:

@@ -217,7 +217,7 @@ def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[fl
 
 
 def _median(values: Array) -> float:
-    """Return the median of a short array. For a short array, `np.median` takes thirty times as long as this function."""
+    """Return the median of a short array. For such an array, `np.median` takes thirty times as long."""
     ordered, half = sorted(values.tolist()), len(values) // 2
     return float(ordered[half] + ordered[-1 - half]) / 2
 

@@ -230,7 +230,7 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChaosWork:
-    """Executes schedules. Each schedule starts from the fault-free run of its world. These runs are kept in a folder."""
+    """Executes schedules. Each schedule starts from the fault-free run of its world. A folder keeps these runs."""
 
     setup: Setup  # The setup of the runs without their worlds
     folder: Path
