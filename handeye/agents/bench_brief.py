@@ -23,7 +23,7 @@ class Phrases(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def phrases(folder: Path, language: str) -> Phrases:
-    """Return the phrases for a language. Raises BadFile if the bench has none."""
+    """Return the phrases for a language. Raises BadFile if the bench has no phrases for that language."""
     file = folder / "languages.toml"
     try:
         return msgspec.convert(tomllib.loads(read_source(file).text), dict[str, Phrases])[language]
@@ -33,7 +33,7 @@ def phrases(folder: Path, language: str) -> Phrases:
 
 def end_of_brief(task: "BenchTask", own: str) -> str:
     """Return the paragraphs that end the brief of a task: what counts, and how to try a program. `own` is the text
-    before them.
+    that comes before these paragraphs.
     """
     file, program = task.file, task.program
     taught = ", with its taught positions in `solution.toml`" if file.language == "al" else ""

@@ -34,7 +34,9 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunVie
 
 
 def task_views(runner: Runner) -> tuple[TaskView, ...]:
-    """Return where each task is in the program. Empty if the tasks have no names, as in a system with one task."""
+    """Return where each task is in the program. Returns no views if the tasks have no names, as in a system with one
+    task.
+    """
     steps = runner.listing.steps
     return tuple(
         TaskView(

@@ -12,7 +12,7 @@ from handeye.program.program import Step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Node:
-    """A step of the graph. Its guards are shown as notes."""
+    """A step of the graph. The guards of the step are shown as notes."""
 
     step: int
     stage: int  # index

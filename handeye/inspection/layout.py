@@ -34,12 +34,12 @@ class Column:
 
     @property
     def before(self) -> float:
-        """Width of the lanes left of the steps, pixels."""
+        """Width (pixels) of the lanes left of the steps."""
         return _breadth(self.back)
 
     @property
     def width(self) -> float:
-        """Width of the steps and all lanes, pixels."""
+        """Width (pixels) of the steps and all lanes."""
         return self.before + WIDTH + _breadth(self.skip)
 
     @property
@@ -53,7 +53,7 @@ def _breadth(lanes: dict[FlowEdge, int]) -> float:
 
 
 def height(node: Node) -> float:
-    """Return the height of the box of a step, pixels."""
+    """Return the height (pixels) of the box of a step."""
     return ROW + NOTE * len(node.notes)
 
 

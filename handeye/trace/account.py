@@ -17,8 +17,8 @@ _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """Return the account of a run as lines of text. It lists the stages, gives the time, line, text and outcome of
-    each step, and says how the run ended.
+    """Return the account of a run as lines of text. The account lists the stages, gives the time, line, text and
+    outcome of each step, and says how the run ended.
     """
     teller = _Teller()
     for event in events:

@@ -128,7 +128,7 @@ def _short(kind: GuardKind, limit: float) -> str:
 
 
 def channels_section(trace: Trace) -> Markup:
-    """Return the section on machine channels. It is empty if no machine has channels."""
+    """Return the section on machine channels. The section is empty if no machine has channels."""
     if not trace.channels:
         return Markup("")
     moving = [channel for channel in trace.channels if np.ptp(channel.values)]

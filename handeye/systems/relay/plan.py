@@ -65,7 +65,7 @@ class Leg:
 
     @property
     def numbers(self) -> range:
-        """Its steps in the listing of the relay."""
+        """Numbers of the leg's steps in the listing of the relay."""
         return range(self.first, self.first + len(self.steps))
 
     def number(self, step: int | None) -> int | None:

@@ -74,7 +74,7 @@ def _add_room(shaper: Shaper) -> None:
 
 
 def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
-    """Add the plate with the hole. As on the pump's base, the pin's nose touches wedges around the hole, and its
+    """Add the plate with the hole. As on the pump's base, the pin's nose touches wedges around the hole, and the pin's
     shoulder touches a flat land.
     """
     d = dimensions()

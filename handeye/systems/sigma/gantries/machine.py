@@ -389,8 +389,8 @@ class Gantries(Plant[GantryMemory]):
 
 
 def _hold(lags: Array, begins: Array, ends: Array) -> Array:
-    """Return, for each rotor, the fraction of the pull-out force with which its pole holds it, computed from the
-    rotor's lag (steps).
+    """Return, for each rotor, the fraction of the pull-out force with which the pole holds the rotor. This fraction is
+    computed from the rotor's lag (steps).
     """
     return np.cos(np.clip((np.abs(lags) - begins) / (ends - begins), 0.0, 1.0) * math.pi / 2)
 
@@ -434,9 +434,9 @@ def _gauges(model: mujoco.MjModel, rig: Rig, gain: Array, left: float) -> tuple[
     """Return the matrix, shape (axes, readings), and the offset, shape (axes,), that convert the readings of the
     scene's sensors to the force along each axis. An axis without a wrist has the force 0.
 
-    A strain gauge measures the force in the wrist. The signal of an accelerometer corrects this for the force
-    that accelerates the hand itself, so that the sum is the external force. A fraction `left` of the force of
-    acceleration remains uncorrected.
+    A strain gauge measures the force in the wrist. The signal of an accelerometer cancels the part of this force that
+    accelerates the hand itself, so that the sum is the external force. A fraction `left` of the force of acceleration
+    remains uncorrected.
     """
     size, wrists = len(rig.axes), [f"wrist_{axis}" for axis in rig.wrists]
     bent = _sensors(model, mujoco.mjtSensor.mjSENS_JOINTPOS, wrists)

@@ -126,8 +126,8 @@ class GantryWorld:
         return VARIATION.value(quantity, self.spec)
 
     def normal(self, name: str, quantity: str) -> float:
-        """Draw the normally distributed number called `name`. Its standard deviation is the world's value of
-        `quantity`, and it is clipped at two standard deviations.
+        """Draw the normally distributed number called `name`. The number's standard deviation is the world's value of
+        `quantity`. The number is clipped at two standard deviations.
         """
         if self.spec is None:
             return 0.0

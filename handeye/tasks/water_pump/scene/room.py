@@ -113,7 +113,9 @@ def _add_computer(shaper: Shaper) -> None:
 
 
 def _add_tripod(shaper: Shaper) -> None:
-    """Add the television camera's body, behind its mount, so that it never appears in its own picture."""
+    """Add the body of the television camera. The body is behind the camera's mount, so that it never appears in the
+    camera's own picture.
+    """
     d = dimensions()
     body, floor = shaper.spec.worldbody, -d("table.height")
     x, y, z = d.all("camera.mount")
