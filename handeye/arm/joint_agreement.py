@@ -82,8 +82,8 @@ def crept(arm: ArmModel, change: Array) -> Disagreement | None:
 
 
 class Scatter(Record, frozen=True, kw_only=True):
-    """Scatter of the rate readings of a joint at rest, and the limit of this scatter. Both are median deviations
-    from the median, in rad/s or m/s.
+    """Scatter of the rate readings of a joint at rest, and the limit of this scatter. Scatter and limit are median
+    deviations from the median, in rad/s or m/s.
     """
 
     joint: int
@@ -237,8 +237,9 @@ def blown(here: Dynamics, impulse: Array) -> Array:
     the joint was stopped again within the same servo period.
 
     `impulse`, shape (n,), N m s and N s, is the part of the change of momentum that the drives, the weight and the
-    friction of the arm do not explain. This part gives the impulse and the angular impulse on the hand. Their
-    directions may have changed within the period, so each may have acted on each joint in the worst direction.
+    friction of the arm do not explain. This part gives the impulse and the angular impulse on the hand. The directions
+    of both impulses may have changed within the period, so each impulse may have acted on each joint in the worst
+    direction.
     """
     wrench = np.linalg.lstsq(here.J.T, impulse, rcond=SINGULAR)[0]
     force, moment = np.linalg.norm(wrench[:3]), np.linalg.norm(wrench[3:])

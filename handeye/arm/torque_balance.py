@@ -6,9 +6,9 @@ friction. The remainder is due to errors of masses, mass centres and drives. The
 refines their estimate, until a motion at a new posture leaves almost no remainder. The method is recursive least
 squares with a prior (Gauss); the prior is the uncertainty after the arm has weighed itself, computed for errors of
 twice their stated size. If a remainder appears after that, a drive has changed. Measured in three worlds, one of them
-at the high level: joint 2 of the Stanford arm has a weight torque of 18 N m over the table, which is known to within
-.27 N m; joint 3 carries a weight of 5 to 20 N, which is known to within .6 N. A joint that carries no weight gives no
-information.
+at the high level: over the table, joint 2 of the Stanford arm has a weight torque of 18 N m, and the estimate of this
+torque is right to within .27 N m. Joint 3 carries a weight of 5 to 20 N, and the estimate of this weight is right to
+within .6 N. A joint that carries no weight gives no information.
 """
 
 from collections.abc import Sequence

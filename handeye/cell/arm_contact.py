@@ -1,4 +1,6 @@
-"""Measures the true force of all contacts on an arm. It is for trials and studies, never for the working phase."""
+"""Measures the true force of all contacts on an arm. This force is for trials and studies, never for the working
+phase.
+"""
 
 import mujoco
 import numpy as np

@@ -73,7 +73,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """Make a cell of this bench and of `others`, mechanisms that do not act as time passes. The scene must not
+        """Make a cell of this bench and of the mechanisms `others`, which do not act as time passes. The scene must not
         change after this call.
         """
         noise = np.random.Generator(np.random.PCG64(0))

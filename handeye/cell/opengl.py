@@ -1,7 +1,7 @@
 """Off-screen pictures by OpenGL, on a computer without a display.
 
-This module tests the OpenGL libraries, and then makes the OpenGL context itself. It does not leave the choice of a
-library to the environment variable that MuJoCo reads when it is first imported, so the result does not depend on
+This module tests the OpenGL libraries, and then makes the OpenGL context itself. When MuJoCo is first imported, it
+chooses a library by an environment variable. This module does not use that choice, so the result does not depend on
 the order of imports.
 """
 

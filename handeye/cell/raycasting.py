@@ -115,8 +115,8 @@ def cast(
 
 
 def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
-    """Return an array in the shape of the picture. It is True where the picture changes: at both points of each pair
-    of neighbours whose geoms or luminances differ.
+    """Return an array in the shape of the picture. The array is True where the picture changes: at both points of each
+    pair of neighbours whose geoms or luminances differ.
     """
     rough = np.zeros(geom.shape, dtype=bool)
     for a, b in (

@@ -19,7 +19,7 @@ INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 
 class SnapshotCell:
-    """A cell for runs of any system. Its state can be saved, restored and viewed."""
+    """A cell for runs of any system. The state of the cell can be saved, restored and viewed."""
 
     def __init__(
         self,
@@ -72,10 +72,10 @@ class SnapshotCell:
         """Restore the cell to a state. Whatever follows is then identical, byte for byte, no matter what happened
         before.
 
-        Sleep is not part of a state: when a state is restored, all bodies wake, and those at rest fall asleep again.
-        If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own state at every
-        point where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of cell
-        or is not valid.
+        Sleep is not part of a state: when a state is restored, all bodies wake, and then the bodies at rest fall
+        asleep again. If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own
+        state at every point where the run might be interrupted. Raises InvalidInput if the state belongs to another
+        kind of cell or is not valid.
         """
         try:
             self._check(state)

@@ -103,8 +103,8 @@ def register(entry: Entry) -> None:
 
 
 def entries() -> Mapping[str, Entry]:
-    """Return all entries by name: those included with handeye, those of installed packages, and those of registered
-    systems.
+    """Return all entries by name: the entries included with handeye, the entries of installed packages, and the
+    entries of registered systems.
     """
     return {entry.name: entry for entry in (*_installed(), *_registered.values())}
 
@@ -170,8 +170,8 @@ def entry_of_file(name: str) -> tuple[Entry | None, str]:
 
 
 def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
-    """Make the exception for a system that lacks a capability. `whose` names the run or file concerned, if there is
-    one.
+    """Make the exception for a system that lacks a capability. `whose` names the run or file concerned; it is empty if
+    there is no such run or file.
     """
     entry = entry_named(name)
     why = entry.reasons.get(capability, "")

@@ -103,7 +103,9 @@ class FaultKind:
         return UNITS[self.unit]
 
     def usual(self, stage: int | None = None) -> Fault:
-        """Make the fault at its usual size. It begins at the given stage, or else at its default stage."""
+        """Make the fault at its usual size. The fault begins at the given stage or, if no stage is given, at its
+        default stage.
+        """
         value = None if self.size is None else self.size.usual * self.measure.size
         fault = Fault(name=self.name, value=value, stage=stage or self.usual_stage)
         self.check(fault)

@@ -83,7 +83,7 @@ def fill_folder(path: Path, fill: Callable[[Path], None]) -> None:
 
 
 def _put(temporary: Path, place: Path) -> None:
-    """Rename the new folder to its place. If that fails, restore the old folder."""
+    """Rename the new folder to its place. If the renaming fails, restore the old folder."""
     try:
         (temporary / "new").rename(place)
     except BaseException:

@@ -50,7 +50,7 @@ def picture(webp: bytes, what: str) -> Markup:
 
 
 def svg(drawing: str, what: str) -> Markup:
-    """Show an SVG drawing with alternative text. Its styles do not affect the rest of the page."""
+    """Show an SVG drawing with alternative text. The drawing's styles do not affect the rest of the page."""
     address = data_address("image/svg+xml", drawing.encode())
     return element("img", alt=what, src=address, style="max-width:100%")
 

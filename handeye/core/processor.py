@@ -23,7 +23,7 @@ def processor() -> str:
 
 
 def _model() -> str:
-    """Return the model name that the processor reports, or "" if there is none."""
+    """Return the model name that the processor reports, or "" if the processor reports no name."""
     try:
         found = re.search(
             r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(errors="replace"), re.MULTILINE

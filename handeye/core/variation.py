@@ -178,8 +178,8 @@ class Variation:
         is neither.
 
         Args:
-            values: values set in the world (SI). Quantities that such a world does not have are left out. If None,
-                the quantities of all worlds count.
+            values: values set in the world (SI). Quantities that a world with these values does not have are left out.
+                If `values` is None, the quantities of all worlds count.
         """
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         there = [q for q in found if values is None or self._is_there(q, values)]

@@ -90,8 +90,8 @@ def at_rest(slow: Array, quick: Array) -> Array:
     """Compute the Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the two
     passes.
 
-    Here, friction cannot fall as the rate rises. If it seems to fall, the mean of the two passes is used, weighted by
-    the durations of the passes.
+    In our model of friction, friction cannot fall as the rate rises. If it seems to fall, the mean of the two passes
+    is used, weighted by the durations of the passes.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)

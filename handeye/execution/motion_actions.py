@@ -93,7 +93,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
 def _trajectory(
     run: ExecutionContext, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
-    """Return the planned trajectory if all poses are as planned, or else an adjusted trajectory. Returns the reason
+    """Return the planned trajectory if all poses are as planned, and an adjusted trajectory if not. Returns the reason
     if a pose is out of reach.
     """
     motion = run.planned

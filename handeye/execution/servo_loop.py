@@ -171,8 +171,9 @@ class ServoLoop(Servo):
         is stopped lags behind its set-points from that point on; a hand on which a force acts is displaced during the
         whole motion.
 
-        The torques are compared with the arm's weight only if the hand is clear of all objects when the motion
-        begins. After a guarded motion, for example, a held pin may stand in a hole, which then bears weight.
+        The torques are compared with the arm's weight only if the hand is clear of all objects when the motion begins.
+        After a guarded motion, for example, a held pin may stand in a hole, and the hole then bears part of the
+        weight.
         """
         clear, self.state.clear = self.state.clear, False
         self.state.in_air = False
@@ -319,8 +320,8 @@ class ServoLoop(Servo):
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
-        """Move the set-point of the hand along `direction` to the place where the hand now is at rest. Without this,
-        the servo would kick the hand towards the old set-point.
+        """Move the set-point of the hand along `direction` to the place where the hand now is at rest. If the
+        set-point were not moved, the servo would kick the hand towards the old set-point.
         """
         self.state.met = self.chain.forward(self.state.q)[:3, 3]
         X_set, X_is = self.chain.forward(self.state.q), self.chain.forward(self.state.here)
@@ -363,8 +364,8 @@ class ServoLoop(Servo):
         return JointAgreement(arm=self.arm, start=self.sensed.q, rate=self.sensed.qd)
 
     def _doubted(self, sensors: JointAgreement, sensed: Sensed) -> Outcome | None:
-        """Compare the sensors of the joints at the end of a servo period. If they disagree, return the error, and make
-        the measured position of the arm the set-point.
+        """Compare the sensors of the joints at the end of a servo period. If the sensors of a joint disagree, return
+        the error, and make the measured position of the arm the set-point.
         """
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)

@@ -33,7 +33,7 @@ class ToolAxes(Axes):
     path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is measured
     relative to the last call of `tare`. The force is estimated well if the drive knows the friction of the joints
     (`measure_joints`). The estimate is one period late: a descent onto the table that should stop at 6 N stops at 6.1
-    to 7.5 N if its speed is .01 m/s, at 17 N if it is .025 m/s, and at 34 N if it is .05 m/s.
+    to 7.5 N if the speed is .01 m/s, at 17 N if the speed is .025 m/s, and at 34 N if the speed is .05 m/s.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:

@@ -72,7 +72,7 @@ def worse(one: Findings, other: Findings) -> Findings:
 
 
 def all_right(findings: Findings) -> bool:
-    """Return True if there are findings, and none of them makes the referee reject the work."""
+    """Return True if there is at least one finding, and if no finding makes the referee reject the work."""
     return bool(findings) and not any(finding.refuses for finding in findings.values())
 
 

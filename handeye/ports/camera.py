@@ -75,7 +75,7 @@ class TvCamera(ABC):
 
         Args:
             hold_target: keep the vidicon's target voltage (gain) of the previous picture instead of adjusting
-                it. This is necessary if the two pictures will be subtracted from each other.
+                it. The target voltage must be kept if the two pictures will be subtracted from each other.
         """
 
     @property

@@ -94,8 +94,8 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def next_event(self) -> int | None:
-        """The time (microseconds) until which the status lines, the interrupt and `free` will not change. None if
-        they will not change without a command.
+        """The time (microseconds) until which the status lines, the interrupt and `free` will not change. The value is
+        None if these levels will not change without a command.
         """
 
     @abstractmethod

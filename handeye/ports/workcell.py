@@ -67,7 +67,7 @@ class HandPort(ABC):
     @abstractmethod
     def drive(self, gap: float, grip: float) -> None:
         """Set the goal of the gap between the fingers (m), and the greatest force of each finger (N). Raises
-        InvalidInput unless both are finite.
+        InvalidInput unless both values are finite.
         """
 
 

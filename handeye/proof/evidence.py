@@ -92,7 +92,7 @@ def every(answers: list[Answer]) -> Answer:
 
 
 def among(answers: list[Answer]) -> Answer:
-    """Combine the answers for several possible situations, of which one is the true one."""
+    """Combine the answers for several possible situations, one of which is the true situation."""
     if answers and all(answer == "yes" for answer in answers):
         return "yes"
     return "no" if all(answer == "no" for answer in answers) else "maybe"

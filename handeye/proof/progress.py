@@ -85,8 +85,9 @@ class Effects:
 
 
 def least_shown(graph: OutcomeGraph, effects: list[Effects]) -> list[int]:
-    """Return, for each claim, the least number of phases that a path to the end has shown. Every branch is taken to be
-    possible: counters are not followed. UNREACHED means that no path leads to the end of the program.
+    """Return, for each claim, the least number of phases that a path to the end has shown. The search assumes that
+    every branch is possible: it does not follow counters. UNREACHED means that no path leads to the end of the
+    program.
     """
     by_edge: dict[EdgeKey, list[tuple[int, Table]]] = {}
     for number, one in enumerate(effects):

@@ -108,7 +108,7 @@ class RunFolder(Observer):
 
     @property
     def unlocked(self) -> str:
-        """The reason why the folder cannot be locked against writing by other commands; empty if there is a lock."""
+        """The reason why no lock keeps other commands from writing to the folder; empty if a lock does."""
         return "" if self._journal is None else self._journal.unlocked
 
     def begin(self, start: Checkpoint) -> None:

@@ -1,7 +1,7 @@
 """What one leg of a relay hands over to the next: a small record in SI units, which no language owns.
 
 Each system writes and reads the record in its own way (`handeye/runs/legs.py`). The record says where the hand is,
-what the hand holds, and which places the programs have found. It contains only what sensors and programs know.
+what the hand holds, and which places the programs have found. The record contains only what sensors and programs know.
 """
 
 from typing import Final, Literal

@@ -65,7 +65,7 @@ class StepFacts(Protocol):
 
     @property
     def macro(self) -> str:
-        """Name of the macro whose call produced the step; empty if there is none."""
+        """Name of the macro whose call produced the step; empty if no macro produced the step."""
 
     @property
     def needs(self) -> Device | None:
@@ -121,7 +121,9 @@ class Listing(Protocol):
 
     @property
     def numbered(self) -> Mapping[int, str]:
-        """Lines of the text, by the numbers that the text itself gives them. Empty if lines are counted from 1."""
+        """Lines of the text, by the numbers that the text itself gives them. The mapping is empty if lines are counted
+        from 1.
+        """
 
     @property
     def stages(self) -> tuple[str, ...]:
@@ -210,7 +212,9 @@ class RunningSystem(Protocol):
 
     @property
     def executed(self) -> Sequence[ExecutedStep]:
-        """The executed steps that the arm has not undone, in order. Empty for a system that cannot undo steps."""
+        """The executed steps that the arm has not undone, in order. The sequence is empty for a system that cannot
+        undo steps.
+        """
         return ()
 
     def reverse(self, undoing: ReversalOrder) -> None:
@@ -247,8 +251,8 @@ class RunningSystem(Protocol):
         return "", ()
 
     def built(self) -> Findings:
-        """Return the referee's findings on the finished work, made before the arm undid the work. Empty if the work
-        was not undone, or was not judged.
+        """Return the referee's findings on the finished work, made before the arm undid the work. The result is empty
+        if the work was not undone, or was not judged.
         """
         return {}
 

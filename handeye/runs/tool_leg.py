@@ -55,7 +55,7 @@ class ToolArm:
         return round(round(self.drive.sensed.time / period) * period, 6)
 
     def take_over(self, record: HandOver, station: StationMemory) -> None:
-        """Hold the arm where it stands, and hold the part that the record names, if it names one."""
+        """Hold the arm where it stands, and hold the part that the record names, if the record names a part."""
         memory, drive = self.memory, self.memory.drive
         drive.friction, drive.links, drive.weights = station.friction, station.links, station.weights
         drive.hold_anew(self.cell.devices.sense(), self.arm)

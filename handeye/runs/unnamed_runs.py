@@ -69,7 +69,7 @@ class UnnamedRun:
 
 
 def newest_run() -> Path | None:
-    """Return the newest run in the folder for runs, whether the user named it or not; None if there is none."""
+    """Return the newest run in the folder for runs, whether the user named it or not; None if there is no run."""
     home = runs_folder()
     return None if home is None else next(_newest_first(_runs(home)), None)
 

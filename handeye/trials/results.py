@@ -106,7 +106,7 @@ def assemble_each(
         search: search pattern, as for `handeye.begin`.
         referee: referee or limits, as for `handeye.begin`.
         jobs: number of parallel processes. If there is more than one process, the calling program must be guarded by
-            `if __name__ == "__main__":`, `search` cannot be Python code, and `referee` can only be limits.
+            `if __name__ == "__main__":`, `search` cannot be Python code, and `referee` can only be a set of limits.
 
     Returns:
         a table of results in the order of the worlds.

@@ -71,7 +71,7 @@ def _targets(trace: Trace) -> list[Array]:
     """Return, for each stage, the point at which the camera looks (m) and the distance of the camera from it
     (m), shape (n, 4).
 
-    A stage in which the hand hardly moves gets the values of the next stage, or of the previous one.
+    A stage in which the hand hardly moves gets the values of the next stage or of the previous stage.
     """
     found = [_target(np.array(_hands(trace, stage))) for stage in trace.stages_both_ways]
     return [_nearest(found, number, trace) for number in range(max(len(found), 1))]

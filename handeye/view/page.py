@@ -95,7 +95,7 @@ def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
 
 
 def source_region(label: str, *content: Markup, id: str | None = None) -> Markup:
-    """Return a scrolling region beside the cell, which contains a script or a taught file."""
+    """Return a scrolling region with a script or a taught file, to be shown beside the cell."""
     return region(*content, label=label, id=id, class_="source")
 
 

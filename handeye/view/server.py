@@ -39,7 +39,7 @@ class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True)
 
 
 class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=True):
-    """A viewer's request to press the panic button. Every viewer may do this."""
+    """A viewer's request to press the panic button. Every viewer may send this request."""
 
 
 class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=True):
@@ -59,8 +59,8 @@ class Viewer:
 
 
 class Server:
-    """Serves one run while its context is entered. It takes its port when it is created, so that a port in use is
-    reported immediately.
+    """Serves one run while its context is entered. The server takes its port when it is created, so that a port in use
+    is reported immediately.
     """
 
     def __init__(self, link: Link, port: int = 0) -> None:

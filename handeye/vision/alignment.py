@@ -103,8 +103,8 @@ RADIUS: Final = 10  # points; the centre is computed within this radius, that of
 
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:
-    """Find the bright spot that the lit picture has and the dark picture lacks. Returns its centre (u, v), or None if
-    there is no such spot, or more than one.
+    """Find the bright spot that the lit picture has and the dark picture lacks. Returns the centre (u, v) of the spot,
+    or None if there is no such spot, or more than one.
     """
     difference = lit_picture.astype(np.float32) - aligned(dark_picture, to=lit_picture)
     smooth = cv2.blur(difference, (3, 3))

@@ -2,8 +2,8 @@
 its holes.
 
 The part stands upright in a given region, on a darker background, turned by at most 50 degrees from its planned
-orientation. Its height is known, so one picture is enough: rays through the holes are intersected with the plane of
-the upper face.
+orientation. The height of the part is known, so one picture is enough: rays through the holes are intersected with the
+plane of the upper face.
 """
 
 import math

@@ -28,7 +28,7 @@ def walk(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edge | None:
-    """Find the first edge along a picture line or column, or return None if there is none. The arguments are those
+    """Find the first edge along a picture line or column, or return None if there is no edge. The arguments are those
     of `beams`; for a single beam, `walk` is faster than `beams`.
     """
     scan.beams += 1

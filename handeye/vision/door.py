@@ -39,7 +39,7 @@ def beams(
         directions: unit vectors (du, dv), shape (n, 2).
         polarity: BRIGHTER finds edges from dark to bright, DARKER from bright to dark.
         step: least difference of mean intensity between the 3 points ahead of the edge and the 3 points behind it.
-        reach: greatest length of the beams, points; one number for all, or one for each, shape (n,).
+        reach: greatest length of the beams, points; one number for all beams, or one number for each beam, shape (n,).
         wide: average over three points across the beam, to reduce noise.
         beyond: least intensity beyond the edge; edges to lower intensities are ignored.
 
@@ -77,15 +77,15 @@ def localise(
     """Find the box around the first blob that lies completely within a window and that `fits` accepts. Returns None if
     there is no such blob.
 
-    Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box grows
-    from this area until all its sides are in the background. A blob that reaches the border of the window or of the
-    picture is ignored. The window applies to this call only.
+    Beams go inwards from the four sides of the window until one beam meets a brighter area larger than a speck. A box
+    grows from this area until all its sides are in the background. A blob that reaches the border of the window or of
+    the picture is ignored. The window applies to this call only.
 
     Args:
         window: a convex quadrilateral, as its corners (u, v) in order, shape (4, 2), points; its border must lie on
             background.
         step: least difference of intensity between blob and background.
-        fits: a function that decides whether a box is the wanted one; a rejected box is not tried again.
+        fits: a function that returns True if a box is the wanted box; a rejected box is not tried again.
         tries: greatest number of boxes to grow.
 
     Raises:

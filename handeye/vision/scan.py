@@ -17,8 +17,8 @@ MARGIN: Final = 1  # border points that no beam enters, so that a beam can be th
 
 
 def numbers(given: object, said: str) -> Array:
-    """Convert an argument to an array of finite numbers. If that is impossible, raises BadArgument with a message
-    that begins with `said`.
+    """Convert an argument to an array of finite numbers. If the argument cannot be converted, raises BadArgument with
+    a message that begins with `said`.
     """
     try:
         found = np.asarray(given)
@@ -79,8 +79,8 @@ def _intensities(picture: object) -> NDArray[np.float32]:
 
 
 class Scan:
-    """A picture in which beams (straight rays) search for edges, within a window. It counts the beams, and the points
-    that they read, for timing and display.
+    """A picture in which beams (straight rays) search for edges, within a window. The scan counts its beams, and the
+    points that these beams read, for timing and display.
     """
 
     def __init__(self, picture: NDArray[np.generic]) -> None:
@@ -114,8 +114,8 @@ class Scan:
         )
 
     def limit(self, corners: ArrayLike) -> None:
-        """Set the window, a convex quadrilateral that limits all beams. It replaces the previous window. Raises
-        BadArgument if `corners` form no such quadrilateral.
+        """Set the window, a convex quadrilateral that limits all beams. The new window replaces the previous window.
+        Raises BadArgument if `corners` form no such quadrilateral.
 
         `corners` are (u, v), points, in order around the window, shape (4, 2).
         """
@@ -168,8 +168,8 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """Return the lengths (points) of one ray within the window, backwards and forwards, or (0, -1) if its start
-        is outside.
+        """Return the lengths (points) of one ray within the window, backwards and forwards, or (0, -1) if the start of
+        the ray is outside the window.
         """
         back = ahead = math.inf
         for a, b, c in self._lines:

@@ -47,7 +47,9 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the only branch. It exists if the slides alone can bring the hand to the pose, without turning it."""
+    """Return the only branch. The branch exists if the slides alone can bring the hand to the pose, without turning
+    the hand.
+    """
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q, off = _nearest_position(arm, b, X, b.held_at if start is None else start[b.held])
     exists = (np.linalg.norm(off, axis=-1) <= WRITTEN[0]) & (_turn_angle(b, X) <= WRITTEN[1])
@@ -72,7 +74,7 @@ def _turn_angle(b: _Build, X_WT: Pose) -> Array:
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find the solution, or else the turn, direction or joint limit that prevents one."""
+    """Find the solution. If there is none, find the turn, the direction or the joint limit that prevents a solution."""
     b = _build(arm)
     angle = float(_turn_angle(b, X_WT))
     if angle > WRITTEN[1]:

@@ -1,10 +1,10 @@
 """Finds executed steps that changed only the memory of the program. One lift of the hand reverses all these steps.
 
-Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is taken
-to be in the state in which it was after that step, under these conditions: since then no stage began and the
-operator was not called; the hand holds the same object; every object was put down at the place where it was taken
-up, or taken up at the place where it was put down; and every screw driven in was backed out. Rounds that carry
-objects to another place do not meet the conditions and are reversed step by step.
+Two kinds of steps change only the memory: rounds of a loop, and touches. When a program has jumped back to an earlier
+step, the cell is assumed to be in the state in which it was after that step, if these conditions hold: since then no
+stage began and the operator was not called; the hand holds the same object; every object was put down at the place
+where it was taken up, or taken up at the place where it was put down; and every screw driven in was backed out. Rounds
+that carry objects to another place do not meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a
 touch were reversed step by step, the hand would touch the object a second time. If the object has been pushed since

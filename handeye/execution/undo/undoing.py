@@ -202,8 +202,9 @@ def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     this object again as firmly as before.
 
     Before opening, the fingers must hold the object that they grasped: the gap must be the same as in the grasp, or as
-    in a later grasp during the reversal. A carried object may straighten between the fingers; in the world of seed 1,
-    one base changed the gap by 1.1 mm. A change of more than twice this amount means another object, or no object.
+    in a later grasp during the reversal. A carried object may straighten between the fingers: in the world of seed 1,
+    a base that straightened changed the gap by 1.1 mm. A change of more than twice this amount means another object,
+    or no object.
     """
     kept = done.gap[1]
     held = kept if run.state.held is None else run.state.held

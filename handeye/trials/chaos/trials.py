@@ -75,7 +75,7 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
     """Return the findings that should hold after the first `done` stages of the program, but fail. All findings
-    must hold after the last stage; `holds_from` names those that must already hold after an earlier stage.
+    must hold after the last stage; `holds_from` names the findings that must already hold after an earlier stage.
     """
     return [
         f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
@@ -249,8 +249,8 @@ class ChaosWork:
 
 
 def worlds(seed: int, count: int, *, levels: bool = True) -> list[WorldSpec]:
-    """Return the worlds for the schedules of a seed: those of this seed and of the seeds that follow. With
-    `levels`, successive worlds have different levels of error.
+    """Return the worlds for the schedules of a seed: the world of this seed and the worlds of the seeds that follow.
+    With `levels`, successive worlds have different levels of error.
     """
     chosen = LEVELS if levels else LEVELS[:1]
     return [WorldSpec(seed=seed + number, level=chosen[number % len(chosen)]) for number in range(count)]

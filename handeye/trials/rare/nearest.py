@@ -1,5 +1,5 @@
-"""Finds, of the worlds in which a program fails, those nearest to the middle of all quantities; and what pushes the
-program to fail.
+"""Of the worlds in which a program fails, finds the worlds nearest to the middle of all quantities. Also finds what
+pushes the program to fail.
 
 A world in which the program fails differs from the middle in every quantity, although only a few quantities matter. So
 the quantities of a failing world return to the middle of their ranges, first in groups, then one by one, as long as
@@ -38,7 +38,7 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """How one quantity pushes the program towards a failure, in standard deviations."""
+    """How far, in standard deviations, one quantity pushes the program towards a failure."""
 
     quantity: str
     worlds: int  # how many of the nearest worlds need it

@@ -27,7 +27,7 @@ _TITLES: Final = {"stopped": "The program stops", "silent": "The program fails s
 
 
 def rare_page(title: str, heading: str, sections: Sequence[Markup]) -> bytes:
-    """Return a page with the given sections. It loads no external files."""
+    """Return a page with the given sections. The page loads no external files."""
     body = element(
         "body",
         element("header", element("div", element("h1", heading), element("p", title, class_="name"))),

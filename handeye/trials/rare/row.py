@@ -1,4 +1,4 @@
-"""One run in a sample of worlds, and its margin: how far it was from failing."""
+"""One run in a sample of worlds, and the margin of the run: how far it was from failing."""
 
 import hashlib
 from collections.abc import Mapping, Sequence

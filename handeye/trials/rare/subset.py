@@ -55,7 +55,9 @@ class Level(Record, frozen=True, kw_only=True):
 
 
 class Estimate(Record, frozen=True, kw_only=True):
-    """An estimate of the probability that a margin is at most the threshold of the last level. It is not a bound."""
+    """An estimate of the probability that a margin is at most the threshold of the last level. The estimate is not a
+    bound.
+    """
 
     probability: float
     variation: float  # coefficient of variation
