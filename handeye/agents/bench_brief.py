@@ -1,4 +1,4 @@
-"""Writes the end of a brief of the agents' bench, which is the same for all tasks of a language."""
+"""Writes the end of a brief of the agents' bench. The end is the same for all tasks of a language."""
 
 import tomllib
 from pathlib import Path

@@ -195,7 +195,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return source.text
 
     def _check_kept(self, text: str) -> None:
-        """Raise BadFile if a solution lacks lines that it must keep, or has more of them."""
+        """Raise BadFile if a solution lacks lines that it must keep, or has more such lines than the given program."""
         if not self.file.kept:
             return
         kept = re.compile(self.file.kept, re.MULTILINE)

@@ -44,7 +44,7 @@ class OpenRuns:
         return self._added(to, call, lambda out: self._begun(start, out, at=stage or None))
 
     def find(self, run: str | None, call: Call) -> tuple[str, Run]:
-        """Return a run, which is opened again if it was closed. Raises InvalidInput if there is no such run, or if the
+        """Return a run. A closed run is opened again. Raises InvalidInput if there is no such run, or if the
         run ended before it was closed.
         """
         name = self.named(run)
@@ -74,8 +74,8 @@ class OpenRuns:
             self._open.pop(next(iter(self._open))).close()
 
     def named(self, run: str | None) -> str:
-        """Return the name of a run in the folder, by default of the run that was used last. Raises NoSuchName if there
-        is no such run.
+        """Return the name of a run in the folder. By default, this is the run that was used last. Raises NoSuchName if
+        there is no such run.
         """
         name = run or self._last
         known = self.folder.runs()

@@ -27,7 +27,9 @@ def languages() -> list[str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scripts:
-    """The scripts that an agent can name: its own, in its folder, and those included with handeye."""
+    """The scripts that an agent can name: the scripts in the agent's own folder, and the scripts included with
+    handeye.
+    """
 
     folder: AgentFolder
 

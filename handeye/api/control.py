@@ -86,7 +86,7 @@ def _periods(seconds: object, period: float) -> int:
 
 
 def _checked(name: str, controller: Controller, runner: Runner) -> Callable[[Sensed], CommandedPeriod | None]:
-    """Wrap a controller: its commands are checked and completed with the last ones."""
+    """Wrap a controller. Each command is checked, and a value that is None is replaced by the previous value."""
     joints, last = len(runner.context.arm.joints), runner.context.drive.state
 
     def command(sensed: Sensed) -> CommandedPeriod | None:

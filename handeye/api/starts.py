@@ -177,7 +177,7 @@ def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
 
 
 def _with_referee(setup: Setup, wanted: RunRequest) -> Setup:
-    """Return the setup of a run that the caller's referee or limits will judge, instead of the original ones."""
+    """Return the setup of a run, with the caller's referee or limits in place of the original ones."""
     if "referee" in wanted.replaced:
         return msgspec.structs.replace(setup, limits={})
     if wanted.limits is None:

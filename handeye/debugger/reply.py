@@ -93,7 +93,7 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
 
 
 class Break(Record, frozen=True, kw_only=True):
-    """A breakpoint with its number, by which the user can delete it."""
+    """A breakpoint, with the number by which the user can delete it."""
 
     number: int
     stop: AnyStop

@@ -20,7 +20,7 @@ _NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """A span in the script, in the taught file, or in a required file, which `file` names."""
+    """A span in the script, in the taught file, or in the required file that `file` names."""
 
     span: Span
     taught: bool = False
@@ -91,7 +91,7 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
-    """Return True if a name would clash with the new one. A position and a part must not get the same name,
+    """Return True if a name would clash with the new name. A position and a part must not get the same name,
     because AIM accepts both.
     """
     if name.kind == PARAMETER:

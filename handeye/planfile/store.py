@@ -117,7 +117,9 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """Remove all floating-point numbers, which may have been computed, from a value made of dictionaries and lists."""
+    """Remove all floating-point numbers from a value made of dictionaries and lists, because such numbers may have
+    been computed.
+    """
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}
     if isinstance(value, list | tuple):

@@ -127,7 +127,7 @@ class AnyTask(ABC):
         """
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        """Return the scene of a recorded run, whose plan may determine which objects lie in the cell. Raises the
+        """Return the scene of a recorded run. The run's plan may determine which objects lie in the cell. Raises the
         same errors as `scene`.
         """
         return self.scene(spec)

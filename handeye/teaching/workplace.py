@@ -116,7 +116,7 @@ class Workplace:
         return self.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
-        """Plan a text from the present state. `alone` has the same meaning as for `planned`."""
+        """Plan a text from the present state. `alone` has the same meaning as in `planned`."""
         task, saved = self.runner.setup.task, self.run.state.saved
         return planned(source, self.known, self.run.arm, self.q, task=task, saved=saved, alone=alone)
 

@@ -156,7 +156,7 @@ def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold, which means that the
-    object does not lie in the middle.
+    """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold. The object then does not
+    lie in the middle.
     """
     return gap - kept > 2 * OFF_MIDDLE

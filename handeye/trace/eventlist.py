@@ -16,7 +16,7 @@ from handeye.program.events import AnyEvent, RunStarted, WentBack, to_line
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
     """Return the events in a file, including the events that were undone later because the run went back.
 
-    Raises BadFile if a line is not an event, if the last line is incomplete (unless `growing`), or if the run
+    Raises BadFile if a line is not an event, if the last line is incomplete and `growing` is False, or if the run
     does not begin at time 0.
     """
     text = read_whole(path)

@@ -27,8 +27,8 @@ class MovedFrames:
         """Return the numbers and poses of the frames to write at each of `m` times. If `anew` is True, all frames are
         written. `poses`, shape (m, n, 7), is changed in place; `there` has shape (m, n).
 
-        Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
-        has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
+        Bodies that are put away are written only if `anew` is True, because the poses of such bodies do not matter. A
+        body that has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
 
         Each pose is compared with the last pose that was written. Earlier comparisons determine which pose that is.
         The first round assumes that nothing was written. Each further round starts from the rows that the round before

@@ -111,8 +111,8 @@ def _unpacked(data: bytes) -> bytes:
 
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
-    """Yield the messages in the complete chunks of a file. A damaged chunk raises DamagedTrace or, with
-    `lenient`, ends the messages.
+    """Yield the messages in the complete chunks of a file. A damaged chunk raises DamagedTrace. If `lenient` is True,
+    a damaged chunk ends the messages instead.
     """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):

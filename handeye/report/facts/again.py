@@ -16,8 +16,8 @@ _TYPED: Final = 20  # with more settings of the world, the command reads them fr
 
 
 def command(run: RecordedRun) -> str | None:
-    """Return the command that repeats a run. Returns None if the run uses code or a task of the caller, which a
-    command line cannot contain.
+    """Return the command that repeats a run. Returns None if the run uses code or a task of the caller, because a
+    command line cannot contain these.
     """
     head = run.trace.head
     if known(head.task) is None or head.own_parts:

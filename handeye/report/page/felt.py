@@ -63,7 +63,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
 
 
 def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Markup:
-    """Return the plots of a stage, collapsed unless `shown`."""
+    """Return the plots of a stage. The plots are collapsed if `shown` is False."""
     met = sum(motion.trip is not None for motion in motions)
     said = f"{counted(len(motions), 'guarded motion')}, {met} stopped by a guard"
     summary = element("summary", element("h3", stage), " ", element("span", said))

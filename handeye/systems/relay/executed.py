@@ -64,7 +64,9 @@ def own_legs(plan: RelayPlan, state: RelayCore) -> tuple[Leg, ...]:
 
 
 def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> None:
-    """Raise Refused if an order would undo steps of a leg that cannot be undone, or no steps at all."""
+    """Raise Refused if an order would undo no steps at all, or if it would undo a step of a leg whose steps cannot be
+    undone.
+    """
     passed = legs(plan)[: last_leg(state) + 1]
     done = executed(plan, state)
     fast = next((leg for leg in reversed(passed) if not leg.system.undoes), None)

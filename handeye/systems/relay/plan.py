@@ -109,7 +109,7 @@ class RelayListing:
 
 
 def made(source: Source, folder: Path) -> RelayPlan:
-    """Read the programs of a relay, whose files lie in `folder`. Raises InvalidInput if the relay or a program has
+    """Read the programs of a relay from their files in `folder`. Raises InvalidInput if the relay or a program has
     errors.
     """
     lines, found = parsed(source)

@@ -52,7 +52,7 @@ class Microbus:
 
     @property
     def interrupt(self) -> bool:
-        """True if line A of any motor is high, which means that the last command of this motor was aborted."""
+        """True if line A of any motor is high. Line A of a motor is high if the motor's last command was aborted."""
         return self._bus.interrupt
 
     def command(

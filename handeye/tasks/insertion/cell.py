@@ -1,4 +1,4 @@
-"""Builds the insertion bench: an arm, a pin in a holder, a plate with one hole, and a witness, which records for
+"""Builds the insertion bench: an arm, a pin in a holder, a plate with one hole, and a witness. The witness records for
 the referee what really happened.
 """
 
@@ -159,7 +159,7 @@ class Witness(PhysicsStepper):
 
 
 class InsertionCell(SimulatedCell):
-    """A cell with a witness, which records the contacts of pin and plate."""
+    """A cell with a witness that records the contacts of pin and plate."""
 
     def __init__(self, world: InsertionWorld) -> None:
         """Build the cell of a world and switch it on."""

@@ -86,7 +86,7 @@ _COLOURS: Final = {
 
 
 def add_styles(spec: mujoco.MjSpec) -> None:
-    """Add the default classes of shapes, which differ in what they touch, and the colours."""
+    """Add the colours, and the default classes of shapes. The classes differ in what their shapes touch."""
     for name, (contype, conaffinity) in _STYLES.items():
         style = spec.find_default(name) or spec.add_default(name, spec.default)
         geom = style.geom

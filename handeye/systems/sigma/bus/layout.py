@@ -17,7 +17,7 @@ Kind = Literal["motor", "force", "hand", "sensor"]
 
 
 class Place(Record, frozen=True, kw_only=True):
-    """A microcomputer: its number, which also determines its status lines, and its segment."""
+    """A microcomputer: its number and its segment. The number also determines the status lines."""
 
     number: int
     kind: Kind

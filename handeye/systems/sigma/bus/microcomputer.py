@@ -103,7 +103,7 @@ class Microcomputer:
 
     def listen(self, at: int, sent: Sequence[Sending], wires: Wires, *, quiet: bool) -> list["Taken"]:
         """Look for a strobe if the microcomputer is free to take a command. Returns the commands for other
-        microcomputers, which this one takes from the lines and then drops.
+        microcomputers. This microcomputer takes such commands from the lines and then drops them.
 
         Such commands are returned only if no line is faulty and no answer is on the lines (`quiet`); if not, they are
         received byte by byte.

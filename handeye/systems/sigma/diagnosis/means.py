@@ -173,7 +173,7 @@ class Motion:
 
     @property
     def astray(self) -> bool:
-        """True if the far switch stopped the motion at a count that differs from the one in the drawing."""
+        """True if the far switch stopped the motion at a count that differs from the count in the drawing."""
         return self.at_abort is not None and abs(self.at_abort - TRAVEL[self.axis[0]]) > _OFF_STEPS
 
     @property

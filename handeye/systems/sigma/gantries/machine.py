@@ -62,7 +62,9 @@ Table = NDArray[np.float64]
 
 
 class Rig(NamedTuple):
-    """The axes and arms of a machine. The axes of its arms, which have wrists, come first: three for each arm."""
+    """The axes and arms of a machine. The axes of the arms come first, three for each arm. Only these axes have
+    wrists.
+    """
 
     axes: tuple[str, ...] = AXES
     arms: tuple[int, ...] = (1, 2)
@@ -247,7 +249,7 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def counting(self) -> tuple[bool, ...]:
-        """For each axis, False while the axis searches for the end of its rail, where its count begins."""
+        """For each axis, False while the axis searches for the end of its rail. The count of the axis begins there."""
         return tuple(motor is not None and motor.memory.state in COUNTING for motor in self._motors)
 
     @property

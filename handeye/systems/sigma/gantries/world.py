@@ -112,8 +112,8 @@ VARIATION: Final = Variation(
 
 @dataclass(frozen=True, slots=True)
 class GantryWorld:
-    """A world of the gantries. A world without a specification has no errors. Each number is drawn from a random stream
-    of its own, which is selected by the number's name.
+    """A world of the gantries. A world without a specification has no errors. Each number is drawn from a random
+    stream of its own. The number's name selects the stream.
     """
 
     spec: WorldSpec | None = None

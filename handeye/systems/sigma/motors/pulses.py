@@ -157,8 +157,9 @@ def _stop_times(train: Train) -> NDArray[np.float64]:
 
 
 def _profile_times(train: Train) -> NDArray[np.float64]:
-    """Return the times of the pulses of two ramps, whose speeds follow raised cosines, and of the part between
-    the ramps."""
+    """Return the times of the pulses of two ramps, and of the part between the ramps. The speeds on the ramps follow
+    raised cosines.
+    """
     steps, start, peak = train.steps, train.start, train.peak
     made = np.arange(1.0, steps + 1)
     if peak <= start:

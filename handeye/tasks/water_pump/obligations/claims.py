@@ -117,7 +117,7 @@ class PumpClaims:
         )
 
     def size(self, hole: int) -> Claim:
-        """Return the claim that a screw stood at the right height over its thread before it was driven."""
+        """Return the claim that a screw stood at the right height above its thread before it was driven."""
         places, d = self.places, dimensions()
         row = d("dispenser.pitch") * places.screws
         dispenser = Region(at=point("dispenser.place"), radius=row, height=Limits(2 * INCH, 9 * INCH))

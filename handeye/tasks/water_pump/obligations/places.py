@@ -49,7 +49,7 @@ class PumpPlaces:
         return d("gasket.thickness") + d("top.flange") + d("screw.head_height") - PRESSED
 
     def over_hole(self, hole: int, radius: float, low: float, high: float) -> Region:
-        """Return the region over a screw hole, from `low` to `high` over the table (m)."""
+        """Return the region above a screw hole, from `low` to `high` above the table (m)."""
         return Region(at=self.on_pump(*self.holes[hole]), radius=radius, height=Limits(low, high))
 
     def socket(self, hole: int) -> Region:

@@ -1,4 +1,4 @@
-"""Finds devices of a cell that still have a command, which would later move parts that lie correctly now."""
+"""Finds devices of a cell that still have a command. Such a command would later move parts that lie correctly now."""
 
 from typing import Final
 

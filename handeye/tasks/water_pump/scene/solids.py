@@ -29,8 +29,9 @@ def disc(radius: float, x: float = 0.0, y: float = 0.0, segments: int = _ROUND) 
 
 
 def rectangle(x0: float, y0: float, x1: float, y1: float, corner: float = 0.0) -> CrossSection:
-    """Return a rectangular cross-section between opposite corners (x0, y0) and (x1, y1), whose corners are
-    rounded to radius `corner` (m)."""
+    """Return a rectangular cross-section between the opposite corners (x0, y0) and (x1, y1). All four corners are
+    rounded to the radius `corner` (m).
+    """
     if corner == 0.0:
         return CrossSection.square((x1 - x0, y1 - y0)).translate((x0, y0))
     centres = [(x, y) for x in (x0 + corner, x1 - corner) for y in (y0 + corner, y1 - corner)]
