@@ -141,7 +141,7 @@ class Carriers:
 
     def _show(self, hole: int, *, there: bool) -> None:
         """Show the head and shank of the screw in a hole, and let them touch other parts. If `there` is False, hide
-        them instead, and let them touch nothing.
+        head and shank instead, and let them touch nothing.
         """
         self.meet(hole, self._model, there=there)
         self._model.geom_group[self._looks[hole]] = SEEN if there else LATENT

@@ -15,8 +15,8 @@ from handeye.core.pose import Array, Pose
 
 
 class CompiledArm(ArmArithmetic):
-    """An arm as a MuJoCo model of its links and joints. It computes in one buffer, so several threads must not
-    share it.
+    """An arm as a MuJoCo model of its links and joints. The object computes in one buffer, so several threads must not
+    share one object.
     """
 
     def __init__(self, arm: ArmModel) -> None:

@@ -1,9 +1,9 @@
 """Two methods to compute the light on the camera's target (the light-sensitive plate of its tube): OpenGL
 off-screen, and ray casting.
 
-Within the resolution of a vidicon the two methods give the same picture: diffuse surfaces without texture or gloss,
-lights with shadows, an ambient level, and four samples per picture point with an edge. For one state of the scene,
-each method always gives the same values. Neither changes the state.
+Within the resolution of a vidicon, the two methods give the same picture. Both draw diffuse surfaces without texture
+or gloss, lights with shadows, and an ambient level. Both take four samples for each picture point with an edge. For
+one state of the scene, each method always gives the same values. Neither changes the state.
 """
 
 from abc import ABC, abstractmethod

@@ -74,7 +74,7 @@ class SimulatedCell(Clock, SnapshotCell):
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of the cell's camera. Its method is `none` if the cell has no camera."""
+        """The renderer of the cell's camera. The method of this renderer is `none` if the cell has no camera."""
         camera = self.devices.camera
         return Renderer(method="none") if camera is None else camera.renderer
 

@@ -1,4 +1,4 @@
-"""Builds the page that compares two runs. It shows both 3D views under one time slider, the differences, and both
+"""Builds the page that compares two runs. The page shows both 3D views under one time slider, the differences, and both
 runs step by step.
 """
 

@@ -201,7 +201,9 @@ class _TimedStep:
 
 
 def course(runs: TwoRuns) -> Course:
-    """Align two runs step by step. A step that both runs executed takes as long as in the slower run."""
+    """Align two runs step by step. If both runs executed a step, this step takes as long on the timeline as it took in
+    the slower run.
+    """
     a, b = (_done(run, steps) for run, steps in zip((runs.a, runs.b), runs.carried_out, strict=True))
     legs: list[Leg] = []
     time, at = 0.0, (a[0].begin, b[0].begin)
@@ -215,7 +217,7 @@ def course(runs: TwoRuns) -> Course:
 
 def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
     """Return the steps of a run with their times. The first item is the time before the first step. Each step lasts
-    until the next one begins.
+    until the next step begins.
     """
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
@@ -226,8 +228,8 @@ def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
 def _side_by_side(
     runs: TwoRuns, a: Sequence[_TimedStep], b: Sequence[_TimedStep]
 ) -> Iterator[tuple[_TimedStep | None, _TimedStep | None]]:
-    """Yield the pairs of steps in order. Steps that only one run executed come between the pairs, those of the
-    first run first.
+    """Yield the pairs of steps in order. Steps that only one run executed come between the pairs. The steps of the
+    first run come first.
     """
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():

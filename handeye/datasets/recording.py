@@ -30,7 +30,7 @@ class RecordedWorld(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recording:
-    """Records a run of a plan in a world. If the run was interrupted, it continues from its newest checkpoint."""
+    """Records a run of a plan in a world. If the run was interrupted, the run continues from its newest checkpoint."""
 
     folder: Path
     plan: Plan

@@ -90,7 +90,9 @@ class Policy:
 
 
 class RandomPolicy(Policy):
-    """Draws every component of every action uniformly. In one of a thousand steps, it reports that the work is done."""
+    """Draws every component of every action uniformly. On average, the policy reports in one of a thousand steps that
+    the work is done.
+    """
 
     def __init__(self, facts: Facts) -> None:
         super().__init__(facts)

@@ -14,7 +14,7 @@ from handeye.vision.camera_model import CameraModel
 
 
 def _camera(facts: Facts) -> CameraModel | None:
-    """Return the camera as the program has calibrated it, or as its drawing describes it."""
+    """Return the camera as the program has calibrated it, or as the camera's drawing describes it."""
     if facts.memory.calibration is not None:
         return facts.memory.calibration.model
     eye = task(facts.task).eye

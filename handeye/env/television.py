@@ -25,7 +25,7 @@ class Television:
         self._taken: float | None = None
 
     def command(self, values: Mapping[str, float]) -> None:
-        """Carry out the camera commands of an action, before its servo period passes."""
+        """Carry out the camera commands of an action, before the action's servo period passes."""
         now = self._drive.cell.clock.now
         took = 0.0
         if values["set_lens"] > SWITCHED:

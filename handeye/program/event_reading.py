@@ -1,4 +1,4 @@
-"""Reads events: the kinds of events that all systems have, and those that the system of the run adds."""
+"""Reads events: the kinds of events that all systems have, and the kinds that the system of the run adds."""
 
 from functools import cache, reduce
 from operator import or_
@@ -23,8 +23,8 @@ def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
 
 @cache
 def _at(place: str) -> tuple[type[SystemEvent], ...]:
-    """Load the kinds of events at `module:NAME`. Raises InvalidInput if they cannot be loaded, or cannot be written
-    as JSON and read back.
+    """Load the kinds of events at `module:NAME`. Raises InvalidInput if these kinds cannot be loaded, or if their
+    events cannot be written as JSON and read back.
     """
     own: tuple[type[SystemEvent], ...] = loaded(place)
     try:

@@ -1,5 +1,5 @@
-"""Events of a run, as plain records. The only time in them is simulated time, so that two runs with the same seed
-give the same bytes.
+"""Events of a run, as plain records. The only time in these events is simulated time, so that two runs with the same
+seed give the same bytes.
 """
 
 from typing import ClassVar, Literal
@@ -214,7 +214,7 @@ class Restored(Event, frozen=True, kw_only=True):
 
 
 class PictureTaken(Event, frozen=True, kw_only=True):
-    """A picture was taken through a lens. `lens` is its focal length (m)."""
+    """A picture was taken through a lens. `lens` is the focal length of the lens (m)."""
 
     picture: str
     lens: float
@@ -238,8 +238,8 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
-    """Vision compared the place of a part in two pictures. The part is displaced by `off` (m), and a fraction
-    `unlike` of it looks different.
+    """Vision compared the place of a part in two pictures. The part is displaced by `off` (m), and a fraction `unlike`
+    of the part looks different.
     """
 
     part: str

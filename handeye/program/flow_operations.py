@@ -12,7 +12,8 @@ class Search(Operation, frozen=True, kw_only=True):
     """Start a search with steps of `step` (m) and at most `limit` places. The present place is the first place of the
     search.
 
-    The places lie on a square spiral. If `along` (rad from table x) is given, they lie on a line in that direction.
+    The places lie on a square spiral. If `along` (rad from table x) is given, the places lie on a line in that
+    direction.
     """
 
     family: ClassVar = "search"
@@ -91,7 +92,7 @@ class Save(Operation, frozen=True, kw_only=True):
     only the component of the difference along the finger line (the line through both finger tips).
 
     If the goal already contains a Restore of the same name, the restored shift is part of the new difference.
-    In repeated saves under one name, the difference thus follows a place that moves.
+    If a program saves repeatedly under one name, the difference thus follows a place that moves.
     """
 
     family: ClassVar = "search"
@@ -126,8 +127,8 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Reverse the stage and repeat it. If the stage has already been reversed `times` times since it began, continue
-    instead.
+    """Reverse the stage and repeat the stage. If the stage has already been reversed `times` times since it began,
+    continue instead.
     """
 
     bounds: ClassVar = {"times": (1, 100)}

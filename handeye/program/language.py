@@ -32,7 +32,7 @@ class Language(Record, frozen=True, kw_only=True):
 
 
 class OwnLanguage(ABC):
-    """A system's own language for its files. It checks a text, and answers commands and editors."""
+    """A system's own language for its files. The language checks a text, and answers commands and editors."""
 
     system: str
 

@@ -137,8 +137,8 @@ class Open(Operation, frozen=True, kw_only=True):
 
 
 class Close(Operation, frozen=True, kw_only=True):
-    """Close the fingers until both switches close. Raises error 2 if the gap is below `minimum` (m), and error 7
-    if it is above `maximum` (m). If `minimum` is 0, error 2 is raised only when the hand is empty.
+    """Close the fingers until both switches close. Raises error 2 if the gap is below `minimum` (m), and error 7 if
+    the gap is above `maximum` (m). If `minimum` is 0, error 2 is raised only when the hand is empty.
     """
 
     family: ClassVar = "hand"

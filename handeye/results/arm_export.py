@@ -47,8 +47,8 @@ class ExportedArm(Record, frozen=True, kw_only=True):
 
 
 def export_urdf(path: Path, *, overwrite: bool = False) -> ExportedArm:
-    """Write the Stanford arm, as its drawing describes it, to a URDF file. Raises InvalidInput if the file cannot be
-    written.
+    """Write the Stanford arm to a URDF file, as the arm's drawing describes the arm. Raises InvalidInput if the file
+    cannot be written.
     """
     check_place(path, URDF, overwrite=overwrite)
     write_over(path, urdf(STANFORD, scenes() / "stanford_arm" / "stanford.xml"), URDF)

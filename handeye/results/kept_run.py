@@ -62,7 +62,7 @@ def kept_run(path: Path) -> KeptRun:
 
 
 def _readable_events(path: Path) -> list[AnyEvent]:
-    """Return the events in the folder of a run; empty if they cannot be read."""
+    """Return the events in the folder of a run; the list is empty if the events cannot be read."""
     try:
         return effective(read_events(path / EVENTS, growing=True))
     except InvalidInput:

@@ -169,7 +169,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
 
 
 def period(result: Result) -> HistoricalTiming | None:
-    """Return the times of 1973 if they belong to this program and the run undid no work, or else None."""
+    """Return the times of 1973 if these times belong to this program and the run undid no work. If not, return None."""
     if result.apart is not UNSET:
         return None
     task = known(result.task)

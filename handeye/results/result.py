@@ -196,7 +196,7 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """All findings of the referee. Findings on the assembly come before those on the undoing."""
+        """All findings of the referee. Findings on the assembly come before findings on the undoing."""
         return (*(self.built or {}).values(), *self.referee.values())
 
     @property

@@ -1,7 +1,7 @@
 """Checks of control flow, made on the graph of steps.
 
-A statement of a macro becomes several steps, one for each call of the macro. The statement is reported only if it
-is wrong in all calls that give it the same operands.
+A statement of a macro becomes several steps, one for each call of the macro. The statement is reported only if the
+statement is wrong in all calls that give it the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence

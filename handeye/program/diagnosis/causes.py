@@ -29,8 +29,8 @@ class ArmNames(Record, frozen=True, kw_only=True):
 
 
 class BeyondArm(CauseRecord, frozen=True, kw_only=True):
-    """The arm cannot reach a pose, or cannot move there. `goal` is the name of the position, if the position has a
-    name.
+    """The arm cannot reach a pose, or cannot move to that pose. `goal` is the name of the position, if the position
+    has a name.
     """
 
     goal: str = ""
@@ -45,8 +45,7 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):
     """A joint did not follow its set-point. `swings` is True if the joint was far off on both sides during the motion.
-
-    `of` is the part at whose place the motion should end, if any.
+    If the motion should end at the place of a part, `of` is that part.
     """
 
     joint: str
@@ -58,7 +57,7 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
     """The hand is off its set-point by `distance` (m) at the end of a motion.
 
     `joint` is the joint with the largest following error relative to its limit. `swings` is True if this joint was far
-    off on both sides during the motion. `of` is the part at whose place the motion should end, if any.
+    off on both sides during the motion. If the motion should end at the place of a part, `of` is that part.
     """
 
     distance: float
@@ -108,8 +107,8 @@ class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapTooSmall(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) of the closed fingers is below the minimum. `of` is the part at whose place the fingers closed,
-    if any.
+    """The gap (m) of the closed fingers is below the minimum. If the fingers closed at the place of a part, `of` is
+    that part.
     """
 
     gap: float
@@ -210,7 +209,7 @@ class GasketWrong(CauseRecord, frozen=True, kw_only=True):
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of it looks different."""
+    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of the part looks different."""
 
     off: float
     unlike: float

@@ -5,7 +5,7 @@ from handeye.program.diagnosis.cause_record import CauseRecord, JointName
 
 
 class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` are closed although the fingers have been opened. The order is that of
+    """The switches of `fingers` are closed although the fingers have been opened. The fingers are in the order of
     `Sensed.touch`.
     """
 
@@ -85,8 +85,8 @@ class ForceInAir(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
-    """The two sensors of a joint disagree on its displacement in a motion. If `braked` is True, they disagree while
-    the brakes are set, and the brakes may have slipped.
+    """The two sensors of a joint disagree on its displacement in a motion. If `braked` is True, the sensors disagree
+    while the brakes are set, and the brakes may have slipped.
     """
 
     joint: JointName
@@ -107,8 +107,8 @@ class RateScatters(CauseRecord, frozen=True, kw_only=True):
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint needs a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
-    that was measured at the start; None if the joint does not move at all. `one_way` is True if the joint moved in
-    only one direction, so that a weight would have the same effect.
+    that was measured at the start; `friction` is None if the joint does not move at all. `one_way` is True if the
+    joint moved in only one direction, so that a weight would have the same effect.
     """
 
     joint: JointName

@@ -133,7 +133,7 @@ class Level(ABC):
     @abstractmethod
     def start(self, goals: Mapping[int, int]) -> bool:
         """Give motors new strategic goals. Returns False, and changes nothing, if the flag of any sensor is on. If
-        MlError (M09, M10, M15) is raised, nothing has changed either.
+        MlError (M09, M10, M15) is raised, the motion has changed nothing.
         """
 
     # -- power and devices ----------------------------------------------------------------------------
@@ -166,7 +166,9 @@ class Level(ABC):
     @property
     @abstractmethod
     def stopped(self) -> str:
-        """The emergency that has stopped the program, as a sentence; empty if there was none since ENABLE."""
+        """The emergency that has stopped the program, as a sentence; the text is empty if there was no emergency since
+        ENABLE.
+        """
 
     @abstractmethod
     def analog_in(self, point: int) -> int:

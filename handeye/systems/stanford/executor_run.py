@@ -1,4 +1,4 @@
-"""The hand-eye system of 1973 as a `System`. It executes plans of motions in the cell of a task."""
+"""The hand-eye system of 1973 as a `System`. The system executes plans of motions in the cell of a task."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress

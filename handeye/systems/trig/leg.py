@@ -101,7 +101,7 @@ class PlatterAxes(Axes):
         self._tool.put(self.told)
 
     def read(self) -> AxesReading:
-        """Return the sensed axes. The angles are those of the goal, corrected by the rotation from the goal to the
+        """Return the sensed axes. The angles are the goal's angles, corrected by the rotation from the goal to the
         hand. Near straight down, the angles of the hand itself are ambiguous.
         """
         read = self._tool.read()

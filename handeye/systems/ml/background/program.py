@@ -31,7 +31,7 @@ class StoredProgram:
         self._numbers: list[int] | None = None
 
     def remember(self, memory: MutableRecord) -> None:
-        """Continue from a copy of a state. Raises BadFile if the state is not one of a program in ML."""
+        """Continue from a copy of a state. Raises BadFile if the state is not the state of a program in ML."""
         if not isinstance(memory, ProgramMemory):
             raise BadFile("this is not the state of a program in ML")
         for number, text in memory.statements.items():

@@ -145,7 +145,7 @@ class TraceBuffer(_ReadOnly):
 
 
 class SessionLog(_ReadOnly):
-    """The table LG: the lines that were typed, with the latest in line 1 and two characters in each word."""
+    """The table LG: the lines that were typed, with two characters in each word. The latest typed line is in line 1."""
 
     def __init__(self, mos: "Interpreter") -> None:
         self._mos = mos

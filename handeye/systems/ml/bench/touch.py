@@ -91,11 +91,11 @@ def touch(
     limit: int = LIMIT,
     phase: float = 0.0,
 ) -> Touch:
-    """Let the hand descend on a block, and freeze it as the real-time level does: when the sensors are read and a gauge
-    is beyond its limit, the goal becomes the present position.
+    """Let the hand descend on a block, and freeze the hand as the real-time level does: when the sensors are read and
+    a gauge is beyond its limit, the goal becomes the present position.
 
-    The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip it.
-    `Touch.trips` says whether a guard that was set before the start would have tripped in the air.
+    The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip the
+    guard. `Touch.trips` says whether a guard that was set before the start would have tripped in the air.
 
     Raises:
         BadArgument: a value is out of range.
@@ -184,7 +184,7 @@ def _check(what: str, value: float, span: tuple[float, float], unit: str) -> Non
 
 @lru_cache(maxsize=8)
 def _model(bandwidth: float) -> mujoco.MjModel:
-    """Return the scene of the arm over a block. The servo of its z slide has the bandwidth `bandwidth` (Hz)."""
+    """Return the scene of the arm over a block. The servo of the z slide has the bandwidth `bandwidth` (Hz)."""
     spec = scene(ArmWorld(), wand=False)
     half = _BLOCK / 2
     spec.worldbody.add_geom(

@@ -1,4 +1,6 @@
-"""The recorded tables of a run: the value of each word in each cycle. They can be written to a file and read again."""
+"""The recorded tables of a run: the value of each word in each cycle. The recorded tables can be written to a file and
+read again.
+"""
 
 import gzip
 import zlib

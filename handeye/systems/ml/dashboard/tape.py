@@ -162,7 +162,7 @@ class TapeRecorder:
 
 
 class _Fast:
-    """The tables that change in most cycles. They are copied in each cycle, and compared later."""
+    """The tables that change in most cycles. These tables are copied in each cycle, and compared later."""
 
     def __init__(self, machine: Machine, tables: Sequence[Segment]) -> None:
         arms, shared = machine.memory.arms, machine.memory.shared

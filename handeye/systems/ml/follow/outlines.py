@@ -26,7 +26,7 @@ class Rectangle(NamedTuple):
 
 
 class Outline(NamedTuple):
-    """A plate, in units of the slides x and y. Its origin is where the slides are at 0."""
+    """A plate, in units of the slides x and y. The origin is the place at which the slides are at 0."""
 
     corners: tuple[tuple[float, float], ...]  # x, y of a polygon, in order around it
     parts: tuple[Rectangle, ...]  # rectangles of which the plate consists; none: the plate is a disc
@@ -75,7 +75,7 @@ def lay(
     """Lay a plate on the table.
 
     Args:
-        off: how far the plate lies from its place, along x and y of the slides (m).
+        off: how far the plate is displaced from its nominal place, along x and y of the slides (m).
         turned: rotation of the plate about z of the slides (rad).
         friction: coefficient of friction between plate and table.
     """

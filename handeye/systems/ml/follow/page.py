@@ -1,4 +1,4 @@
-"""Builds the report page of a follower: the outline that was felt, drawn over the true one, and the findings."""
+"""Builds the report page of a follower: the outline that was felt, drawn over the true outline, and the findings."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from math import hypot

@@ -168,7 +168,7 @@ def commanded(flow: Flow, starts: Iterable[tuple[int, Side]]) -> dict[int, set[S
 
 
 def _motors(line: Line, arm: ArmSpec) -> Iterator[Diagnostic]:
-    """Find motors that an arm lacks, and constant goals that it cannot reach."""
+    """Find motors that an arm lacks, and constant goals that the arm cannot reach."""
     travel = {motor.number: (motor.lower, motor.upper) for motor in arm.motors}
     of_arm = "" if arm is RIGHT else f" of the {arm.side} arm"
     code, values = line.statement.code, line.statement.parameters

@@ -60,7 +60,7 @@ class ArmSpec:
 
 
 def analog(point: int) -> SensorLine:
-    """Return the line of an analog sensor that reads the counts of its input without a scale."""
+    """Return the line of an analog sensor. The sensor reads the counts of its input without a scale."""
     return SensorLine(input=point)
 
 

@@ -142,9 +142,7 @@ class RealTime(Cycles, Level):
             raise MlError("M10", f"motor {motor} can go from {lower} to {upper}, not to {goal}")
 
     def _set_paces(self) -> None:
-        """Let the motors arrive together if the table AR asks for this; if it does not, each motor goes as fast as it
-        can.
-        """
+        """If the table AR asks for it, let the motors arrive together. If not, let each motor go as fast as it can."""
         memory = self._memory
         memory.pace[:] = [0] * len(memory.pace)
         if not memory.AR[0].coordinate:

@@ -66,7 +66,7 @@ class Hardware(ABC):
         """Called with each line that the program prints."""
 
     def ending(self, statement: int) -> Ending | None:
-        """Return how the job has ended, if a statement has ended it; None if the job continues."""
+        """Return how the job has ended, if a statement has ended the job. Return None if the job continues."""
         return None
 
     @property

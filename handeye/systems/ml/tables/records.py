@@ -49,7 +49,7 @@ class MotorLine(MutableRecord):
 
 
 class SensorLine(MutableRecord):
-    """A line of ST: a logical sensor. Limits are in the units of its reading."""
+    """A line of ST: a logical sensor. Limits are in the units of the sensor's reading."""
 
     kind: Word = ANALOG
     input: Word = 0  # point of AI, or word of DI

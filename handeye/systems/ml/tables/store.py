@@ -1,4 +1,4 @@
-"""Stores the tables of an arm, and those that both arms have in common."""
+"""Stores the tables of an arm, and the tables that both arms have in common."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Final

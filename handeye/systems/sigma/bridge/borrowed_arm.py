@@ -92,7 +92,7 @@ class BorrowedArm(PerfectMotors):
         return self._feel()
 
     def _drive_to(self, goal: Array) -> None:
-        """Drive the tool towards a goal for a servo period. Raises Refused if the arm cannot go there."""
+        """Drive the tool towards a goal for a servo period. Raises Refused if the arm cannot go to the goal."""
         try:
             self._axes.put(goal)
         except Refused as refused:
@@ -198,7 +198,7 @@ class BorrowedArm(PerfectMotors):
 def borrowed(
     spec: WorldSpec, at: tuple[float, float], poll: Callable[[], None] = lambda: None
 ) -> BorrowedArm:
-    """Return the Stanford arm over the table of a world of the water pump, with the friction of its joints measured.
+    """Return the Stanford arm over the table of a world of the water pump, whose joint friction has been measured.
 
     Args:
         at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).

@@ -58,7 +58,9 @@ class ForceTest(NamedTuple):
 
 
 def force_test(line: Line, after: int | None) -> ForceTest | None:
-    """Return the force test of an IF statement, or None if it tests something else. `after` is the next line."""
+    """Return the force test of an IF statement, or None if the statement tests something else. `after` is the next
+    line.
+    """
     match line.statement:
         case Statement(
             values=(Binary(operator=sign, left=Call("ABS", Call("FORCE", axis)), right=right),),

@@ -150,7 +150,9 @@ def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
 
 
 def _device(statement: Statement) -> str:
-    """Return the reason why an ACTUATE cannot become an operation; empty if it can."""
+    """Return the reason why an ACTUATE cannot become an operation. The text is empty if the ACTUATE can become an
+    operation.
+    """
     kind, value = MAL_DEVICES[statement.names[0].text][1], constant(statement.values[0])
     if kind not in ("HAND", "DRIVER"):
         return f"the arm has no {statement.names[0].text}"
@@ -291,7 +293,7 @@ class _Translation:
     def _path(
         self, line: Line, before: Before, moved: Axes, guards: tuple[Against, ...]
     ) -> AnyOperation | None:
-        """Return the motion of a MOVE, or None if it was refused."""
+        """Return the motion of a MOVE, or None if the MOVE was refused."""
         statement = line.statement
         places = {**before.places, **moved}
         ways = {
@@ -335,7 +337,9 @@ class _Translation:
         return (-x if self._mirrored else x) * _MM, y * _MM, -z * _MM
 
     def _position(self, place: Sequence[float]) -> str:
-        """Add a position of the tool for a place in the coordinates of the arm (mm), and return its name."""
+        """Add a position of the tool for a place in the coordinates of the arm (mm), and return the name of this
+        position.
+        """
         x, y, z = place
         across = ACROSS - x if self._mirrored else x
         name = f"X{x:g}_Y{y:g}_Z{z:g}".replace(".", "p").replace("-", "m")
@@ -367,7 +371,7 @@ class _Translation:
 
 
 def _way(moved: Axes, before: Before, name: str) -> Known:
-    """Return how far an axis has to go to its goal (mm); unknown if its present place or goal is unknown."""
+    """Return how far an axis has to go to its goal (mm); unknown if the axis's present place or its goal is unknown."""
     goal, here = moved[name], before.places[name]
     return goal - here if isinstance(goal, float) and isinstance(here, float) else UNKNOWN
 

@@ -46,7 +46,9 @@ class Peg(Record, frozen=True, kw_only=True):
 
 
 def rack_y(number: int) -> float:
-    """Return the Y coordinate (mm) of a place in the rack. Places are numbered from 1; arm 1 uses the odd ones."""
+    """Return the Y coordinate (mm) of a place in the rack. Places are numbered from 1; arm 1 uses the places with odd
+    numbers.
+    """
     return 80.0 * number - 20.0
 
 

@@ -62,7 +62,7 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledLine:
-    """An executable line. `begin` is the address at which its code begins."""
+    """An executable line. `begin` is the address at which the line's code begins."""
 
     number: int
     task: str
@@ -90,7 +90,7 @@ class MalProgram:
 
     @cached_property
     def beyond(self) -> CompiledLine | None:
-        """The first line that uses an axis or hand that only the assembly line has, or None."""
+        """The first line that uses an axis or hand that only the assembly line has. None if there is no such line."""
         for address, each in enumerate(self.code):
             names = each.operand if isinstance(each.operand, tuple) else (each.operand,)
             if any(name in _BEYOND for name in names):
@@ -99,7 +99,7 @@ class MalProgram:
 
     def check_alone(self) -> None:
         """Raise BadFile unless SUPERSIGMA alone can run the program. A missing microcomputer reports nothing, so the
-        program would not notice that it is missing.
+        program would not notice that the microcomputer is missing.
         """
         if self.beyond is not None:
             raise BadFile(
@@ -119,7 +119,9 @@ class MalProgram:
 
     @cached_property
     def line_at(self) -> tuple[int, ...]:
-        """For each address, the index of its line. The END after a task belongs to the task's last line."""
+        """For each address, the index of the line to which the address belongs. The END after a task belongs to the
+        task's last line.
+        """
         owners, at = [], 0
         begins = {line.begin: number for number, line in enumerate(self.lines)}
         for address in range(len(self.code)):

@@ -108,7 +108,7 @@ class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
 
 
 class CountWrong(SystemEvent, frozen=True, kw_only=True):
-    """ORIGIN has shown that the count of an axis was wrong, although no force had made it doubtful."""
+    """ORIGIN has shown that the count of an axis was wrong, although no force had made the count doubtful."""
 
     importance: ClassVar[Importance] = "warning"
     axis: str

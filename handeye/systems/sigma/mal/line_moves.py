@@ -1,4 +1,4 @@
-"""Moves axes along a straight line although they are not synchronised. Each axis moves at constant speed, and
+"""Moves axes along a straight line although the axes are not synchronised. Each axis moves at constant speed, and
 the axes wait for each other at intermediate points.
 """
 

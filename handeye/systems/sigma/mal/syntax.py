@@ -62,7 +62,7 @@ class AxisGoal(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Statement:
-    """A statement. Its word determines, according to the grammar, which fields are set."""
+    """A statement. The word of the statement determines, according to the grammar, which fields are set."""
 
     word: str
     span: Span

@@ -1,6 +1,7 @@
-"""The virtual machine. It schedules the tasks, one statement of each in turn, and handles aborts and deadlocks.
+"""The virtual machine, which schedules the tasks, one statement of each in turn, and handles aborts and deadlocks.
 
-It uses the machine only through `ports/microbus.py`. Between two statements, its memory is its complete state.
+The virtual machine uses the simulated machine only through `ports/microbus.py`. Between two statements, the memory of
+the virtual machine is its complete state.
 """
 
 import math
@@ -102,8 +103,8 @@ class VirtualMachine:
         self.settle()
 
     def statement(self) -> None:
-        """Execute the statement of the task whose turn it is, until it ends or waits. `settle` then determines
-        the next task.
+        """Execute the statement of the task whose turn it is, until the statement ends or waits. `settle` then
+        determines the next task.
         """
         memory, name = self.memory, self.memory.turn
         memory.last, began = name, self.machine.now
@@ -199,8 +200,7 @@ class VirtualMachine:
     # -- turns ---------------------------------------------------------------------------------------------
 
     def _order(self) -> list[str]:
-        """Return the tasks in the order of their turns, beginning with the task after the one that had the last
-        turn."""
+        """Return the tasks in the order of their turns, beginning with the task after the task that had the last turn."""
         names = [*self.memory.tasks]
         after = names.index(self.memory.last) + 1 if self.memory.last in names else 0
         return names[after:] + names[:after]
@@ -282,7 +282,7 @@ class VirtualMachine:
 
     def _see_aborts(self) -> None:
         """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues as
-        its ON ABORT says; if it has no ON ABORT, the program stops.
+        its ON ABORT says; if the task has no ON ABORT, the program stops.
         """
         if not self.machine.interrupt:
             return

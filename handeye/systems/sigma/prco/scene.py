@@ -64,7 +64,7 @@ def add_pump(spec: mujoco.MjSpec, pump: Pump) -> None:
 
 
 def _add_base(shaper: Shaper, pump: Pump) -> None:
-    """Add the base with its holes, loose in a nest of four stops."""
+    """Add the base with its holes. The base lies loose in a nest of four stops."""
     nest, (length, width, height) = pump.nest, BASE
     stops = shaper.spec.worldbody.add_body(name="nest", pos=[nest.x * MM, nest.y * MM, 0])
     for sign in (-1, 1):

@@ -144,7 +144,7 @@ class TaughtJob(ABC):
         """The goals of the blocks (mm), in the order in which the arm picks the blocks up."""
 
     def remembered(self) -> "Findings":
-        """Return findings on the program after its reversal; empty by default."""
+        """Return the findings on the program after its reversal. By default, there are no findings."""
         return {}
 
 

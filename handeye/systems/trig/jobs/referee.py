@@ -1,4 +1,4 @@
-"""The referee of the block bench. It uses the true poses of the blocks and of the hand."""
+"""The referee of the block bench. The referee uses the true poses of the blocks and of the hand."""
 
 from collections.abc import Mapping, Sequence
 from math import acos, degrees

@@ -168,7 +168,7 @@ class AxesArm(TrigArm):
         return found
 
     def _stand(self) -> None:
-        """Stop, and make the sensed position the commanded one."""
+        """Stop, and make the sensed position the commanded position."""
         self._goal = self._where()
         self._wait(self._limits.settling)
 

@@ -112,7 +112,7 @@ class Script(Desk):
         self.number = 0  # number of the line read last, from 1
 
     def next_line(self) -> str | None:
-        """Return the next line that is not empty, or None."""
+        """Return the next line that is not empty, or None if there is no such line."""
         for number, line in self._lines:
             self.number = number
             if text := stripped(line):

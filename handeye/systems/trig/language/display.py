@@ -210,7 +210,7 @@ _STEP_STYLES: Final = {"guarded": "guarded", "normal": "position", "savpos": "po
 
 def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols) -> tuple[str, str, Style]:
     """Return the name of a step, its action, and the style of the action. If the name already says everything, the
-    action is empty, and the style is that of the name.
+    action is empty, and the returned style is the style of the name.
     """
     node = cell.node
     if cell.link:

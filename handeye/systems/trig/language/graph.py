@@ -129,12 +129,12 @@ class Graph:
         return id
 
     def target(self, loop: Node) -> Node | None:
-        """Return the step to which a loop returns, or None."""
+        """Return the step to which a loop returns, or None if there is no such step."""
         id = self.step_at(loop.partner)
         return None if id == NONE else self[id]
 
     def fill(self, nodes: Sequence[Node]) -> None:
-        """Replace all nodes by those of a file."""
+        """Replace all nodes by the nodes of a file."""
         self.nodes = {node.id: node for node in nodes}
         self._next = max(self.nodes) + 1
         for node in nodes:

@@ -31,7 +31,7 @@ def next_step(session: Session, given: Arguments) -> None:
 
 
 def _come_down(session: Session, son: int, branch: int) -> None:
-    """Move the cursor along an edge, and make every father on the way the most recent one."""
+    """Move the cursor along an edge. Make each node on the way the most recent father of the next node."""
     graph, father = session.program.graph, session.program.cursor
     node = graph[father].sons[branch]
     while True:
@@ -54,7 +54,7 @@ def previous_step(session: Session, given: Arguments) -> None:
 
 
 def goto(session: Session, given: Arguments) -> None:
-    """GOTO: make a named step the active one."""
+    """GOTO: make a named step the active step."""
     session.program.put_cursor(session.step(given.step or "").id)
 
 

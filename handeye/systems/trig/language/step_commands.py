@@ -142,7 +142,7 @@ def link(session: Session, given: Arguments) -> None:
 
 
 def _add(session: Session, node: Node, branch: int) -> None:
-    """Add an executed step below the active one, and make it the active step."""
+    """Add an executed step below the active step, and make the new step the active step."""
     program = session.program
     program.graph.insert(program.cursor, branch, node)
     program.put_cursor(node.id)
@@ -239,7 +239,7 @@ def flush(session: Session, given: Arguments) -> None:
 
 
 def ask_if_unsaved(session: Session, deed: str) -> None:
-    """If the program has unsaved changes, ask the user whether to lose them. Raises Cancelled unless the user
+    """If the program has unsaved changes, ask the user whether to lose these changes. Raises Cancelled unless the user
     agrees."""
     if session.program.changed:
         session.confirmed(f"The program has not been written to a file. {deed}? ")

@@ -127,8 +127,9 @@ class TrigArm(ABC):
 
     @abstractmethod
     def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to where the held object was taken up, and set it down. Arguments and result are those of
-        `back`."""
+        """Return to the place where the held object was taken up, and set the object down. The arguments and the
+        result are the same as for `back`.
+        """
 
     @abstractmethod
     def hand(self, closed: bool) -> None:

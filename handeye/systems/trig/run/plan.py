@@ -158,7 +158,7 @@ def _text(program: TrigProgram, node: Node, number: int) -> str:
 
 
 def text_now(step: TaughtStep, node: Node) -> str:
-    """Return the present text of a step. For a loop, it includes the number of the present round."""
+    """Return the present text of a step. The text of a loop includes the number of the present round."""
     if node.type != "loop":
         return step.text
     back = f"goes back ({node.count + 1} of {node.wanted})" if node.count < node.wanted else "goes on"
