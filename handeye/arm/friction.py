@@ -11,7 +11,7 @@ the whole motion. In addition, the steps of the converters are sensed as a force
 torque is rounded by up to half a step. The rate gained in a period is read in steps. One step multiplied by the
 inertia appears as a torque. The errors of both roundings are uniformly distributed, with the variance step^2 / 12.
 
-Measured on 120 straight motions in free air, in three worlds with twice the errors: the mean force over a motion
+Measured on 120 straight motions in free air, in three worlds with twice the usual errors: the mean force over a motion
 was at most 1.02 times the force computed from unknown friction. The scatter of single servo periods was 1.05 times
 the scatter computed from the converter steps (1.28 times at most).
 """

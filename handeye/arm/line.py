@@ -21,8 +21,8 @@ RAMP = 0.1  # s to reach and to leave cruising speed; chosen: six servo periods 
 def straight(
     arm: ArmModel, q_start: Array, displacement: Array, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Plan a straight motion of the tool point with constant orientation. Returns its set-points, or the reason why
-    it is impossible.
+    """Plan a straight motion of the tool point with constant orientation. Returns the set-points of the motion, or the
+    reason why the motion is impossible.
 
     The motion covers `displacement` (m, in W, shape (3,)) and cruises at `speed` (m/s). A motion too short for this
     speed stays slower.
@@ -40,8 +40,8 @@ def straight(
 def arc(
     arm: ArmModel, q_start: Array, centre_xy: Array, angle: float, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Plan a turn of the hand about a vertical axis through `centre_xy` (m, shape (2,)). Returns its set-points, or
-    the reason why it is impossible.
+    """Plan a turn of the hand about a vertical axis through `centre_xy` (m, shape (2,)). Returns the set-points of the
+    motion, or the reason why the motion is impossible.
 
     The motion covers `angle` (rad, counter-clockwise seen from above) and cruises at up to `speed` (rad/s).
     """
@@ -62,7 +62,8 @@ def arc(
 
 
 def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float = RAMP) -> Samples | IKResult:
-    """Plan a turn of the hand about its tool point. Returns its set-points, or the reason why it is impossible.
+    """Plan a turn of the hand about its tool point. Returns the set-points of the motion, or the reason why the motion
+    is impossible.
 
     The motion covers the rotation vector `turn` (rad, in W, shape (3,)) and cruises at up to `speed` (rad/s).
     """
@@ -133,8 +134,8 @@ def _shortest(step: Array, turn: Array) -> Array:
 
 
 def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Samples | IKResult:
-    """Plan a smooth motion of one joint, given by its index from 0, to a goal (rad or m). Returns its set-points,
-    or the reason why it is impossible.
+    """Plan a smooth motion of one joint, given by its index from 0, to a goal (rad or m). Returns the set-points of
+    the motion, or the reason why the motion is impossible.
 
     `speed` is a fraction of the joint's rate limit; the acceleration is scaled by its square.
     """

@@ -32,7 +32,7 @@ class GraspModel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandModel:
-    """A hand with two fingers that open and close together, with its palm and wrist; lengths in m."""
+    """A hand: two fingers that open and close together, a palm and a wrist. Lengths are in m."""
 
     length: float  # wrist centre to finger tips
     mass: float  # of both fingers, in kg; not included in the last link's `mass`

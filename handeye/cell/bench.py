@@ -80,7 +80,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 
     def replace(self, spec: mujoco.MjSpec) -> None:
-        """Continue with a changed scene. Everything that exists in both scenes keeps its state."""
+        """Continue with a changed scene. Everything that exists in both the old and the new scene keeps its state."""
         self.model, self.data = spec.recompile(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
         for part in self._parts:

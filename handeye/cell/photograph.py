@@ -35,8 +35,8 @@ class Near:
 
 
 class Photographer:
-    """Takes photographs of one scene, which is loaded into OpenGL once. In each photograph the bodies may be at
-    different places.
+    """Takes photographs of one scene, which is loaded into OpenGL once. The bodies may be at different places from one
+    photograph to the next.
     """
 
     def __init__(

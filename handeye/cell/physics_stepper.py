@@ -15,8 +15,8 @@ mm into the part before the next step detected the contact, and would throw the 
 
 In middle steps all contacts and couplings are made stiffer in the same way, so a change of step changes no force at
 rest. Contacts may begin and end in middle steps, except those of the hand. The task names the *delicate* contacts,
-which need short steps, and the joints that must be at rest in middle steps. A screw that is tightened in middle steps,
-for example, clamps with less force.
+which need short steps, and the joints that must be at rest in middle steps. For example, a screw clamps with less
+force if it is tightened in middle steps.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. For a free
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
@@ -320,7 +320,7 @@ def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
 def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Let the trees of bodies whose velocities are all zero fall asleep after one step, if they then still rest.
 
-    MuJoCo sets the velocities of a sleeping tree to zero, so these trees slept before.
+    MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity has slept before.
     """
     resting = np.ones(model.ntree, dtype=bool)
     resting[model.dof_treeid[data.qvel != 0.0]] = False

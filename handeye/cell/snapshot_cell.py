@@ -69,8 +69,8 @@ class SnapshotCell:
         )
 
     def restore(self, state: CellState) -> None:
-        """Restore the cell to a state. Whatever follows is then identical, byte for byte, no matter what happened
-        before.
+        """Restore the cell to a state. Everything that the cell does after that is identical, byte for byte, no matter
+        what happened before.
 
         Sleep is not part of a state: when a state is restored, all bodies wake, and then the bodies at rest fall
         asleep again. If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own

@@ -66,8 +66,8 @@ class Executor:
         return self.run.state
 
     def step(self) -> None:
-        """Execute one step, or reverse one. If a step raises an error and the next step does not test for it, call
-        the operator.
+        """Execute one step, or reverse one. If a step raises an error and the next step does not test for this error,
+        call the operator.
         """
         if self.state.undoing is not None:
             stopped = undo_last(self.run)

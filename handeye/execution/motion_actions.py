@@ -266,8 +266,8 @@ def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
     """Return the error if the motor is held fast: its torque of the last second is high, but below the torque of
     the guard.
 
-    No thread and no slipping bit takes as much torque for so long. A motor that is held fast takes the torque of
-    its clutch.
+    No thread and no slipping bit takes this much torque for a whole second. A motor that is held fast takes the torque
+    of its clutch.
     """
     lately, asked = run.drive.state.lately, min(each.torque for each in guards if isinstance(each, Torque))
     enough = len(lately) >= round(PLATEAU / run.drive.period) and asked <= STALLED_TORQUE

@@ -152,7 +152,7 @@ class Servo:
         friction: Array | float = 0.0,
         dither: Array | float = 0.0,
     ) -> Motion[Array]:
-        """Run one servo period. At its beginning, the arm should be at `q` and move with rates `qd`.
+        """Run one servo period. At the beginning of the period, the arm should be at `q` and move with rates `qd`.
 
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
         `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that

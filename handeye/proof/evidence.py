@@ -272,7 +272,9 @@ class FreeTurn(Evidence, frozen=True, kw_only=True):
 
 
 class Taken(Evidence, frozen=True, kw_only=True):
-    """A picture of a comparison: the earlier or the later one. `picture` is its name; the prover fills it in."""
+    """A picture of a comparison: the earlier or the later one. `picture` is the name of the picture; the prover fills
+    in this name.
+    """
 
     operations: ClassVar = (Look,)
 
@@ -287,7 +289,7 @@ class Taken(Evidence, frozen=True, kw_only=True):
 
 class Compared(Evidence, frozen=True, kw_only=True):
     """A comparison of two pictures of a part at a place (m, table frame): an INSPECT or a MATCH. `before` and `after`
-    are the names of its pictures; the prover fills them in.
+    are the names of the two pictures; the prover fills in these names.
     """
 
     operations: ClassVar = (Inspect, Match)

@@ -1,8 +1,8 @@
 """Where the hand can be at each node, as far as the program fixes the place: the planned place of the last MOVE,
 and what the motions after it add.
 
-Corrections that are measured during a run (RESTORE, and the offset of a search) are left out: they lead the hand
-to the place for which the position stands.
+Corrections that are measured during a run (RESTORE, and the offset of a search) are left out, because these
+corrections only lead the hand to the true place of the position.
 """
 
 import math

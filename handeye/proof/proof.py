@@ -223,7 +223,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Find the last leg at which a path takes back what it had shown of a claim, and return the leg's index."""
+    """Find the last leg that undoes what the path had shown of a claim before, and return the index of this leg."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

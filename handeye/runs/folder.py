@@ -166,8 +166,8 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """Remove the files with the outcome when the run continues, because they are outdated. `close` removes the
-        outdated files that other commands write while the run goes on.
+        """Remove the files with the outcome when the run continues, because these files are then outdated. `close`
+        removes the outdated files that other commands write while the run goes on.
         """
         if not self._continued:
             self._remove_outcome()

@@ -112,7 +112,7 @@ class HandOver(Record, frozen=True, kw_only=True):
 
 
 def place_now(sensed: Sensed, arm: ArmModel) -> tuple[float, ...]:
-    """Return the place of the hand by the potentiometers."""
+    """Return the place of the hand, as the potentiometers measure it."""
     return rounded_place(forward(arm, sensed.q))
 
 

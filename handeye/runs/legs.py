@@ -30,7 +30,7 @@ class Use(NamedTuple):
 
 
 class Lack(NamedTuple):
-    """What a leg cannot do, with the line of its text."""
+    """A demand of a program that a leg cannot meet, with the line of the program."""
 
     line: int
     sentence: str
@@ -121,7 +121,7 @@ class LegSystem(ABC):
         return ()
 
     def lacks(self, plan: Record, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        """Return the demands of a stage that a leg cannot meet. `earlier` gives the stages that earlier legs of the
+        """Return those demands of a stage that a leg cannot meet. `earlier` gives the stages that earlier legs of the
         same program execute.
         """
         return ()

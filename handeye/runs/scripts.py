@@ -77,8 +77,9 @@ def taught_beside(file: Path) -> Taught:
 
 
 def in_cell(known: Taught, work: Task) -> Taught:
-    """Add the fixtures of the task's cell to taught positions. A fixture in the taught file replaces one of the
-    same name."""
+    """Add the fixtures of the task's cell to taught positions. A fixture in the taught file replaces a fixture of the
+    cell with the same name.
+    """
     return replace(known, fixtures={**work.fixtures(), **known.fixtures})
 
 

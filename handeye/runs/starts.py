@@ -121,8 +121,8 @@ class StartStates:
 
 
 def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
-    """Return a start with one more fault in its world. The fault begins with a stage; until then the two worlds are
-    equal.
+    """Return a start with one more fault in its world. The fault begins with a stage; before that stage, the worlds
+    with and without the fault are equal.
     """
     setup, snapshot = start.setup, start.snapshot
     assert snapshot is not None

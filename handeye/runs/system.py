@@ -399,8 +399,9 @@ class System(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
-        """Build the running system before its first step. Raises InvalidInput if it cannot be built on this
-        computer."""
+        """Build the running system before its first step. Raises InvalidInput if the system cannot be built on this
+        computer.
+        """
 
     def machine(self, plan: Any) -> tuple[str, str]:
         """Return the name and digest of the machine for which a plan is made; both are empty if there is no

@@ -29,7 +29,7 @@ _SIZE: Final = 7  # axes of the tool
 
 
 class ToolMemory(MutableRecord, kw_only=True):
-    """The state of the arm between two steps of a program that moves it by tool axes."""
+    """The state of the arm between two steps of a program that moves the arm by tool axes."""
 
     drive: DriveState
     goal: tuple[float, ...] = ()  # set-points x, y, z (m), O, A, T (rad); empty: the arm was not taken over
@@ -50,7 +50,7 @@ class ToolArm:
 
     @property
     def time(self) -> float:
-        """Time on the clock of the cell (s), rounded to its period."""
+        """Time on the clock of the cell (s), rounded to the period of this clock."""
         period = self.arm.servo.period
         return round(round(self.drive.sensed.time / period) * period, 6)
 

@@ -44,7 +44,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 
     @property
     def harmless(self) -> bool:
-        """True if the arm was stopped before it did harm."""
+        """True if the arm was stopped before the arm did harm."""
         return self.stopped and self.moved <= MOVED and self.felt <= FORCE
 
 

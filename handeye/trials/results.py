@@ -31,7 +31,7 @@ _TOLD: Final = 2  # Greatest number of findings in a row
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Results(Sequence[Result]):
-    """Results in the order of their worlds. `print` and notebooks display them as a table."""
+    """Results in the order of their worlds. `print` and notebooks display the results as a table."""
 
     each: tuple[Result, ...]
 

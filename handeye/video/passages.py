@@ -1,4 +1,4 @@
-"""Selects the parts of a run that a video shows, and how long each is shown."""
+"""Selects the parts of a run that a video shows, and determines how long the video shows each part."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -69,8 +69,8 @@ def window(view: View, part: Part, shrink: float = 0.0) -> Array:
 
 
 def _rotated(outline: Rectangle, yaws: Array) -> Array:
-    """Turn an outline about the reference point by `yaws` (rad), shape (n,). Returns its corners (in metres, shape
-    (n, 4, 2)).
+    """Turn an outline about the reference point by `yaws` (rad), shape (n,). Returns the corners of the turned
+    outlines (in metres, shape (n, 4, 2)).
     """
     x0, y0, x1, y1 = outline
     corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])

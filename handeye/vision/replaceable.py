@@ -93,8 +93,8 @@ def specific_by(name: str, function: Callable[..., Any]) -> Specific:
 
 
 def inspect_by(name: str, function: Callable[..., Any]) -> Inspect:
-    """Wrap a function that takes the pictures before and after a gasket was laid, the view, the part under the gasket
-    and the pose x, y (m), yaw (rad) of the part, and returns True if the gasket is in place.
+    """Wrap a function that returns True if a gasket is in place. The function takes the picture before the gasket was
+    laid, the picture after that, the view, the part under the gasket, and the pose x, y (m), yaw (rad) of this part.
     """
 
     def inspected(before: Picture, after: Picture, view: View, part: Part, pose: Pose2D) -> GasketInspection:

@@ -57,8 +57,8 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> tuple[Array, Array]:
-    """Find joint positions that bring the hand nearest to poses. Returns the positions, shape (..., n), and the
-    remaining displacement, shape (..., 3), in m.
+    """Find the joint positions that bring the hand nearest to each of some poses. Returns the positions, shape (...,
+    n), and the remaining displacement, shape (..., 3), in m.
     """
     q = np.zeros((*X_WT.shape[:-2], len(arm.joints)))
     q[..., b.held] = held_at
@@ -68,7 +68,7 @@ def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> t
 
 
 def _turn_angle(b: _Build, X_WT: Pose) -> Array:
-    """Return the angle (rad) between the fixed orientation of the hand and the orientation of poses."""
+    """Return the angle (rad) between the fixed orientation of the hand and the orientation of each pose."""
     chord = np.linalg.norm(X_WT[..., :3, :3] - b.R_WT, axis=(-2, -1)) / (2 * math.sqrt(2))
     return np.asarray(2 * np.arcsin(np.minimum(chord, 1.0)))
 

@@ -103,7 +103,7 @@ def retracing(
     is at most as fast as guarded motions.
 
     If `feeling` is True, the fingers close at most at the speed of centring. Faster fingers would push a loose
-    object ahead, and their switches would be open at most readings.
+    object ahead, and the switches of the fingers would usually be read as open.
     """
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)

@@ -1,5 +1,5 @@
-"""Executes schedules, and checks invariants after each. If a schedule fails, elements of it are removed as long as
-it still fails.
+"""Executes schedules, and checks invariants after each. If a schedule fails, its elements are removed one by one, as
+long as the schedule still fails.
 """
 
 import tempfile
@@ -74,7 +74,7 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
-    """Return the findings that should hold after the first `done` stages of the program, but fail. All findings
+    """Return the findings that should hold after the first `done` stages of the program, but do not hold. All findings
     must hold after the last stage; `holds_from` names the findings that must already hold after an earlier stage.
     """
     return [

@@ -130,7 +130,9 @@ class Campaign:
         return rows
 
     def world(self, condition: str, point: Point) -> WorldSpec:
-        """Return the world of a point. At level 0, it is the world of a seed, as every command makes it."""
+        """Return the world of a point. At level 0, the world of a point is the world of a seed, as every command makes
+        it.
+        """
         if condition == FIRST:
             return replace(self.trial.world, seed=point.noise)
         return self.space.world(point)

@@ -79,8 +79,8 @@ def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> l
 
 
 def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> Generator[Array, bool, None]:
-    """Yield worlds that deviate less, at most `tries` of them. For each world, the caller answers True if the program
-    still fails in it.
+    """Yield at most `tries` worlds that deviate less from the middle. For each world, the caller answers True if the
+    program still fails in it.
     """
     kept = numbers.copy()
     parts = deque(list(group) for group in groups)
