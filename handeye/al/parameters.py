@@ -41,7 +41,9 @@ class _Piece(Located, frozen=True, gc=False):
 
 @dataclass(frozen=True, slots=True)
 class FilledLine:
-    """A line of a macro with arguments filled in. `given` maps the span of each parameter to the parameter's argument."""
+    """A line of a macro with arguments filled in. `given` maps the span of each parameter to the parameter's
+    argument.
+    """
 
     statement: Statement
     pieces: Sequence[_Piece]
@@ -140,7 +142,9 @@ def uses(operand: Operand) -> tuple[Label, ...]:
 
 
 def across(one: Operand, other: Operand) -> Span:
-    """Return the span from one operand to another, or the span of the first operand if either operand is an argument."""
+    """Return the span from one operand to another, or the span of the first operand if either operand is an
+    argument.
+    """
     return one.span if one.use or other.use else Span(start=one.start, end=other.end)
 
 

@@ -44,7 +44,7 @@ class SimulatedCell(Clock, SnapshotCell):
         stepper: PhysicsStepper | None = None,
         noise: np.random.Generator,
     ) -> None:
-        """Switch a cell on. Switching the cell on reads all devices once.
+        """Switch a cell on, and read all its devices for the first time.
 
         `mechanisms`, such as threads and further arms, act on the model in the given order. All sensors except the
         camera draw their noise from `noise`. Raises ValueError if two devices or mechanisms have the same name,

@@ -1,4 +1,4 @@
-"""Model of a vidicon and of the vidicon's digitiser: blur, shading, gamma, gain, noise, and sixteen intensity levels."""
+"""Model of a vidicon with a digitiser: blur, shading, gamma, gain, noise, and sixteen intensity levels."""
 
 import math
 from functools import cache

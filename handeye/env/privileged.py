@@ -1,5 +1,5 @@
-"""Shaped rewards. Shaped rewards are computed from the true state of the cell, so they give a policy help during its
-training that no sensor gives. Episodes with such a reward are marked as privileged.
+"""Shaped rewards. They are computed from the true state of the cell. A policy that is trained with shaped rewards
+therefore has had help that no sensor gives, and episodes with such rewards are marked as privileged.
 """
 
 from collections.abc import Callable

@@ -72,7 +72,9 @@ class ScriptedPin(Policy):
                 drive.follow(samples)
 
     def _down(self, drive: ArmDrive, distance: float, speed: float, force: float) -> bool:
-        """Go down, and yield sideways. Returns True if a force stopped the hand before it had gone the distance."""
+        """Go down, and yield sideways. Returns True if a force stopped the hand before the hand had moved by
+        `distance` (m).
+        """
         friction = np.abs(felt_friction(drive.arm, drive.state.q, drive.state.friction)).sum(axis=1)
         course = Course(
             compliance=drive.arm.compliance, direction=_DOWN, distance=distance, speed=speed,

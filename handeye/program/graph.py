@@ -14,8 +14,8 @@ MAX_SEARCHED: Final = 100  # steps
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """Steps by number, with their predecessors and successors; a successor of None is the end of the program. The
-    graph also has the numbers of the steps of each kind of operation, and the reachable steps.
+    """Steps by number, with their predecessors and successors; the successor None stands for the end of the program.
+    The graph also has the numbers of the steps of each kind of operation, and the reachable steps.
     """
 
     steps: Sequence[Step]

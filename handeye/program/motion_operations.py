@@ -190,7 +190,7 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check the height (m) at which the last motion ended, above the place of a saved difference. Raises error 9 if
+    """Check the height (m) of the end of the last motion above the place of a saved difference. Raises error 9 if
     this height is outside the range.
     """
 

@@ -47,7 +47,7 @@ class ExportedArm(Record, frozen=True, kw_only=True):
 
 
 def export_urdf(path: Path, *, overwrite: bool = False) -> ExportedArm:
-    """Write the Stanford arm to a URDF file, as the arm's drawing describes the arm. Raises InvalidInput if the file
+    """Write the nominal Stanford arm (the arm of the drawing) to a URDF file. Raises InvalidInput if the file
     cannot be written.
     """
     check_place(path, URDF, overwrite=overwrite)

@@ -209,7 +209,9 @@ class GasketWrong(CauseRecord, frozen=True, kw_only=True):
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of the part looks different."""
+    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of the part looks
+    different.
+    """
 
     off: float
     unlike: float

@@ -180,5 +180,6 @@ class Level(ABC):
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
-        """In a digital output word, set the bits for which the mask has a 1. Raises MlError (M11; M15 while the pump is
-        on)."""
+        """In a digital output word, replace each bit for which `mask` has a 1 by the same bit of `value`. Raises
+        MlError (M11; M15 while the pump is on).
+        """

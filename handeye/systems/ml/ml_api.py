@@ -104,7 +104,9 @@ class Ml:
         return [event.text for event in self.events[first:] if isinstance(event, Printed)]
 
     def begin(self, first: int | None = None) -> None:
-        """Start the stored program at a given statement, or at the first statement. This executes no statement yet."""
+        """Start the stored program at a given statement, or at the first statement. `begin` executes no
+        statement yet.
+        """
         self._mos.run(first)
 
     def step(self, statements: int = 1) -> bool:

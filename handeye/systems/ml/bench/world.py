@@ -138,7 +138,9 @@ class ArmWorld:
         return self.variation.value(name, self.spec)
 
     def fault(self, name: str) -> float | None:
-        """Return the size of a fault (SI; 1 for a fault without a size), or None if the world does not have the fault."""
+        """Return the size of a fault (SI; 1 for a fault without a size), or None if the world does not have the
+        fault.
+        """
         faults = () if self.spec is None else self.spec.faults
         return next((1.0 if each.value is None else each.value for each in faults if each.name == name), None)
 

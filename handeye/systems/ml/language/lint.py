@@ -1,5 +1,5 @@
 """Warnings on how a program uses its sensors: motions without guards, flags that stay on, and speeds so high that the
-start of a motion exceeds a force limit.
+jolt at the start of a motion exceeds a force limit.
 
 All paths through the program are followed. The result shows, for each statement, which sensors are guarded on every
 path to the statement, and which flags may be on.

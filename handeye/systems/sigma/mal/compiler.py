@@ -387,8 +387,8 @@ class _Ways:
 
     @cached_property
     def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
-        """Lists of the lines that follow FORs and GOSUBs. The key of a list has the task, the instruction and its
-        operand.
+        """The lines that follow FORs and GOSUBs, as lists. The key of each list consists of the task, the instruction
+        and the operand.
         """
         behind: dict[tuple[str, str, Operand], list[int | None]] = {}
         for index, line in enumerate(self._program.lines):

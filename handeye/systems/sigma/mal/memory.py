@@ -12,8 +12,8 @@ Address = Annotated[int, Meta(ge=0)]
 
 
 class Flags(Record, frozen=True, kw_only=True, tag=True):
-    """Wait until flags are set. If `take` is True, the task waits for a single flag, and the same act clears that
-    flag.
+    """Wait until flags are set. If `take` is True, the task waits for a single flag, and the act that ends the wait
+    clears this flag.
     """
 
     names: tuple[str, ...]

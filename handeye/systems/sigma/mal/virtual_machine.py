@@ -200,7 +200,9 @@ class VirtualMachine:
     # -- turns ---------------------------------------------------------------------------------------------
 
     def _order(self) -> list[str]:
-        """Return the tasks in the order of their turns, beginning with the task after the task that had the last turn."""
+        """Return the tasks in the order of their turns, beginning with the task after the task that had the
+        last turn.
+        """
         names = [*self.memory.tasks]
         after = names.index(self.memory.last) + 1 if self.memory.last in names else 0
         return names[after:] + names[:after]

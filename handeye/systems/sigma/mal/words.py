@@ -1,4 +1,6 @@
-"""The table of the words of MAL. The parser, completion, `explain` and the page of words are derived from this table."""
+"""The table of the words of MAL. The parser, completion, `explain` and the page of words are derived from this
+table.
+"""
 
 from typing import Final, Literal, NamedTuple
 

@@ -165,7 +165,7 @@ class LineRefused(BadFile):
         self.name, self.number, self.why = name, number, why
 
     def on(self, arm: str) -> "LineRefused":
-        """Return the error, with the name of the arm on which the script was typed added to its message."""
+        """Return the error with a longer message, which also names the arm on which the script was typed."""
         return LineRefused(self.name, self.number, f"{self.why} (typed on {arm})")
 
 

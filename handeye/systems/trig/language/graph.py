@@ -287,7 +287,9 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """Place the nodes that own edges connect below a node. An edge to a node that is already placed becomes a link."""
+    """Place all nodes that can be reached from a node along own edges. An edge to a node that is already placed
+    becomes a link.
+    """
     waiting = [start]
     while waiting:
         node = graph[waiting.pop()]

@@ -103,7 +103,7 @@ def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
 
 
 def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
-    """Return True if the run has arrived at the step after which the job must be reversed, and can be reversed."""
+    """Return True if the run has reached the point at which the reversal is due, and if the job can be reversed."""
     there = pause.kind == "end" or (after is not None and pause.kind == "break")
     system = job_of(runner)
     return there and system.job.undoable and not runner.undone and len(system.executed) > 0
