@@ -113,7 +113,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
 
         The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for joint
         N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand (N,
-        in W). The line `servo` must carry 1, or torques from the computer do not arrive.
+        in W). Torques from the computer arrive only while the line `servo` carries 1.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]

@@ -1,4 +1,4 @@
-"""Reduces a recorded run to frames, ten a second.
+"""Reduces a recorded run to frames, ten frames a second.
 
 A frame belongs to a moment. The observation of a frame is what the sensors read in the tenth of a second before this
 moment. The action of a frame is what the arm did in the tenth of a second after this moment. So the observation of a

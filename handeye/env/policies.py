@@ -158,7 +158,7 @@ def check_policy(name: str, maker: PolicyMaker, environment: str, action: Action
 
 def played(policy: Any, episode: Episode) -> None:
     """Let a policy play an episode to its end. If the policy ends before the episode, the arm holds still until the
-    time limit: the policy has not reported that the work is done.
+    time limit, because the policy has not reported that the work is done.
     """
     try:
         if hasattr(policy, "play"):

@@ -84,8 +84,8 @@ class EventReader:
 
 
 def read_packed(data: msgspec.Raw, system: str) -> tuple[AnyEvent, ...]:
-    """Read events of a system's run from MessagePack. Raises ValueError if the data are invalid or of an unknown
-    kind.
+    """Read events of a system's run from MessagePack. Raises ValueError if the data are invalid, or if an event is of
+    an unknown kind.
     """
     kind: Any = tuple.__class_getitem__((event_type(system), ...))
     try:

@@ -69,12 +69,12 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def lacking(self) -> tuple[str, ...]:
-        """Senses that were switched off in the program; empty if all were on."""
+        """Senses that were switched off in the program; empty if all senses were on."""
         return self.without or ()
 
     @property
     def own_parts(self) -> dict[str, str]:
-        """The parts of handeye that the caller replaced, by name; empty if none was replaced."""
+        """The parts of handeye that the caller replaced, by name; empty if no part was replaced."""
         return self.replaced or {}
 
 

@@ -194,7 +194,7 @@ class GasketHoleOff(HoleFault, frozen=True, kw_only=True):
 
 
 class GasketTorn(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
-    """The gasket leaves a patch of the base's face bare, of the area `bare` (m2)."""
+    """The gasket leaves a patch of the base's face bare. The patch has the area `bare` (m2)."""
 
     bare: float
 

@@ -60,7 +60,7 @@ class InnerCylinder(ReachFailureRecord, frozen=True):
 
     @property
     def excess(self) -> float:
-        """How much too near to the axis the wrist would be (m)."""
+        """By how much the wrist would be too near to the axis (m)."""
         return self.least - self.radius
 
 

@@ -38,7 +38,9 @@ class Sensor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion:
-    """`MOVE` and `MOTOR`; if `relative`, `DMOVE` and `DMOTOR`, whose numbers are distances from the present goals."""
+    """`MOVE` and `MOTOR`; if `relative` is True, `DMOVE` and `DMOTOR`, whose numbers are distances from the present
+    goals.
+    """
 
     by_motor: Mapping[int, int]
     relative: bool = False

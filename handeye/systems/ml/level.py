@@ -52,7 +52,7 @@ class Level(ABC):
     @property
     @abstractmethod
     def posted(self) -> Post:
-        """What ended the last motion; empty while a motion is under way."""
+        """What ended the last motion. The text is empty while a motion is under way."""
 
     @property
     @abstractmethod
@@ -176,10 +176,10 @@ class Level(ABC):
 
     @abstractmethod
     def analog_out(self, point: int, value: int) -> None:
-        """Set an analog output. Raises MlError (M11; M15 while the pump is on)."""
+        """Set an analog output. Raises MlError: M11 if there is no such output, M15 while the pump is on."""
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
         """In a digital output word, replace each bit for which `mask` has a 1 by the same bit of `value`. Raises
-        MlError (M11; M15 while the pump is on).
+        MlError: M11 if there is no such word, M15 while the pump is on.
         """

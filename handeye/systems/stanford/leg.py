@@ -214,7 +214,7 @@ class PlanLegs(LegSystem):
 
 
 def _needed(step: Step) -> Iterator[tuple[str, Kind]]:
-    """Yield the saved values that a step reads. HEIGHT reads a height, and RESTORE a difference."""
+    """Yield the saved values that a step reads. HEIGHT reads a height, and RESTORE reads a difference."""
     kind: Kind = "height" if isinstance(step.operation, Height) else "difference"
     for use in step.operation.reads:
         if use.kind == "difference":

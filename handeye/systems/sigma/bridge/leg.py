@@ -225,7 +225,7 @@ def _variables(plan: MalPlan, op: Literal["PUSHV", "POPV"]) -> set[str]:
 
 
 def _counted(plan: MalPlan) -> set[str]:
-    """Return the variables that FOR counts and INPUT asks for."""
+    """Return the variables that a FOR counts or an INPUT asks for."""
     return {str(each.operand) for each in plan.program.code if each.op in ("FOR", "IN")}
 
 

@@ -332,7 +332,9 @@ class _Search:
     def _find(
         self, kind: FindingKind, told: str, lines: Sequence[int], key: bytes, act: Act | None = None
     ) -> None:
-        """Record a finding, only once for the same lines. The first path that leads to a finding is the shortest."""
+        """Record a finding, unless the same finding is already recorded. The first path that leads to a finding is the
+        shortest.
+        """
         name = (kind, tuple(sorted(lines)) if kind != "variable" else told)
         if name not in self.found:
             schedule = (*self._schedule(key), *(() if act is None else (act,)))

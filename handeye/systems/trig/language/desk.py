@@ -145,7 +145,7 @@ class Tabletop(ABC):
 
 
 def arrange(table: Tabletop, line: str) -> str:
-    """Execute a line that describes the table. Returns a sentence on what the table then holds. Raises
+    """Execute a line that describes the table. Returns a sentence that says what is then on the table. Raises
     BadArgument.
     """
     words = line.removeprefix(MARK).upper().split()
