@@ -166,8 +166,8 @@ class JointAgreement:
     _pairs: list[_SensorPair] = field(default_factory=list, init=False)  # empty at the start
 
     def begin_anew(self, q: Array, qd: Array) -> None:
-        """Start the comparison again from these readings. The servo does this for a tool that chatters in step with
-        the servo and shakes the arm.
+        """Start the comparison again from these readings. The servo starts the comparison again while a tool chatters
+        in step with the servo and shakes the arm.
 
         Tachometers that are read once per period then show a steady rate although the joint does not move on
         average.

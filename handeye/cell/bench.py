@@ -69,7 +69,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         mujoco.mj_forward(self.model, self.data)
 
     def add(self, part: Mechanism[Any]) -> None:
-        """Add a mechanism that acts on the scene as time passes. Mechanisms act in the order of these calls."""
+        """Add a mechanism that acts on the scene as time passes. Mechanisms act in the order of the calls of `add`."""
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:

@@ -17,7 +17,7 @@ from handeye.core.units import UNITS, Unit
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """One injected fault of a run. The fault begins at the start, unless `stage` or `after` gives another beginning."""
+    """One injected fault of a run. The fault is present from the start, unless `stage` or `after` is given."""
 
     name: str
     value: float | None = None  # size, in SI units; None if the kind has none

@@ -77,7 +77,7 @@ class ToolAxes(Axes):
 
     def resume(self, goal: Array) -> None:
         """Continue from set-points that `goal` has returned. The drive must be in the state that it had when `goal`
-        returned them.
+        returned these set-points.
         """
         self._start = self._goal = goal
         self._motion = None

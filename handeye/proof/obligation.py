@@ -18,7 +18,7 @@ class Phase(Record, frozen=True, kw_only=True):
 
 class Claim(Record, frozen=True, kw_only=True):
     """What some steps of a program show, in the order of the claim's phases. If `at_first` is True, the claim holds
-    when the program begins, and must be shown only after a step has undone it.
+    when the program begins. The program must then show the claim only if a step has undone it.
     """
 
     says: str  # clause, such as `the fingers feel the head`
@@ -50,7 +50,7 @@ class Claim(Record, frozen=True, kw_only=True):
 
 class Obligation(Record, frozen=True, kw_only=True):
     """A finding of the referee, and the claims that a program must show so that it would notice if the finding did
-    not hold. If there are no claims, no program must show the finding, and `rests` gives the reason.
+    not hold. If there are no claims, a program need not show the finding, and `rests` gives the reason.
     """
 
     finding: str

@@ -48,7 +48,7 @@ class ClaimProof(Record, frozen=True, kw_only=True):
 
 
 class FindingProof(Record, frozen=True, kw_only=True):
-    """The verdict on one finding of the referee. If the finding has no claims, no program must show it."""
+    """The verdict on one finding of the referee. If the finding has no claims, a program need not show it."""
 
     finding: str
     rests: str
@@ -66,7 +66,7 @@ class Proof(Record, frozen=True, kw_only=True):
     findings: tuple[FindingProof, ...]
 
     def verdict(self, finding: FindingProof) -> Verdict | None:
-        """Return the verdict on a finding; None if no program must show the finding."""
+        """Return the verdict on a finding; None if a program need not show the finding."""
         verdicts = {self.claims[number].verdict for number in finding.claims}
         order: tuple[Verdict, ...] = ("avoided", "undecided", "shown")
         return next((verdict for verdict in order if verdict in verdicts), None)

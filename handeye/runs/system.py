@@ -251,7 +251,7 @@ class RunningSystem(Protocol):
         return "", ()
 
     def built(self) -> Findings:
-        """Return the referee's findings on the finished work, made before the arm undid the work. The result is empty
+        """Return the findings that the referee made on the finished work before the arm undid it. The result is empty
         if the work was not undone, or was not judged.
         """
         return {}

@@ -102,7 +102,7 @@ SCREW_HOLES: Final = 2 / 3  # fraction that must be visible at the places given 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failure:
-    """The cause for which a part could not be located."""
+    """The reason why a part could not be located."""
 
     cause: SightCause
 

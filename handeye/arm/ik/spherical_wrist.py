@@ -64,7 +64,7 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     """Find the best branch. If there is none, find the failure: the wrist is too near to axis 1, or a joint is beyond
-    its limits. If several joints are, the failure names the joint that is farthest beyond its limits.
+    its limits. If several joints are beyond their limits, the failure names the joint that is farthest beyond.
     """
     _check(arm)
     rows = (constants(arm).X_BW @ X_WT)[:3].tolist()

@@ -1,6 +1,6 @@
 """Finds executed steps that changed only the memory of the program. One lift of the hand reverses all these steps.
 
-Two kinds of steps change only the memory: rounds of a loop, and touches. When a program has jumped back to an earlier
+The steps that changed only the memory are rounds of a loop, and touches. When a program has jumped back to an earlier
 step, the cell is assumed to be in the state in which it was after that step, if these conditions hold: since then no
 stage began and the operator was not called; the hand holds the same object; every object was put down at the place
 where it was taken up, or taken up at the place where it was put down; and every screw driven in was backed out. Rounds
