@@ -5,12 +5,13 @@ its set-point when the next cycle begins. The specification is pure: the present
 determine the next state. The specification shares no code with the machine; a property test drives both with the same
 programs and compares them after every statement.
 
-1. A sensor is *in range* while its reading is strictly between its expected limits. 2. The *flag* of a sensor comes on
-in the first cycle in which the sensor is out of range. The flag stays on until a SENSOR statement clears it, even if
-the reading comes back into range (the latch). 3. In the cycle in which any flag comes on, every motor *freezes*: its
-goal becomes its present position. 4. While any flag is on, every motion is *nullified*: it changes no goal and takes
-no time. 5. A motion ends when all motors are at their goals, or when a flag comes on. Then the next statement is
-executed. 6. BRANCH reads flags and clears none, so that several BRANCH statements in a row can ask what happened.
+1. A sensor is *in range* while its reading is strictly between its expected limits.
+2. The *flag* of a sensor comes on in the first cycle in which the sensor is out of range. The flag stays on until a
+   SENSOR statement clears it, even if the reading comes back into range (the latch).
+3. In the cycle in which any flag comes on, every motor *freezes*: its goal becomes its present position.
+4. While any flag is on, every motion is *nullified*: it changes no goal and takes no time.
+5. A motion ends when all motors are at their goals, or when a flag comes on. Then the next statement is executed.
+6. BRANCH reads flags and clears none, so that several BRANCH statements in a row can ask what happened.
 """
 
 from collections.abc import Callable, Mapping
