@@ -25,8 +25,8 @@ class AgentFolder:
 
     @classmethod
     def at(cls, path: Path | None) -> Self:
-        """Open a folder, which is created if it does not exist; by default a new one under the current folder. Raises
-        CannotWrite if that is impossible.
+        """Open a folder, which is created if it does not exist. By default, a new folder is created under the current
+        one. Raises CannotWrite if the folder cannot be created.
         """
         chosen = path or _new_folder(Path.cwd())
         try:
@@ -73,8 +73,8 @@ class AgentFolder:
         return sorted(path.name for path in self.path("runs").glob("*/") if _RUN.fullmatch(path.name))
 
     def path(self, name: str) -> Path:
-        """Return the place of a file in the folder, which may not exist yet. Raises BadArgument if the name is not a
-        relative one, or leads out of the folder, directly or through a link.
+        """Return the path of a file in the folder. The file may not exist yet. Raises BadArgument if the name is not
+        relative, or if it leads out of the folder, directly or through a link.
         """
         parts = name.split("/")
         if len(parts) > _DEEPEST or not all(map(_PART.fullmatch, parts)):

@@ -1,4 +1,4 @@
-"""Writes the end of a brief of the agents' bench, which is the same for all tasks of a language."""
+"""Writes the end of a brief of the agents' bench. The end is the same for all tasks of a language."""
 
 import tomllib
 from pathlib import Path
@@ -23,7 +23,7 @@ class Phrases(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def phrases(folder: Path, language: str) -> Phrases:
-    """Return the phrases for a language. Raises BadFile if the bench has none."""
+    """Return the phrases for a language. Raises BadFile if the bench has no phrases for that language."""
     file = folder / "languages.toml"
     try:
         return msgspec.convert(tomllib.loads(read_source(file).text), dict[str, Phrases])[language]
@@ -33,7 +33,7 @@ def phrases(folder: Path, language: str) -> Phrases:
 
 def end_of_brief(task: "BenchTask", own: str) -> str:
     """Return the paragraphs that end the brief of a task: what counts, and how to try a program. `own` is the text
-    before them.
+    that comes before these paragraphs.
     """
     file, program = task.file, task.program
     taught = ", with its taught positions in `solution.toml`" if file.language == "al" else ""

@@ -30,14 +30,16 @@ class TaskCheck(Record, frozen=True, kw_only=True):
 
     @property
     def right(self) -> bool:
-        """True if the reference is accepted in every world, and the trivial solution does not pass."""
+        """True if the reference solution is accepted in every world, and the trivial solution does not pass."""
         return self.reference_accepted == self.worlds and self.trivial_score < PASSED
 
 
 def checked(
     tasks: Sequence[BenchTask], call: Call, tell: Callable[[str, str, Verdict], None]
 ) -> list[TaskCheck]:
-    """Judge the solutions of all tasks. `tell` gets the name of a task, the solution and each verdict."""
+    """Judge the solutions of all tasks. `tell` is called for each verdict, with the name of the task and the kind of
+    the solution.
+    """
     return [_checked(task, call, tell) for task in tasks]
 
 

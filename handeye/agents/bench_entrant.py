@@ -36,7 +36,7 @@ class Effort:
 
 
 def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effort:
-    """Let an entrant solve a task in a new folder, where it leaves its solution.
+    """Let an entrant solve a task in a new folder. The entrant leaves its solution there.
 
     After each round except the last, the solution is judged in the public worlds of the task; the entrant finds the
     feedback in FEEDBACK. If the solution is accepted in all public worlds, the rounds end early. Raises InvalidInput
@@ -62,7 +62,9 @@ def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effor
 
 
 def _blocked(folder: Path) -> str:
-    """Return why handeye cannot go on in the folder that an entrant has left; empty if it can."""
+    """Return the reason why handeye cannot use the folder that an entrant has left. The text is empty if handeye can
+    use the folder.
+    """
     if folder.is_symlink() or not os.access(folder, os.R_OK | os.W_OK | os.X_OK):
         return "the entrant has removed, replaced or locked the folder of the task"
     place = folder / FEEDBACK
@@ -79,7 +81,7 @@ def verdicts(
     tell: Callable[[Verdict], None] = lambda _: None,
 ) -> list[Verdict]:
     """Judge the solution in a folder in the worlds with these seeds, or once in every order of its tasks. A solution
-    that cannot be run has stopped in each of the worlds.
+    that cannot be run counts as stopped in each of the worlds.
     """
     try:
         if task.file.orders:
@@ -99,7 +101,7 @@ def verdicts(
 def lost(
     task: BenchTask, seeds: Sequence[int], why: str, tell: Callable[[Verdict], None] = lambda _: None
 ) -> list[Verdict]:
-    """Return the verdicts on an entrant whose solution cannot be judged: it counts as stopped in every world."""
+    """Return the verdicts on a solution that cannot be judged: the solution counts as stopped in every world."""
     judged_in = task.file.public[:1] if task.file.orders else seeds
     found = [Verdict(seed=seed, outcome="stopped", message=why) for seed in judged_in]
     tell(found[0])

@@ -11,8 +11,8 @@ FEEDBACK: Final = "feedback.md"  # file that the entrant finds after its first r
 
 
 def feedback(found: Sequence[Verdict], kind: Feedback) -> str:
-    """Write the feedback on a solution: verdicts alone, or with the errors and the measurements of the referee, or also
-    with what each step did.
+    """Write the feedback on a solution. `verdict` gives only verdicts; the other kinds add the errors and the
+    referee's measurements, and `trace` also adds what the last steps did.
     """
     lines = ["# Your solution in the public worlds", ""]
     for each in found:
@@ -25,8 +25,8 @@ def feedback(found: Sequence[Verdict], kind: Feedback) -> str:
 
 
 def _traces(found: Sequence[Verdict]) -> Iterator[str]:
-    """Yield the last steps in the worlds that are not accepted. Worlds in which no step was made for the same reason
-    have one section.
+    """Yield the last steps in the worlds that are not accepted. If several worlds have no steps for the same reason,
+    one section covers all of them.
     """
     wrong = (each for each in found if each.outcome != "accepted" and each.listed)
     for (_, why), worlds in groupby(wrong, lambda each: (each.seed if each.steps else None, each.message)):

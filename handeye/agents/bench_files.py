@@ -40,7 +40,7 @@ class TaskFiles:
     other: "Callable[[str], TaskFiles]"  # returns the files of another task, by its name
 
     def read(self, kind: str) -> dict[str, bytes]:
-        """Return the files of one of FOLDERS, by name. Raises BadFile if one cannot be derived."""
+        """Return the files of one of FOLDERS, by name. Raises BadFile if one of these files cannot be derived."""
         own = {file.name: read_whole(file) for file in sorted((self.folder / kind).glob("*.*"))}
         made = {
             name.partition("/")[2]: self.text(name).encode()
@@ -50,7 +50,7 @@ class TaskFiles:
         return own | made
 
     def text(self, name: str, without: frozenset[str] = frozenset()) -> str:
-        """Return the text of the file `FOLDER/NAME`. `without` names the files that are derived from this one."""
+        """Return the text of the file `FOLDER/NAME`. `without` names the files that are derived from this file."""
         place = f"{self.folder.name}/{name}"
         if name not in self.derived:
             return read_source(self.folder / name).text

@@ -18,7 +18,7 @@ PAGE: Final = page_kind("page", _MARK)
 
 
 def bench_page(result: BenchResult) -> bytes:
-    """Return the page of a result. It loads no external files, and it does not contain hidden seeds."""
+    """Return the page of a result. The page loads no external files, and does not contain hidden seeds."""
     passed = sum(each.passed for each in result.tasks)
     title = f"{passed} of {counted(len(result.tasks), 'task')} passed, mean score {result.score:.2f}"
     of = f"{result.entrant}, {result.seeds} worlds, feedback: {result.feedback}, protocol {result.protocol}"

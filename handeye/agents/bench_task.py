@@ -40,7 +40,7 @@ Tier = Literal["macros", "language", "bare", "repair"]
 
 
 class Worlds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How the worlds of a task differ from usual ones; as the options of `handeye.World`."""
+    """How the worlds of a task differ from usual worlds, in the form of the options of `handeye.World`."""
 
     level: Level = "nominal"
     without: list[str] = []
@@ -99,7 +99,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return f"{_SHARED.sub(self._shared, own)}\n\n{end_of_brief(self, own)}"
 
     def _shared(self, found: re.Match[str]) -> str:
-        """Return a text that several briefs share, and that a line of this brief names."""
+        """Return the text that a line of this brief names. Several briefs share this text."""
         return read_source(self.folder.parent / f"{found[1]}.md").text.rstrip()
 
     @property
@@ -112,8 +112,8 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return {BRIEF: self.brief.encode(), **self.files.read(GIVEN)}
 
     def solution(self, kind: str) -> dict[str, bytes]:
-        """Return the files of the reference solution or of the trivial one. The trivial solution of a task without one
-        is the given program.
+        """Return the files of the reference solution or of the trivial one. If the task has no trivial solution of its
+        own, the given program is the trivial solution.
         """
         return self.files.read(kind) or self.files.read(GIVEN)
 
@@ -169,9 +169,9 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return found
 
     def problems(self, folder: Path) -> list[tuple[bool, str]]:
-        """Try the solution in a folder in every order of its tasks, and return its problems, the worst first. For
-        each: True if the program does not notice the problem, and a sentence. Raises InvalidInput if there is no
-        solution, or if it has errors.
+        """Try the solution in a folder in every order of its tasks, and return its problems, the worst first. Each
+        problem is a pair: True if the program does not notice the problem, and a sentence. Raises InvalidInput if
+        there is no solution, or if it has errors.
         """
         text = self._checked(AgentFolder(folder.resolve()))
         entry, _ = entry_of_file(self.program)
@@ -181,8 +181,8 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return found
 
     def _checked(self, own: AgentFolder) -> str:
-        """Return the text of a solution. Raises InvalidInput if there is none, if it lacks lines that it must keep, or
-        if it has errors.
+        """Return the text of a solution. Raises InvalidInput if there is no solution, if the solution lacks lines that
+        it must keep, or if the solution has errors.
         """
         if not own.has(self.program):
             raise BadFile(f"there is no file {self.program}")
@@ -195,7 +195,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return source.text
 
     def _check_kept(self, text: str) -> None:
-        """Raise BadFile if a solution lacks lines that it must keep, or has more of them."""
+        """Raise BadFile if a solution lacks lines that it must keep, or has more such lines than the given program."""
         if not self.file.kept:
             return
         kept = re.compile(self.file.kept, re.MULTILINE)
@@ -222,7 +222,7 @@ def bench_tasks() -> dict[str, BenchTask]:
 
 
 def bench_task(name: str) -> BenchTask:
-    """Return a task of the bench. Raises NoSuchName if there is none."""
+    """Return a task of the bench. Raises NoSuchName if the bench has no task of that name."""
     known = bench_tasks()
     if name not in known:
         near = suggestion(name, known) or f"the tasks are {', '.join(known)}"
@@ -231,7 +231,7 @@ def bench_task(name: str) -> BenchTask:
 
 
 def read_task(folder: Path) -> BenchTask:
-    """Read the task in a folder. Raises BadFile if it cannot be used."""
+    """Read the task in a folder. Raises BadFile if the task cannot be used."""
     try:
         file = msgspec.convert(tomllib.loads(read_source(folder / "task.toml").text), _File)
     except (tomllib.TOMLDecodeError, msgspec.ValidationError) as error:

@@ -1,4 +1,4 @@
-"""A call in progress: it can be cancelled, and it reports how far it is."""
+"""A call in progress, which can be cancelled and which reports its progress."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -24,8 +24,8 @@ class Call:
     _polls: int = 0
 
     def halted(self) -> bool:
-        """Return True if the call was cancelled. A run asks this in every servo period, so a report is made here about
-        once in a simulated second.
+        """Return True if the call was cancelled. A run calls this method in every servo period, so the method also
+        reports progress, about once in a simulated second.
         """
         self._polls += 1
         if self._polls % EVERY == 0:

@@ -22,7 +22,7 @@ class HiddenSeeds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def read_hidden(path: Path) -> HiddenSeeds:
-    """Read a file of hidden seeds. Raises BadFile if it cannot be used."""
+    """Read a file of hidden seeds. Raises BadFile if the file cannot be used."""
     try:
         return msgspec.json.decode(read_whole(path, _LARGEST), type=HiddenSeeds)
     except (msgspec.DecodeError, UnicodeDecodeError) as error:

@@ -64,8 +64,8 @@ def setup_of(plan: Plan, world: WorldSpec) -> Setup:
 
 
 def judged(setup: Setup, call: Call, right: Right = USUAL) -> Verdict:
-    """Run a program to its end, or to the limits of time and steps, and judge it by what is `right` in its world.
-    Raises Refused if the call is cancelled.
+    """Run a program to its end, or to the limits of time and steps, and judge the result. `right` is what a right
+    program does in that world. Raises Refused if the call is cancelled.
     """
     runner = None
     try:
@@ -121,7 +121,9 @@ def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]
 
 
 def _to_end(runner: Runner, call: Call) -> tuple[Pause, str]:
-    """Execute a program to its end, or to the limits. Returns the pause, and a sentence if it has reached a limit."""
+    """Execute a program to its end, or to the limits. Returns the pause, and a sentence, which is empty unless the
+    program has reached a limit.
+    """
     while True:
         pause = advance(runner, steps=AT_ONCE)
         if call.cancelled.is_set():

@@ -23,7 +23,7 @@ MOST_OPEN: Final = 4  # cells in memory at a time; an older run is closed, and o
 
 @dataclass(eq=False, slots=True)
 class OpenRuns:
-    """The runs in the folder of an agent. Those in use are open: their cells are in memory."""
+    """The runs in the folder of an agent. The runs in use are open: their cells are in memory."""
 
     folder: AgentFolder
     _open: dict[str, Run] = field(default_factory=dict)  # in the order of their last use
@@ -35,8 +35,8 @@ class OpenRuns:
         return self._added(name, call, lambda out: self._begun(plan, out, world=world))
 
     def fork(self, run: str | None, stage: str, to: str | None, call: Call) -> tuple[str, Run]:
-        """Begin a run with the state of another, as it is now or before a stage. Raises InvalidInput if there is no
-        such run, state or stage, or if the name is taken.
+        """Begin a run with the state that another run has now, or with the state that it had before a stage. Raises
+        InvalidInput if there is no such run, state or stage, or if the name is taken.
         """
         source = self.named(run)
         present = self._open.get(source)
@@ -44,8 +44,8 @@ class OpenRuns:
         return self._added(to, call, lambda out: self._begun(start, out, at=stage or None))
 
     def find(self, run: str | None, call: Call) -> tuple[str, Run]:
-        """Return a run, which is opened again if it was closed. Raises InvalidInput if there is none, or if it ended
-        before it was closed.
+        """Return a run. A closed run is opened again. Raises InvalidInput if there is no such run, or if the
+        run ended before it was closed.
         """
         name = self.named(run)
         if name not in self._open:
@@ -69,13 +69,13 @@ class OpenRuns:
         return name, kept_run(self.folder.run(name)).result if present is None else present.result
 
     def close(self) -> None:
-        """Close all runs; those that have not ended can be resumed."""
+        """Close all runs. Runs that have not ended can be resumed."""
         while self._open:
             self._open.pop(next(iter(self._open))).close()
 
     def named(self, run: str | None) -> str:
-        """Return the name of a run in the folder, by default of the run that was used last. Raises NoSuchName if there
-        is no such run.
+        """Return the name of a run in the folder. By default, this is the run that was used last. Raises NoSuchName if
+        there is no such run.
         """
         name = run or self._last
         known = self.folder.runs()

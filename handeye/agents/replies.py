@@ -1,4 +1,4 @@
-"""The reply of a tool: a text to read, and the same as data."""
+"""The reply of a tool: a text to read, and the same content as data."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,6 @@
-"""The arguments of each tool as records. Their types make the schema that a client sees, and check each call."""
+"""The arguments of each tool as records. The schema that a client sees is made from the types of these records. Each
+call is checked against the same types.
+"""
 
 from typing import Annotated, Any, Final, Literal, TypeVar
 

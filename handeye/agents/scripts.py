@@ -27,7 +27,9 @@ def languages() -> list[str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scripts:
-    """The scripts that an agent can name: its own, in its folder, and those included with handeye."""
+    """The scripts that an agent can name: the scripts in the agent's own folder, and the scripts included with
+    handeye.
+    """
 
     folder: AgentFolder
 
@@ -50,7 +52,9 @@ class Scripts:
         return source, tuple(Diagnostic.of(each, source) for each in made.diagnostics)
 
     def plan(self, script: str, taught: str | None, task: str | None) -> Plan:
-        """Plan a script. Raises ScriptError if it has errors, or InvalidInput if a file or name cannot be used."""
+        """Plan a script. Raises ScriptError if the script has errors, or InvalidInput if a file or name cannot be
+        used.
+        """
         source, known, work = self._parts(script, taught, task)
         entry, _ = entry_of_file(source.name)
         if entry is not None:
@@ -78,8 +82,8 @@ class Scripts:
         return sewn(source, lambda key: self.folder.source(posixpath.join(below, key)).text), known, work
 
     def _source(self, script: str, name: str) -> Source:
-        """Read the text of a script, without the texts that it requires. A text has no file, and gets the name
-        `name`.
+        """Read the text of a script, without the texts that it requires. If `script` is the text itself, there is no
+        file, and the script gets the name `name`.
         """
         if "\n" in script:
             return Source(name=name, text=script.removeprefix("\ufeff"))
@@ -104,7 +108,7 @@ class Scripts:
 
 
 def _included(file: Path) -> Source:
-    """Read a script that is included with handeye. Its name is that of the file alone."""
+    """Read a script that is included with handeye. The script's name is the name of the file, without its folder."""
     text = Source(name=file.name, text=read_source(file).text)
     return sewn(text, lambda key: read_source(file.parent / key).text)
 

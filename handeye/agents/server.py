@@ -1,7 +1,7 @@
 """Serves the tools to one agent over standard input and output (model context protocol, with its Python SDK).
 
-Calls that use a cell are executed in a thread, one at a time, in the order in which they arrive; the server answers
-all others meanwhile. If the agent leaves, the runs are closed, and can be resumed.
+Calls that use a cell are executed in a thread, one at a time, in the order in which they arrive. Meanwhile, the server
+answers all other calls. If the agent leaves, the runs are closed, and can be resumed.
 """
 
 import base64
@@ -52,7 +52,9 @@ async def _serve(toolbox: Toolbox) -> None:
 
 
 class _Lines:
-    """The lines of standard input. Unlike a file, it does not hold up a server that is interrupted."""
+    """The lines of standard input. Waiting for a line does not hold up a server that is interrupted, as reading a file
+    would.
+    """
 
     def __aiter__(self) -> Self:
         return self
@@ -72,7 +74,7 @@ _ESCAPED: Final = re.compile(
 
 def decodable(line: str) -> str:
     """Return a message that the decoder of the SDK accepts. The decoder drops a message with half of a surrogate pair,
-    and sends no answer. Here, the half becomes a replacement character, as does a byte that is not UTF-8.
+    and sends no answer. This function therefore replaces such a half by a replacement character.
     """
     return _ESCAPED.sub(lambda found: r"\ufffd" if found[1] else found[0], line)
 
@@ -104,7 +106,7 @@ def server_of(toolbox: Toolbox) -> Server[Any]:
 
 
 async def _executed(tool: Tool, toolbox: Toolbox, arguments: object, context: Context) -> Reply:
-    """Execute a call in a thread. If the call is cancelled, the run pauses, and the thread ends with it."""
+    """Execute a call in a thread. If the call is cancelled, the run pauses, and then the thread ends."""
 
     def report(done: float, whole: float | None, text: str) -> None:
         with suppress(Exception):  # an agent that has left hears nothing; its run pauses all the same

@@ -1,4 +1,4 @@
-"""The tools of an agent, as functions from a request to a reply. They know nothing of the protocol."""
+"""The tools of an agent, as functions from a request to a reply. These functions know nothing of the protocol."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -35,7 +35,7 @@ class Toolbox:
         self.runs, self.scripts = OpenRuns(self.folder), Scripts(folder=self.folder)
 
     def close(self) -> None:
-        """Close all runs. Those that have not ended can be resumed."""
+        """Close all runs. Runs that have not ended can be resumed."""
         self.runs.close()
 
     # -- reading ----------------------------------------------------------------------------------------
@@ -85,7 +85,7 @@ class Toolbox:
     # -- running ----------------------------------------------------------------------------------------
 
     def run(self, asked: requests.Advance, call: Call) -> Reply:
-        """Begin a run or continue one, to a place or to the end."""
+        """Begin a run, or continue a run, up to a given place or to the end."""
         if asked.until and asked.steps is not None:
             raise BadArgument("give `until` or `steps`, not both")
         if asked.script is None:
@@ -171,7 +171,9 @@ class Toolbox:
 
 
 def _done(answer: Answer) -> Answer:
-    """Return the answer of the stepper. Raises Refused, with the stepper's sentence, if it refused the command."""
+    """Return the answer of the stepper. If the stepper refused the command, raises Refused with the stepper's
+    sentence.
+    """
     if answer.error is not None:
         raise Refused(answer.error)
     return answer

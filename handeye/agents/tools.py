@@ -87,7 +87,7 @@ _BY_NAME: Final = {tool.name: tool for tool in TOOLS}
 
 
 def tool_named(name: str) -> Tool:
-    """Return a tool. Raises NoSuchName, with the nearest name, if there is none."""
+    """Return a tool. Raises NoSuchName, with the nearest name, if there is no such tool."""
     if name not in _BY_NAME:
         near = suggestion(name, _BY_NAME) or f"the tools are {', '.join(_BY_NAME)}"
         raise NoSuchName(f"there is no tool {quoted(name)}; {near}")

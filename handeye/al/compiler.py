@@ -34,12 +34,12 @@ def check_form(source: Source) -> list[Diagnostic]:
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
-    """Compile a text. Returns the program, which is None if one of the diagnostics is an error, and the
+    """Compile a text. Returns two values: the program, which is None if one of the diagnostics is an error, and the
     diagnostics.
 
     The required texts are in `source.required` (see `includes.sewn`). Spans are offsets in the combined text. The
-    program contains the taught positions and parts, and those that the text adds. There are at most `LIMIT`
-    diagnostics, sorted by position.
+    program contains the taught positions and parts, and the positions and parts that the text adds. There are at most
+    `LIMIT` diagnostics, sorted by position.
     """
     script, found = parse_whole(source)
     if any(d.code in MISSING for d in found):

@@ -145,8 +145,8 @@ def number(
 
 
 def count(name: str, low: float, high: float, why: str, *, word: str = "") -> Operand:
-    """Define an operand that is a whole number in a range. If it follows a keyword that handeye added to the
-    language, the operand is optional.
+    """Define an operand that is a whole number in a range. The operand is optional if it follows a keyword that
+    handeye added to the language.
     """
     plain = number(name, ONE, low, optional=bool(word), ours=bool(word))
     return replace(plain, high=high, why=why, whole=True, word=word)

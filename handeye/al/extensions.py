@@ -16,7 +16,9 @@ _AGAINST = "write a vector, as in 1973: `STOP [0 0 -50]`"
 
 
 def extensions(source: Source) -> list[Diagnostic]:
-    """Return an error for each word and operand that handeye adds, including those in required texts."""
+    """Return an error for each word and operand that handeye adds, including the words and operands in required
+    texts.
+    """
     return arranged(_found(source))
 
 

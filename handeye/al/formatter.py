@@ -14,8 +14,8 @@ COMMENT_COLUMN: Final = 32
 
 
 def format_text(text: str) -> str:
-    """Format a text in columns, with instructions in capitals. Its meaning, its mistakes and its line numbers do
-    not change.
+    """Format a text in columns, with instructions in capitals. The meaning of the text, its mistakes and its line
+    numbers do not change.
     """
     return "".join(_format(line) + "\n" for line in scan(text))
 

@@ -48,7 +48,7 @@ def as_instruction(word: str, parameters: Sequence[str]) -> Instruction:
 
 
 def taken(parameter: str) -> str | None:
-    """Return the reason why a name cannot be a parameter, or None if it can."""
+    """Return the reason why a name cannot be a parameter, or None if the name can be a parameter."""
     if parameter.upper() in (*INSTRUCTIONS, DEFINE.op):
         return f"{quoted(parameter)} is an instruction"
     if parameter.upper() in OPERAND_WORDS:

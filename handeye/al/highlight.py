@@ -16,7 +16,7 @@ def _ops(ops: list[str]) -> words:
 
 
 class ArmLexer(RegexLexer):
-    """The lexer of the arm language of 1973. Its words come from the table of instructions."""
+    """The lexer of the arm language of 1973. The lexer's words come from the table of instructions."""
 
     name = "Arm language (WAVE)"
     aliases: ClassVar = ["armal", "wave"]

@@ -120,6 +120,6 @@ UNIT_WORDS: Final = {
 
 
 def no_units(word: str) -> str | None:
-    """Return a hint for a word that may be a unit, or None if it cannot be one."""
+    """Return a hint for a word that may be a unit, or None if the word cannot be a unit."""
     said = UNIT_WORDS.get(word.lower())
     return None if said is None else f"write numbers without a unit: {said}"

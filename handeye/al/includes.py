@@ -59,7 +59,7 @@ def sewn(source: Source, read: Read) -> Source:
 
 
 def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
-    """Join a text with the texts that it requires. They are taken only from `files`, by key."""
+    """Join a text with the texts that it requires. The required texts are taken only from `files`, by key."""
 
     def read(key: str) -> str:
         if key not in files:
@@ -94,8 +94,8 @@ def required_by(text: str) -> Iterator[Text]:
 
 
 def led_by(source: Source, key: str) -> Span | None:
-    """Find the REQUIRE in the main text that leads to a file, directly or through other files. Returns its span, or
-    None if there is none.
+    """Find the REQUIRE in the main text that leads to a file, directly or through other files. Returns the span of
+    this REQUIRE, or None if no REQUIRE leads to the file.
     """
     texts = {text.key: text.text for text in source.required}
     for file in required_by(source.text):

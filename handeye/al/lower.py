@@ -308,7 +308,9 @@ class _Lowerer:
         self.problem("unknown-label", message, label, *uses(label), help=names_sentence(meant), meant=meant)
 
     def mark_searching(self) -> None:
-        """Find every MOVE between a label and an AOJ that jumps back to the label, and mark it as part of a search."""
+        """Find every MOVE between a label and an AOJ that jumps back to the label, and mark the MOVE as part of a
+        search.
+        """
         change = [0] * (len(self.drafts) + 1)
         for first, last in self.searches:
             if first < last:

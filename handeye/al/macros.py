@@ -20,8 +20,8 @@ MAX_DEPTH: Final = 20
 
 
 class ExpandedStatement(msgspec.Struct, frozen=True, gc=False):
-    """A statement of the expanded program. It is never the call of a macro. `inside` lists the macros that contain
-    it, the outermost first.
+    """A statement of the expanded program. The statement is never the call of a macro. `inside` lists the macros that
+    contain the statement, the outermost first.
     """
 
     statement: Statement
@@ -126,7 +126,7 @@ class _Expansion:
         self.place(macro.body, _Frame(call, inside, given, statement))
 
     def given(self, statement: Statement, macro: Macro, frame: _Frame) -> dict[str, Argument] | None:
-        """Return the operands of a call by parameter, or None if they are wrong."""
+        """Return the operands of a call by parameter, or None if the operands are wrong."""
         if not macro.parameters and not statement.open:
             return {}
         names = [parameter.text for parameter in macro.parameters]

@@ -142,7 +142,7 @@ class _Reader(msgspec.Struct, gc=False):
         return value
 
     def takes(self, word: str) -> bool:
-        """Consume a keyword if it is the next token. Returns True if it was."""
+        """Consume a keyword if this keyword is the next token. Returns True if the next token was this keyword."""
         if self.at == len(self.tokens):
             return False
         token = self.tokens[self.at]

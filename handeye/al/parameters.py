@@ -22,8 +22,8 @@ _BRACED: Final = re.compile(r"\{([A-Za-z_]\w*)\}", re.ASCII)  # a parameter in a
 
 
 class Argument(Located, frozen=True, gc=False):
-    """An operand of a macro call, at the place where it is written. `call` is the scope of its names, and `by` is
-    the statement of the call.
+    """An operand of a macro call, at the place where it is written. `call` is the scope of the names in the operand,
+    and `by` is the statement of the call.
     """
 
     tokens: tuple[Token, ...]
@@ -41,7 +41,9 @@ class _Piece(Located, frozen=True, gc=False):
 
 @dataclass(frozen=True, slots=True)
 class FilledLine:
-    """A line of a macro with arguments filled in. `given` gives, for the span of each parameter, its argument."""
+    """A line of a macro with arguments filled in. `given` maps the span of each parameter to the parameter's
+    argument.
+    """
 
     statement: Statement
     pieces: Sequence[_Piece]
@@ -97,7 +99,9 @@ class FilledLine:
 
 
 def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
-    """Put the arguments of a call in place of the parameters, in a line of a macro or in the call of another macro."""
+    """Replace the parameters in a line of a macro by the arguments of a call. The line may itself be the call of
+    another macro.
+    """
     assert statement.word is not None
     words = statement.word.text in FREE_TEXT
     uses = {t.span: given[t.text] for t in parameters_in(statement) if t.text in given}
@@ -138,7 +142,9 @@ def uses(operand: Operand) -> tuple[Label, ...]:
 
 
 def across(one: Operand, other: Operand) -> Span:
-    """Return the span from one operand to another, or the span of the first operand if either is an argument."""
+    """Return the span from one operand to another, or the span of the first operand if either operand is an
+    argument.
+    """
     return one.span if one.use or other.use else Span(start=one.start, end=other.end)
 
 

@@ -227,7 +227,7 @@ class _Parser:
             self.tell(problem("parameter-name-taken", message, label.span, parameter))
 
     def unknown(self, word: Name, line: Line, rest: tuple[Token, ...]) -> None:
-        """Report an unknown word, unless it is the name of a macro whose head has an error."""
+        """Report an unknown word, unless the word is the name of a macro whose head has an error."""
         if word.text in self.known:
             return
         if word.text in _CONSOLE_WORDS:

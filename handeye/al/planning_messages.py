@@ -133,7 +133,7 @@ class _Phrases:
         return None
 
     def counted(self, name: str) -> str:
-        """Return `; the position is relative to ...` if it is relative to a part, or "" if it is not."""
+        """Return `; the position is relative to ...` if the position is relative to a part, or "" if it is not."""
         position = self.program.positions.get(name)
         of = None if position is None else position.of
         return "" if of is None else f"; the position is relative to {quoted(of)}"
@@ -239,8 +239,8 @@ class _Phrases:
         return next((span for span in found if span is not None), self.word_span(number))
 
     def modifier_span(self, number: int, word: str) -> Span:
-        """Return the span of a modifier. If there is none, as with `PLACE`, return the span of the statement's
-        word.
+        """Return the span of a modifier. If the statement does not have this modifier, as with `PLACE`, return the
+        span of the statement's word.
         """
         found = (self.find(words, word) for words in self.program.steps[number].modifiers)
         return next((span for span in found if span is not None), self.word_span(number))

@@ -20,7 +20,7 @@ NAME, NUMBER, STRING, MARK, JUNK = TokenKind  # members by name: looking one up 
 
 
 class Token(Located, frozen=True, gc=False):
-    """A token. Its offsets are in the combined text."""
+    """A token. The offsets of a token are in the combined text."""
 
     kind: TokenKind
     text: str
@@ -37,7 +37,7 @@ class Line(msgspec.Struct, frozen=True, gc=False):
     indented: bool  # starts with a blank
 
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
-        """Split the tokens of a line. Returns the tokens of its labels, and the tokens after them."""
+        """Split the tokens of a line. Returns the tokens of the labels, and the tokens after the labels."""
         tokens, at = self.tokens, 0
         if len(tokens) < 2 or tokens[1].text != ":":
             return (), tokens

@@ -1,4 +1,4 @@
-"""The syntax tree of an arm program. It has no reference cycles, so its classes are made with `gc=False`."""
+"""The syntax tree of an arm program. The tree has no reference cycles, so its classes are made with `gc=False`."""
 
 from typing import ClassVar, Final
 

@@ -65,12 +65,12 @@ def begin(
             or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
             renderer's method `render(data, view)` returns the light that falls on the camera's light-sensitive
             plate: an array of shape (256, 333), in which 1 is a white surface in full light.
-        search: a function that gives the places of a search, instead of the square spiral of `SEARCH`. It takes
-            the number of a place, counted from 0, and returns the x and y of that place in table coordinates, as
+        search: a function that gives the places of a search, instead of the square spiral of `SEARCH`. The function
+            takes the number of a place, counted from 0, and returns the x and y of that place in table coordinates, as
             multiples of the search step. The function is called once for each number. A resumed run calls it again,
             and it must then return the same values. The search ends with error 6 when the function returns None or
-            raises StopIteration, or when it has tried the number of places that the `SEARCH` allows, 49 by default.
-            A search `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
+            raises StopIteration, or when it has tried the number of places that the `SEARCH` allows, 49 by default. A
+            search `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
             `run.state.memory.place` is the number of the current place.
         vision: functions in place of handeye's own vision, by instruction, such as `{"SPECIFIC": my_function}`.
             Pictures are arrays of shape (256, 333), from 0 to 15. `view` is the calibrated camera in the position
@@ -78,18 +78,18 @@ def begin(
             and picture points. `part` is the drawing of the part: its planned place `at`, the height of its `face`,
             and its `holes`.
             `GENERAL`: (picture, view, part) returns the place (x, y) of the part's reference point in W, in m.
-            `SPECIFIC`: (picture, view, part, (x, y)) returns its pose (x, y, yaw), in m and rad; the last argument
-            is the place that `GENERAL` found. Both return None if they do not find the part.
+            `SPECIFIC`: (picture, view, part, (x, y)) returns the part's pose (x, y, yaw), in m and rad; the last
+            argument is the place that `GENERAL` found. Both return None if they do not find the part.
             `INSPECT`: (before, after, view, part, (x, y, yaw)) returns True if the gasket on the part is right.
         referee: how to judge the finished work. Give a function that takes the true state of the cell and returns
             findings by name. Or keep the task's referee and give it other limits, such as `{"screws_clamp": 60}`;
             each limit has the unit of its finding. To judge a saved run again, use
             `handeye.begin(folder, referee=...).result`.
         judge: whether the referee judges the run when it ends; by default True if a referee is given, or if the
-            resumed run was started with one.
+            resumed run was started with a referee.
         taught: taught positions, as for `handeye.plan`.
         task: name of the task; by default the task of the given plan, program, run or world, else the water pump.
-        out: folder for plan, events, trace, checkpoints, pictures and result; without it, nothing is written. To
+        out: folder for plan, events, trace, checkpoints, pictures and result; without `out`, nothing is written. To
             resume a run in the same folder, give the folder here as well as in `script`.
         overwrite: replace a run that is already in the folder `out`.
         halt: a panic button: a function that handeye calls in every servo period and after every step. When it returns
@@ -219,8 +219,8 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
 
 @dataclass(eq=False)
 class _PauseOnRequest(Observer):
-    """Pauses a run after the present step if the panic button is pressed. Steps that take no simulated time need this:
-    they have no servo period in which the button is polled.
+    """Pauses a run after the present step if the panic button is pressed. This observer is needed for steps that take
+    no simulated time, because such steps have no servo period in which the button is polled.
     """
 
     session: DebugSession

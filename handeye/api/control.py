@@ -21,8 +21,8 @@ HOUR: Final = 3600.0  # s; a controller commands the arm for at most this time a
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Command:
-    """What a controller commands for one servo period. Without a torque, the brakes are set. Another device for which
-    the command is None keeps its last command.
+    """What a controller commands for one servo period. If `torque` is None, the brakes are set. Another device for
+    which the command is None keeps its last command.
 
     >>> handeye.Command(torque=[0.0] * 6, gap=0.02).gap
     0.02
@@ -86,7 +86,7 @@ def _periods(seconds: object, period: float) -> int:
 
 
 def _checked(name: str, controller: Controller, runner: Runner) -> Callable[[Sensed], CommandedPeriod | None]:
-    """Wrap a controller: its commands are checked and completed with the last ones."""
+    """Wrap a controller. Each command is checked, and a value that is None is replaced by the previous value."""
     joints, last = len(runner.context.arm.joints), runner.context.drive.state
 
     def command(sensed: Sensed) -> CommandedPeriod | None:
@@ -121,8 +121,8 @@ def _torque(name: str, given: Command, joints: int) -> tuple[float, ...] | None:
 
 
 def _number(name: str, field: str, given: object, before: float) -> float:
-    """Return a command to a device; if it is None, return the previous command. Raises BadArgument if it is not
-    finite.
+    """Return the command to a device, or the previous command if the given command is None. Raises BadArgument if the
+    command is not finite.
     """
     try:
         number = float(before if given is None else given)  # type: ignore[arg-type]  # of any type: it comes from a user's function

@@ -72,7 +72,7 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
 
 
 def _checked_vision(vision: object) -> dict[str, VisionFunction]:
-    """Wrap the caller's vision functions. Raises InvalidInput if they cannot be used."""
+    """Wrap the caller's vision functions. Raises InvalidInput if the functions cannot be used."""
     if not isinstance(vision, Mapping):
         raise BadArgument(f"`vision` must be a dictionary from instructions to functions, not {vision!r}")
     for word, function in vision.items():
@@ -109,8 +109,8 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
 
 
 def _checked_place(name: str, number: int, given: object) -> tuple[float, float]:
-    """Return the place that a search pattern returned, as two numbers. Raises InvalidInput if it is not a pair of
-    finite numbers.
+    """Return the place that a search pattern returned, as two numbers. Raises InvalidInput if the place is not a pair
+    of finite numbers.
     """
     try:
         x, y = (float(each) for each in np.asarray(given, dtype=object))

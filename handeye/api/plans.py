@@ -120,10 +120,10 @@ class Plan:
 
     @property
     def digest(self) -> str:
-        """Sixteen hexadecimal digits that identify the plan in runs and traces. They are the same on every
+        """Sixteen hexadecimal digits that identify the plan in runs and traces. The digits are the same on every
         processor.
 
-        They depend on the script, taught positions, arm, task and planner, but not on the computed motions.
+        The digits depend on the script, taught positions, arm, task and planner, but not on the computed motions.
         """
         return plan_digest(self.record)
 
@@ -186,8 +186,8 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
         script: a file (`.al`) with its taught file (`.toml`) next to it; the name of an included program, if no
             file has that name; the text of a script, which is a `str` that contains a line end; or a saved plan
             (`.json`).
-        taught: taught positions of the script, in inches and degrees: a TOML file, or the text of one. By default,
-            a script given as text has none.
+        taught: taught positions of the script, in inches and degrees: a TOML file, or the text of one. By default, a
+            script given as text has no taught positions.
         task: name of the task, which determines the arm; by default the task of the plan or the included program,
             else the water pump.
 

@@ -144,8 +144,8 @@ class Run:
         return self._stand("went back")
 
     def undo(self, steps: Place = 1) -> State:
-        """Make the arm undo its work with guarded motions, the last step first. The program can then continue from
-        there.
+        """Make the arm undo its work with guarded motions, the last step first. The program can then continue from the
+        step that the arm has reached.
 
         `back` resets the simulator; `undo` moves the arm, as on a real machine. The undone steps stay in the
         events. If a motion meets unexpected resistance, or if the hand no longer holds the object that it held
@@ -205,8 +205,8 @@ class Run:
         or `"retry"`.
 
         Returns:
-            the answer as a record; `print` shows it as the stepper does. A command that cannot be executed changes
-            nothing, and the answer's `error` gives the reason.
+            the answer as a record; `print` shows the answer as the stepper does. A command that cannot be executed
+            changes nothing, and the answer's `error` gives the reason.
 
         Raises:
             InvalidInput: the line is not a string, or the run is closed.
@@ -264,11 +264,12 @@ class Run:
     def control(self, controller: Controller, seconds: float = 60.0) -> State:
         """Let a controller command the arm, once in every servo period (1/60 s), before the program continues.
 
-        The controller knows the cell only through the sensors. It takes the readings at the end of a servo period:
-        `time` (s), `q` and `qd` (joint positions and rates, shape (n,), rad and m), `gap` (m), `touch` (the two
-        switches of the fingers), `tool_torque` (of the screwdriver, N m), and `braked`. It returns a `handeye.Command`
-        for the next period, or None to end. Then the brakes are set for .1 s, in which the arm comes to rest. Fingers
-        and screwdriver keep their last commands. `run.arm` gives the model of the arm, for `handeye.arm`.
+        The controller knows the cell only through the sensors. The controller receives the readings at the end of a
+        servo period: `time` (s), `q` and `qd` (joint positions and rates, shape (n,), rad and m), `gap` (m), `touch`
+        (the two switches of the fingers), `tool_torque` (of the screwdriver, N m), and `braked`. The controller
+        returns a `handeye.Command` for the next period, or None to end its control. At the end, the brakes are set for
+        .1 s, and the arm comes to rest. Fingers and screwdriver keep their last commands. `run.arm` gives the model of
+        the arm, for `handeye.arm`.
 
         The commands are recorded as an event of the run, so `handeye trace verify` and `back` repeat them. Afterwards,
         the arm cannot undo the steps that it executed before the control.
@@ -305,8 +306,8 @@ class Run:
 
     @property
     def arm(self) -> ArmModel:
-        """The model of the arm, with the link weights that the arm has measured. It describes the arm as drawn; the
-        arm of a world has errors that only measurements show.
+        """The model of the arm, with the link weights that the arm has measured. The model describes the arm as drawn;
+        the arm of a world has errors that only measurements show.
         """
         return self._runner.context.drive.built
 
@@ -381,7 +382,7 @@ class Run:
 
     @property
     def assembled(self) -> bool | None:
-        """True if the referee accepts the work, False if not; None if the referee has not judged it."""
+        """True if the referee accepts the work, False if not; None if the referee has not judged the work."""
         return self.result.assembled
 
     # -- keeping --------------------------------------------------------------------------------------
@@ -426,7 +427,7 @@ class Run:
             a record of the written files, with remarks; an unfinished run is marked as such.
 
         Raises:
-            InvalidInput: the export cannot be written there, there is no such part, or the run has no cell.
+            InvalidInput: the export cannot be written at `path`, there is no such part, or the run has no cell.
 
         >>> run = handeye.begin("OPEN 1\\n", camera="ray")
         >>> run.export(folder).moment
@@ -490,8 +491,9 @@ class Run:
 
 
 def _too_many(steps: int, done: int, how: str) -> Refused:
-    """Return the exception for a request to undo more steps than were executed. `how` is the verb of its
-    message."""
+    """Return the exception for a request to undo more steps than were executed. `how` is the verb in the message of
+    the exception.
+    """
     left = f"only {done} {'has' if done == 1 else 'have'}" if done else "none has"
     return Refused(f"{counted(steps, 'step')} cannot be undone: {left} been {how}")
 

@@ -30,7 +30,7 @@ from handeye.runs.systems import listing_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunRequest:
-    """Options for a run, as the caller gave them; None if an option was not given."""
+    """Options for a run, as the caller gave them. An option that was not given is None."""
 
     seed: object
     world: object
@@ -79,8 +79,8 @@ def start_of(
     taught: FileName | None,
     out: FileName | None,
 ) -> Start:
-    """Find the state in which a run starts, from the arguments of `handeye.begin`. Raises InvalidInput for the
-    reasons given there.
+    """Find the state in which a run starts, from the arguments of `handeye.begin`. Raises InvalidInput for the reasons
+    that `handeye.begin` lists.
     """
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
@@ -112,8 +112,8 @@ def _is_kept(given: FileName) -> bool:
 
 
 def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
-    """Read a saved state: a checkpoint; the newest state in a folder; or, if a stage is given, the last state in
-    the folder before that stage. Raises InvalidInput if there is none.
+    """Read a saved state: a checkpoint; the newest state in a folder; or, if a stage is given, the last state in the
+    folder before that stage. Raises InvalidInput if there is no such state.
     """
     path = given_file(given, "resume a run from a file or a folder")
     start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)
@@ -126,8 +126,8 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
-    """Open the folder of a run to resume the run in the same folder from its newest state. Raises InvalidInput if
-    that is impossible.
+    """Open the folder of a run to resume the run in the same folder from its newest state. Raises InvalidInput if the
+    run cannot be resumed there.
     """
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)
@@ -155,8 +155,8 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
-    """Return the checkpoint with the caller's search pattern, camera and referee in place of its own. Its setup and
-    its first event then name these parts.
+    """Return the checkpoint with the caller's search pattern, camera and referee in place of its own. The setup and
+    the first event of the returned checkpoint name these parts.
     """
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start
@@ -177,7 +177,7 @@ def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
 
 
 def _with_referee(setup: Setup, wanted: RunRequest) -> Setup:
-    """Return the setup of a run that the caller's referee or limits will judge, instead of the original ones."""
+    """Return the setup of a run, with the caller's referee or limits in place of the original ones."""
     if "referee" in wanted.replaced:
         return msgspec.structs.replace(setup, limits={})
     if wanted.limits is None:

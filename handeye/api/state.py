@@ -127,7 +127,7 @@ def _kept(values: Array) -> Array:
 
 
 class Answer(Reply, frozen=True, kw_only=True):
-    """A reply of the stepper. `print` shows it as the stepper does."""
+    """A reply of the stepper. `print` shows the reply as the stepper does."""
 
     def __str__(self) -> str:
         """The reply as lines of text."""

@@ -58,8 +58,9 @@ class World:
                 a unit, such as `".3 in"`. If the name is that of a group, every quantity in the group gets the
                 value, each in its own unit: a number for `arm.friction` is in N m for revolute joints and in N for
                 the prismatic joint.
-            scale: a factor for each name of a quantity or group. Its errors are multiplied by this factor, in
-                addition to the level. `unsourced` stands for all errors for which no source gives a size.
+            scale: a factor for each name of a quantity or group. The errors of the quantity or group are multiplied by
+                this factor, in addition to the level. `unsourced` stands for all errors for which no source gives a
+                size.
             faults: faults to inject, from the list that `handeye faults --list` prints: `NAME` or `NAME=VALUE`.
                 With `@N` at the end, the fault begins at stage N of the program.
             task: name of the task.
@@ -150,7 +151,7 @@ class World:
             a record of the written files, with remarks.
 
         Raises:
-            InvalidInput: the export cannot be written there, or there is no such part.
+            InvalidInput: the export cannot be written at `path`, or there is no such part.
         """
         return exported(path, lambda: initial_state(self.spec, self._task), part, overwrite=overwrite)
 

@@ -32,8 +32,8 @@ def _half_step(arm: ArmModel) -> Array:
 
 @lru_cache(maxsize=16)
 def rate_step(arm: ArmModel) -> Array:
-    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. The steps of a converter are taken to
-    span the rates of its joint.
+    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. We assume that the steps of a
+    converter span the rates of its joint.
     """
     return 2 * constants(arm).speed / 2**SENSE_BITS
 
@@ -47,8 +47,9 @@ def torque_step(arm: ArmModel) -> Array:
 
 
 def followed(arm: ArmModel, here: Array, moved: Array, reading: Array) -> Array:
-    """Return joint positions with a finer resolution than the potentiometers give. Positions `here` advance by
-    `moved`, as integrated from the tachometers, and are kept within half a step of the potentiometer `reading`.
+    """Return joint positions with a finer resolution than the potentiometers give. The positions `here` advance by
+    `moved`, which is integrated from the tachometers. The result is kept within half a step of the potentiometers'
+    `reading`.
     """
     half = _half_step(arm)
     return np.minimum(np.maximum(here + moved, reading - half), reading + half)

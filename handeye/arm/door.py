@@ -33,12 +33,11 @@ def forward(q: ArrayLike, arm: ArmModel | None = None) -> Pose:
 def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel | None = None) -> IKResult:
     """Return joint positions, within the joint limits, that bring the hand to the pose `X_WT`, shape (4, 4), in m.
 
-    Of several solutions, the result is the one that the joints reach soonest from `near`, shape (n,), by default the
-    middle of their ranges.
+    Of several solutions, the result is the one that the joints reach soonest from the positions `near`, shape (n,). By
+    default, `near` is the middle of the joints' ranges.
 
-    Returns:
-        a record with the joint positions `q`, shape (n,). If there are none, `q` is None, and `message(arm)` gives
-        the reason as a sentence.
+    Returns: a record with the joint positions `q`, shape (n,). If no joint positions bring the hand there, `q` is
+        None, and `message(arm)` gives the reason as a sentence.
 
     Raises:
         BadArgument: `X_WT` is not a pose, or `near` has the wrong number of joints.
@@ -61,7 +60,7 @@ def jacobian(q: ArrayLike, arm: ArmModel | None = None) -> Array:
     """Return the geometric Jacobian of the hand at T in the axes of W: three rows for the velocity of its origin (m/s),
     then three for its angular velocity (rad/s). Shape (..., n) gives shape (..., 6, n).
 
-    Its transpose turns a force (N) and moment (N m) on the hand into joint torques.
+    The transpose of the Jacobian converts a force (N) and a moment (N m) on the hand to joint torques.
 
     Raises:
         BadArgument: `q` has the wrong number of joints, or is not finite.

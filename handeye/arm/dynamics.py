@@ -124,7 +124,7 @@ def _bias(arm: ArmModel, links: _Links, qd: Array | None) -> Array:
 
 
 def _work(rates: Array, efforts: Array) -> Array:
-    """Return the joint torques that do the work of forces or moments on all links, shape (..., n, 3). `rates` are the
-    velocities of the links per joint rate.
+    """Return the joint torques that do the same work as the given forces or moments on all links. `efforts`, shape
+    (..., n, 3), are the forces or moments, and `rates` are the velocities of the links per joint rate.
     """
     return np.asarray((rates @ efforts[..., None])[..., 0].sum(axis=-2))

@@ -1,4 +1,5 @@
-"""The force that the hand senses in free air. It comes from unknown joint friction and from the converter steps.
+"""The force that the hand senses in free air. This force comes from unknown joint friction and from the converter
+steps.
 
 The force estimate takes only the known part of joint friction into account. A joint at rest takes up any torque up
 to its Coulomb friction f_i, and a sliding joint takes up all of f_i. The estimate reports the torque residual tau
@@ -7,10 +8,10 @@ polytope of wrenches. Along a unit vector u the polytope extends to the sum over
 
 An arm that has measured its friction compensates the measured part, and senses the rest, `unknown_friction`, during
 the whole motion. In addition, the steps of the converters are sensed as a force in each servo period. The output
-torque is rounded by up to half a step. The rate gained in a period is read in steps; multiplied by the inertia, a
-step appears as a torque. Both roundings are uniform errors, of variance step^2 / 12.
+torque is rounded by up to half a step. The rate gained in a period is read in steps. One step multiplied by the
+inertia appears as a torque. The errors of both roundings are uniformly distributed, with the variance step^2 / 12.
 
-Measured on 120 straight motions in free air, in three worlds with twice the errors: the mean force over a motion
+Measured on 120 straight motions in free air, in three worlds with twice the usual errors: the mean force over a motion
 was at most 1.02 times the force computed from unknown friction. The scatter of single servo periods was 1.05 times
 the scatter computed from the converter steps (1.28 times at most).
 """
@@ -59,8 +60,8 @@ def felt_in_air(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> 
 
 
 def faint(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> float | None:
-    """Return the greatest force (N) or moment (N m) sensed in free air if it exceeds `exerted`; a guard at
-    `exerted` may then trip without contact. Returns None if it does not exceed `exerted`.
+    """Return the greatest force (N) or moment (N m) sensed in free air, or None if it does not exceed `exerted`. If it
+    exceeds `exerted`, a guard at `exerted` may trip without contact.
     """
     most = felt_in_air(arm, q, friction, exerted)
     return most if float(np.linalg.norm(np.array(exerted.vector))) < most else None

@@ -82,8 +82,8 @@ def crept(arm: ArmModel, change: Array) -> Disagreement | None:
 
 
 class Scatter(Record, frozen=True, kw_only=True):
-    """Scatter of the rate readings of a joint at rest, and the limit of this scatter. Both are median deviations
-    from the median, in rad/s or m/s.
+    """Scatter of the rate readings of a joint at rest, and the limit of this scatter. Scatter and limit are median
+    deviations from the median, in rad/s or m/s.
     """
 
     joint: int
@@ -108,8 +108,8 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
     """Find the joint whose rate readings, shape (N, n), scatter most while the arm holds still. Returns None if all
     scatter is tolerable.
 
-    The median ignores a single jerk, as when a held part slips. A joint whose friction, shape (n,), in N m or N, is
-    less than half a step of its torque converter may swing at rest: its torque then alternates between two
+    The median ignores a single jerk, for example when a held part slips. A joint whose friction, shape (n,), in N m or
+    N, is less than half a step of its torque converter may swing at rest: its torque then alternates between two
     neighbouring steps. `M` is the mass matrix, shape (n, n).
     """
     scatter = np.median(np.abs(rates - np.median(rates, axis=0)), axis=0)
@@ -123,8 +123,8 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
 
 @dataclass(slots=True, kw_only=True)
 class _SensorPair:
-    """Compares the two sensors of one joint from the start of a motion, in floats, which for so few joints are faster
-    than arrays.
+    """Compares the two sensors of one joint from the start of a motion, in floats, which are faster than arrays for
+    the few joints of an arm.
     """
 
     start: float  # potentiometer at the start
@@ -166,8 +166,8 @@ class JointAgreement:
     _pairs: list[_SensorPair] = field(default_factory=list, init=False)  # empty at the start
 
     def begin_anew(self, q: Array, qd: Array) -> None:
-        """Start the comparison again from these readings. Used for a tool that chatters in step with the servo and
-        shakes the arm.
+        """Start the comparison again from these readings. The servo starts the comparison again while a tool chatters
+        in step with the servo and shakes the arm.
 
         Tachometers that are read once per period then show a steady rate although the joint does not move on
         average.
@@ -200,7 +200,7 @@ class JointAgreement:
 
 @lru_cache(maxsize=16)
 def _tolerances(arm: ArmModel) -> list[tuple[float, float, float]]:
-    """Return the tolerances of each joint: slack, creep and steady of its pair of sensors."""
+    """Return the tolerances of each joint: `slack`, `creep` and `steady` of its pair of sensors."""
     slack = np.where(constants(arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP) + READING_STEPS * position_step(
         arm
     )
@@ -237,8 +237,9 @@ def blown(here: Dynamics, impulse: Array) -> Array:
     the joint was stopped again within the same servo period.
 
     `impulse`, shape (n,), N m s and N s, is the part of the change of momentum that the drives, the weight and the
-    friction of the arm do not explain. It gives the impulse and the angular impulse on the hand. Their directions
-    may have changed within the period, so each may have acted on each joint in the worst direction.
+    friction of the arm do not explain. This part gives the impulse and the angular impulse on the hand. The directions
+    of both impulses may have changed within the period, so each impulse may have acted on each joint in the worst
+    direction.
     """
     wrench = np.linalg.lstsq(here.J.T, impulse, rcond=SINGULAR)[0]
     force, moment = np.linalg.norm(wrench[:3]), np.linalg.norm(wrench[3:])

@@ -6,10 +6,10 @@ difference between its torques in the two directions, even if the model of its w
 `execution.friction_measurement`).
 
 A force on the hand acts on several joints at once, as J^T F. At the hand, a torque in one joint alone looks like a
-couple, or like a force at the wrist centre, whose lever arm about the tool centre point is longer than any finger. The
-decision is therefore wrong in two cases. A force on the arm at its wrist centre looks like a fault of a joint. If the
-hand points down under a level boom, an upward push looks the same as a shoulder that does not lift; this case counts
-as a push.
+couple, or like a force at the wrist centre. The lever arm of such a force about the tool centre point is longer than
+any finger. The decision is therefore wrong in two cases. A force on the arm at its wrist centre looks like a fault of
+a joint. If the hand points down under a level boom, an upward push looks the same as a shoulder that does not lift;
+this case counts as a push.
 """
 
 from collections.abc import Sequence
@@ -65,7 +65,7 @@ class Stiffness:
 
 def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:
     """Find the joint that resists a motion with much more than its measured `friction`, shape (n,). Returns None if
-    there is none.
+    there is no such joint.
 
     Torques are averaged over each direction of sliding of each joint, in arrays of shape (2, n).
     """

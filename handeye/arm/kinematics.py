@@ -29,7 +29,7 @@ def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
 
 
 def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
-    """Return rotations by joint angles about z, followed by alpha about x. Angles of shape (...) give shape (...,
+    """Return rotations: first by the joint angle about z, then by alpha about x. Angles of shape (...) give shape (...,
     3, 3).
     """
     c, s = np.cos(angle), np.sin(angle)

@@ -21,8 +21,8 @@ RAMP = 0.1  # s to reach and to leave cruising speed; chosen: six servo periods 
 def straight(
     arm: ArmModel, q_start: Array, displacement: Array, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Plan a straight motion of the tool point with constant orientation. Returns its set-points, or the reason why
-    it is impossible.
+    """Plan a straight motion of the tool point with constant orientation. Returns the set-points of the motion, or the
+    reason why the motion is impossible.
 
     The motion covers `displacement` (m, in W, shape (3,)) and cruises at `speed` (m/s). A motion too short for this
     speed stays slower.
@@ -40,8 +40,8 @@ def straight(
 def arc(
     arm: ArmModel, q_start: Array, centre_xy: Array, angle: float, speed: float, ramp: float = RAMP
 ) -> Samples | IKResult:
-    """Plan a turn of the hand about a vertical axis through `centre_xy` (m, shape (2,)). Returns its set-points, or
-    the reason why it is impossible.
+    """Plan a turn of the hand about a vertical axis through `centre_xy` (m, shape (2,)). Returns the set-points of the
+    motion, or the reason why the motion is impossible.
 
     The motion covers `angle` (rad, counter-clockwise seen from above) and cruises at up to `speed` (rad/s).
     """
@@ -62,7 +62,8 @@ def arc(
 
 
 def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float = RAMP) -> Samples | IKResult:
-    """Plan a turn of the hand about its tool point. Returns its set-points, or the reason why it is impossible.
+    """Plan a turn of the hand about its tool point. Returns the set-points of the motion, or the reason why the motion
+    is impossible.
 
     The motion covers the rotation vector `turn` (rad, in W, shape (3,)) and cruises at up to `speed` (rad/s).
     """
@@ -78,8 +79,8 @@ def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float 
 def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple[Array, Array, Array]:
     """Return the distance, speed and acceleration at ticks 1 to N of a cruise between two ramps with smooth ends.
 
-    On a ramp the speed is v (3 r2 - 2 r3), where r is the elapsed fraction of the ramp, and r2 and r3 are its
-    square and cube. A ramp therefore covers half the distance that cruising covers in the same time.
+    On a ramp the speed is v (3 r2 - 2 r3), where r is the elapsed fraction of the ramp, and r2 and r3 are the square
+    and the cube of r. A ramp therefore covers half the distance that cruising covers in the same time.
     """
     if distance == 0.0:
         return np.zeros(0), np.zeros(0), np.zeros(0)
@@ -97,7 +98,7 @@ def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple
 
 def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Samples | IKResult:
     """Find the joint positions, rates and accelerations for hand poses, shape (N, 4, 4), twists, shape (N, 6), and
-    rates of twists, shape (N, 6). Returns the reason if that is impossible.
+    rates of twists, shape (N, 6). Returns the reason if the arm cannot follow the poses.
     """
     if len(X) == 0:
         none = np.zeros((0, len(q_start)))
@@ -127,14 +128,14 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
 
 
 def _shortest(step: Array, turn: Array) -> Array:
-    """Remove whole turns from `step`, so that it goes in the shorter direction."""
+    """Remove whole turns from `step`, so that the joint turns in the shorter direction."""
     whole = np.round(step / turn)
     return np.asarray(step - np.where(whole == 0, 0.0, whole * np.where(np.isinf(turn), 0.0, turn)))
 
 
 def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Samples | IKResult:
-    """Plan a smooth motion of one joint, given by its index from 0, to a goal (rad or m). Returns its set-points,
-    or the reason why it is impossible.
+    """Plan a smooth motion of one joint, given by its index from 0, to a goal (rad or m). Returns the set-points of
+    the motion, or the reason why the motion is impossible.
 
     `speed` is a fraction of the joint's rate limit; the acceleration is scaled by its square.
     """

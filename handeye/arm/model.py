@@ -24,15 +24,15 @@ class GraspModel:
     give: float = 0.004  # m that the set-point leads fingers that press with all the force allowed; chosen
 
     def lag(self, force: float, grip: float) -> float:
-        """Return how far (m) the set-point of the gap leads the fingers when they press with `force`, of at most
-        `grip` (both in N).
+        """Return how far (m) the set-point of the gap leads the fingers when they press with `force`. `force` is at
+        most `grip`; both are in N.
         """
         return self.give * force / grip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HandModel:
-    """A hand with two fingers that open and close together, with its palm and wrist; lengths in m."""
+    """A hand: two fingers that open and close together, a palm and a wrist. Lengths are in m."""
 
     length: float  # wrist centre to finger tips
     mass: float  # of both fingers, in kg; not included in the last link's `mass`
@@ -49,7 +49,7 @@ class HandModel:
     lamp: tuple[float, float, float] | None = None  # in T; shows the camera where the hand is
 
     def boxes(self, gap: float) -> tuple[Box, ...]:
-        """Return the boxes of both fingers at an opening `gap` (m), of the palm and of the wrist."""
+        """Return the boxes of both fingers, of the palm and of the wrist. The fingers have the opening `gap` (m)."""
         x, inner, outer = self.finger_width / 2, gap / 2, gap / 2 + self.finger_thickness
         return (
             (-x, inner, -self.finger_length, x, outer, 0.0),

@@ -2,13 +2,13 @@
 arm in successive motions.
 
 In a motion through free air from rest to rest, the mean torque of a joint is its weight torque plus the measured
-friction. The remainder is due to errors of masses, mass centres and drives. These errors are constant, so each
-motion refines their estimate, until a motion at a new posture leaves almost no remainder. The method is recursive
-least squares with a prior (Gauss); the prior is the uncertainty after the arm has weighed itself, for errors of
-twice their stated size. A remainder that appears then means that a drive has changed. Measured in three worlds,
-one of them at the high level: joint 2 of the Stanford arm has a weight torque of 18 N m over the table, which is
-known to within .27 N m; joint 3 carries a weight of 5 to 20 N, which is known to within .6 N. A joint that carries
-no weight gives no information.
+friction. The remainder is due to errors of masses, mass centres and drives. These errors are constant, so each motion
+refines their estimate, until a motion at a new posture leaves almost no remainder. The method is recursive least
+squares with a prior (Gauss); the prior is the uncertainty after the arm has weighed itself, computed for errors of
+twice their stated size. If a remainder appears after that, a drive has changed. Measured in three worlds, one of them
+at the high level: over the table, joint 2 of the Stanford arm has a weight torque of 18 N m, and the estimate of this
+torque is right to within .27 N m. Joint 3 carries a weight of 5 to 20 N, and the estimate of this weight is right to
+within .6 N. A joint that carries no weight gives no information.
 """
 
 from collections.abc import Sequence
@@ -54,8 +54,8 @@ class Unbalanced:
 def balanced(
     arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None, borne: Array
 ) -> tuple[Array, Unbalanced | None]:
-    """Compare the torques of a motion with the estimate made before it. Returns the new estimate, and the joints
-    that do not balance, or None if all balance.
+    """Compare the torques of a motion with the estimate made before the motion. Returns the new estimate, and the
+    joints that do not balance, or None if all balance.
 
     `arm` is the model with the weighed masses, and `friction` the measured friction. `belief` is the estimate, or
     None if the arm has only been weighed at its first posture. `borne` are the torques that carry a declared load.
@@ -83,8 +83,8 @@ def balanced(
 
 
 def _doubt(arm: ArmModel) -> Array:
-    """Return the least uncertainty of a mean torque: a quarter of a converter step in the torque, and the same in
-    the friction.
+    """Return the least uncertainty of a mean torque: a quarter of a converter step in the torque, and a quarter of a
+    step in the friction.
     """
     return np.asarray(torque_step(arm) * np.sqrt(2) / 4)
 

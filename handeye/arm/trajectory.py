@@ -118,8 +118,8 @@ def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, 
 
 
 def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
-    """Return the fastest trajectory within the limits among the segment times tried. It lasts a whole number of
-    servo periods.
+    """Try several segment times, and return the fastest trajectory within the limits. The trajectory lasts a whole
+    number of servo periods.
     """
     k, period = constants(arm), arm.servo.period
     distances = np.abs(np.diff(knots, axis=0))

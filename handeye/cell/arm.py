@@ -89,7 +89,7 @@ class ArmState(Record, frozen=True, kw_only=True):
 class SimulatedArm(Mechanism[ArmState], ArmPort):
     """Motors, brakes and sensors of n joints, named `<prefix>j1`, `<prefix>j2`, ... in the MuJoCo model.
 
-    A brake is dry friction in the joint. It holds the joint in place, and slips under a torque greater than the
+    A brake is dry friction in the joint. The brake holds the joint in place, and slips under a torque greater than the
     torque of the brake.
     """
 
@@ -108,12 +108,12 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Make an arm with its brakes set at a posture, shape (n,), in rad or m. `noise` generates the noise of its
-        sensors.
+        """Make an arm with its brakes set at a posture, shape (n,), in rad or m. `noise` generates the noise of the
+        arm's sensors.
 
         The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for joint
         N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand (N,
-        in W). The line `servo` must carry 1, or torques from the computer do not arrive.
+        in W). Torques from the computer arrive only while the line `servo` carries 1.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]

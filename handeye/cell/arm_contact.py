@@ -1,4 +1,6 @@
-"""Measures the true force of all contacts on an arm. It is for trials and studies, never for the working phase."""
+"""Measures the true force of all contacts on an arm. This force is for trials and studies, never for the working
+phase.
+"""
 
 import mujoco
 import numpy as np
@@ -17,8 +19,8 @@ class ArmContact:
         self._own = root[self._model.geom_bodyid] == root[cell.arm.last_link]
 
     def force(self) -> Array:
-        """Return the sum of the forces of all contacts on the arm now (N, in W), shape (3,). A held part presses with
-        its weight and its inertia, and with the forces of whatever it meets.
+        """Return the sum of the forces of all contacts on the arm now (N, in W), shape (3,). A held part presses on
+        the arm with its weight, with its inertia, and with the forces of whatever it touches.
         """
         contact, found, sum_ = self._data.contact, np.zeros(6), np.zeros(3)
         own = self._own[contact.geom]

@@ -69,18 +69,18 @@ class Bench(Clock, Mechanism[BenchTime]):
         mujoco.mj_forward(self.model, self.data)
 
     def add(self, part: Mechanism[Any]) -> None:
-        """Add a mechanism. It acts on the scene as time passes, after the mechanisms added before."""
+        """Add a mechanism that acts on the scene as time passes. Mechanisms act in the order of the calls of `add`."""
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """Make a cell of this bench and of `others`, mechanisms that do not act as time passes. The scene must not
-        change from now on.
+        """Make a cell of this bench and of the mechanisms `others`, which do not act as time passes. The scene must not
+        change after this call.
         """
         noise = np.random.Generator(np.random.PCG64(0))
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
 
     def replace(self, spec: mujoco.MjSpec) -> None:
-        """Continue with a changed scene. Everything that exists in both scenes keeps its state."""
+        """Continue with a changed scene. Everything that exists in both the old and the new scene keeps its state."""
         self.model, self.data = spec.recompile(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
         for part in self._parts:
@@ -119,11 +119,13 @@ class Bench(Clock, Mechanism[BenchTime]):
             self._passing = False
 
     def end_early(self) -> None:
-        """Let `advance` end with the present physics step. Called by a function that is called at every step."""
+        """Let `advance` end with the present physics step. Only a function that runs at every step may call this."""
         self._ending = True
 
     def call_at(self, microseconds: int, name: str) -> None:
-        """Schedule the event `name`: it is handled at the first physics step that begins at this time or later."""
+        """Schedule the event `name` for a time (microseconds). The event is handled before the first physics step that
+        begins at this time or later.
+        """
         if name not in self.handlers:
             raise NoSuchName(f"the bench has no event {name}; its events are {', '.join(self.handlers)}")
         if microseconds >= _LATEST:
@@ -160,7 +162,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         )
 
     def _pass(self, most: int) -> None:
-        """Let at most `most` physics steps pass: one stretch of steps, or all of them if everything sleeps."""
+        """Let at most `most` physics steps pass: if everything sleeps, all of them; if not, one stretch of steps."""
         steps = min(most, self._stretch)
         for part in self._parts:
             part.before(float(steps * self.tick))

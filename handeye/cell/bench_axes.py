@@ -22,7 +22,7 @@ Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
 
 
 def sensor(name: str) -> Sense:
-    """Make the function that reads a channel whose values are those of the scene's sensor `name`."""
+    """Make the function that reads a channel that has the values of the scene's sensor `name`."""
     return lambda _, data: np.asarray(data.sensor(name).data)
 
 
@@ -234,7 +234,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         model.actuator_gainprm[slack], model.actuator_biasprm[slack] = gain, bias
 
     def _allow_sleep(self, *, allowed: bool) -> None:
-        """Allow the bodies of the machine to sleep when they are at rest, or keep them awake."""
+        """Allow the bodies of the machine to sleep while they are at rest, or keep all of them awake."""
         if not self._sleeps:
             return
         for tree in self._trees:
@@ -275,7 +275,7 @@ class BenchOutputs(Outputs, Mechanism[OutputsState]):
     kind = OutputsState
 
     def __init__(self, bench: Bench, name: str, outputs: Mapping[str, Callable[[float], None]]) -> None:
-        """Make outputs by name. Each has a function that sets its value in the mechanism concerned."""
+        """Make outputs by name. Each output has a function that sets the output's value in its mechanism."""
         self.name, self._outputs = name, outputs
         self._values = dict.fromkeys(outputs, 0.0)
         bench.add(self)

@@ -113,7 +113,8 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         """Draw pictures without shadows while the context is open. This idealisation is for pictures of the lamp on
         the arm.
 
-        The lamp is found from two pictures, one with the lamp on and one with it off. Shadows are the same in both.
+        The lamp is found from two pictures, one with the lamp on and one with the lamp off. Shadows are the same in
+        both pictures.
         """
         self._renderer.shadows = False
         try:
@@ -198,14 +199,16 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
 
 
 def renderer_here(kind: str) -> Literal["gl", "ray"]:
-    """Return the renderer, `gl` or `ray`, that `kind` means on this computer. Raises InvalidInput if there is none."""
+    """Return the renderer, `gl` or `ray`, that `kind` means on this computer. Raises InvalidInput if no such renderer
+    works here.
+    """
     made = make_renderer(kind, mujoco.MjModel.from_xml_string("<mujoco/>"))
     return "gl" if made.identity.method == "opengl" else "ray"
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
-    """Make a renderer. `kind` is `gl`, `ray`, `auto` (`gl` if it works here), or a function of the caller that
-    makes one. Raises InvalidInput if that fails.
+    """Make a renderer. `kind` is `gl`, `ray`, `auto` (`gl` if it works here), or a function of the caller that makes a
+    renderer. Raises InvalidInput if that fails.
     """
     if not isinstance(kind, str):
         return kind(model)

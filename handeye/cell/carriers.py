@@ -1,10 +1,10 @@
-"""Carriers of tapped holes: bodies in the base that represent the screws engaged in its threads.
+"""Carriers of tapped holes: bodies in the base that represent the screws that are engaged in the threads of the base.
 
-A carrier slides along its axis and turns about it; the pitch couples the two motions. The axis is that of the
+A carrier slides along its axis and turns about it; the pitch couples the two motions. The axis is the axis of the
 tapped hole, unless a screw entered at an angle. The carrier of such a screw takes the axis of the screw, so that
-nothing jumps. The thread then draws the screw straight as it is turned; a cross-threaded screw stays at its angle.
-The head and shank of a carrier touch other parts only while a screw is in its hole, and the shank touches only the
-bores of gasket and top.
+nothing jumps. The thread then draws the screw straight as it is turned; a cross-threaded screw stays at its angle. The
+head and shank of a carrier touch other parts only while a screw is in its hole, and the shank touches only the bores
+of gasket and top.
 """
 
 from math import exp, pi
@@ -81,8 +81,8 @@ class Carriers:
         return found
 
     def fill(self, hole: int, X_WS: Pose, rate: float) -> None:
-        """Move the carrier of a hole to the pose of a screw, with the axis of that screw, turning at `rate`
-        (rad/s).
+        """Move the carrier of a hole to the pose of a screw. The carrier takes the axis of the screw, and turns at
+        `rate` (rad/s).
         """
         model, data = self._model, self._data
         X_WB = pose(data.xmat[self.base].reshape(3, 3), data.xpos[self.base])
@@ -129,8 +129,8 @@ class Carriers:
         mujoco.mju_normalize4(model.body_quat[body])
 
     def _move(self, hole: int, along: float, rate: float) -> None:
-        """Set the joints of a carrier, which the pitch couples, to `along` (m) above the mouth and to `rate`
-        (rad/s).
+        """Set the two joints of a carrier to `along` (m) above the mouth and to `rate` (rad/s). The pitch couples
+        these joints.
         """
         model, data = self._model, self._data
         slide, turn = self._slide[hole], self._turn[hole]
@@ -141,13 +141,13 @@ class Carriers:
 
     def _show(self, hole: int, *, there: bool) -> None:
         """Show the head and shank of the screw in a hole, and let them touch other parts. If `there` is False, hide
-        them instead, and let them touch nothing.
+        head and shank instead, and let them touch nothing.
         """
         self.meet(hole, self._model, there=there)
         self._model.geom_group[self._looks[hole]] = SEEN if there else LATENT
 
     def meet(self, hole: int, model: mujoco.MjModel, *, there: bool) -> None:
-        """Set whether the head and shank of the screw in a hole touch other parts, in a model of this scene."""
+        """In a model of this scene, set whether the head and shank of the screw in a hole touch other parts."""
         solid = self._solid[hole]
         contype, conaffinity = self._bits[hole] if there else (0, 0)
         model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity

@@ -1,4 +1,4 @@
-"""Kinematics and dynamics of an arm in MuJoCo's C code. For a single configuration this is about twenty times as
+"""Kinematics and dynamics of an arm in MuJoCo's C code. For a single configuration, this code is about twenty times as
 fast as the formulas.
 
 The model is made only from the arm model of the controller, so it contains nothing about the true cell.
@@ -15,8 +15,8 @@ from handeye.core.pose import Array, Pose
 
 
 class CompiledArm(ArmArithmetic):
-    """An arm as a MuJoCo model of its links and joints. It computes in one buffer, so several threads must not
-    share it.
+    """An arm as a MuJoCo model of its links and joints. The object computes in one buffer, so several threads must not
+    share one object.
     """
 
     def __init__(self, arm: ArmModel) -> None:

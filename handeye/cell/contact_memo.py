@@ -15,8 +15,8 @@ class ContactMemo(Generic[T]):
     """What a function finds about the contacts of a scene. The function is called once for each set of contacts."""
 
     def __init__(self, data: mujoco.MjData, judge: Callable[[NDArray[np.int32]], T]) -> None:
-        """`judge` is given the numbers of the geoms that touch, shape (n, 2). Its result must depend on nothing else
-        that changes.
+        """`judge` is given the numbers of the geoms that touch, shape (n, 2). Apart from these numbers, the result of
+        `judge` must not depend on anything that changes.
         """
         self._contact, self._judge = data.contact, judge
         self._known: dict[bytes, T] = {}

@@ -19,8 +19,8 @@ class Effect(ABC):
 
     @abstractmethod
     def on(self, values: Values, first: Values, seconds: float) -> Values:
-        """Return the values (SI) that arrive instead of the values sent, `seconds` after the defect began. `first`
-        is the value that the line carried at that moment.
+        """Return the values (SI) that arrive instead of the values sent, `seconds` after the defect began. `first` is
+        the value that the line carried when the defect began.
         """
 
 
@@ -56,7 +56,7 @@ class DriftEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class SlipEffect(Effect):
-    """An amount is added to the values. It grows evenly to its full size within some seconds."""
+    """An amount is added to the values. The amount grows evenly to its full size within some seconds."""
 
     by: float
     seconds: float

@@ -11,8 +11,8 @@ from handeye.core.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmErrors:
-    """Errors of the sensors and drives of an arm with n joints. Arrays have shape (n,), in rad, or m for prismatic
-    joints, unless stated.
+    """Errors of the sensors and drives of an arm with n joints. Unless a comment says something else, arrays have
+    shape (n,) and are in rad, or in m for prismatic joints.
     """
 
     offset: Array
@@ -52,8 +52,8 @@ class ArmErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmBuild:
-    """True properties of an arm with n joints. Arrays have shape (n,) and hold the ratio of the true value to the
-    value in the model, unless stated.
+    """True properties of an arm with n joints. Unless a comment says something else, arrays have shape (n,) and hold
+    the ratio of the true value to the value in the model.
     """
 
     link_mass: Array

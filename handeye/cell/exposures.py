@@ -1,8 +1,8 @@
 """Fine photographs: the mean of many exposures, each through a different point of the lens and lit from different
 points of the lamp and the sky.
 
-OpenGL draws hard shadows, everything in focus, and jagged edges. The mean is taken of the light, not of the screen
-values. It has soft shadows, blur where the picture is out of focus, and smooth edges.
+A plain OpenGL picture has hard shadows and jagged edges, and everything in it is in focus. The mean is taken of the
+light, not of the screen values. The mean has soft shadows, blur where the picture is out of focus, and smooth edges.
 """
 
 from collections.abc import Callable, Iterator
@@ -77,8 +77,9 @@ class Lens:
         )
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
-        """Look through a point `at` of the lens, shape (2,), in radii to the right and up. The focus stays
-        unchanged, and the picture is shifted by `shift` (points, shape (2,)).
+        """Look through one point of the lens. `at`, shape (2,), gives the distances of this point from the centre, to
+        the right and up, in radii of the lens. The focus stays unchanged, and the picture is shifted by `shift`
+        (points, shape (2,)).
         """
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at
@@ -155,8 +156,8 @@ def photographed(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int, how: ExposurePlan | None,
     told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """Take a photograph with a camera of the scene: a fine one, or a plain one if `how` is None. Raises
-    InvalidInput as `fine_photograph` does.
+    """Take a photograph with one of the scene's cameras: a plain photograph if `how` is None, and a fine one if not.
+    Raises InvalidInput as `fine_photograph` does.
     """
     if how is None:
         return smooth_photograph(model, data, camera=camera, width=width, height=height)
@@ -189,8 +190,8 @@ def fine_photograph(
 
 
 def _exposures(number: int) -> Iterator[_Exposure]:
-    """Yield exposures, always the same ones, spread evenly over the lens, the lamp, the sky and the pixel. The four
-    are visited in different orders.
+    """Yield exposures, always the same ones, spread evenly over the lens, the lamp, the sky and the pixel. The points
+    of the lens, of the lamp, of the sky and of the pixel are taken in different orders.
     """
     k, order = np.arange(number), np.random.default_rng(_SEED)
     radius, angle = np.sqrt((k + 0.5) / number), _TURN * k

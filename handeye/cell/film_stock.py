@@ -30,8 +30,8 @@ class Lighting:
     cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
-        """Light a scene from one point of the lamp, in radii of its disc, and one point of the sky, as seen from
-        above. Each point has shape (2,).
+        """Light a scene from one point of the lamp and one point of the sky, each of shape (2,). The point of the lamp
+        is given in radii of its disc, and the point of the sky as seen from above.
         """
         middle = np.array(model.stat.center)
         scene.nlight = 2

@@ -110,8 +110,8 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._press(grip, start, moved / seconds)
 
     def _press(self, grip: float, start: float, rate: float) -> None:
-        """Set the force limit (N), a stiffness proportional to it, and the set-point, which begins at `start` (m,
-        in the scale of the sensor) and moves at `rate` (m/s).
+        """Set the force limit (N), a stiffness that is proportional to the force limit, and the set-point. The
+        set-point begins at `start` (m, in the scale of the sensor) and moves at `rate` (m/s).
 
         The actuator uses the true gap, which the servo does not know. The set-point is therefore shifted by the
         error of the reading, and moved ahead by the lag of the servo.
@@ -200,8 +200,8 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
-    """The motor of a screwdriver. Its torque is read from actuators of the model. The threads of the task compute
-    the effect of its speed.
+    """The motor of a screwdriver. The torque of the motor is read from actuators of the model. The threads of the task
+    compute the effect of the screwdriver's speed.
     """
 
     name = "screwdriver"
@@ -218,10 +218,11 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         watchdog: Watchdog,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Make a screwdriver at rest. `torque_noise` is the standard deviation of its torque reading, in N m.
+        """Make a screwdriver at rest. `torque_noise` is the standard deviation of the screwdriver's torque reading, in
+        N m.
 
         The torque of the screwdriver is the sum of the torques of `motors`, counter-clockwise about the spindle.
-        The watchdog of the arm that carries the screwdriver also stops its motor. The lines are
+        The watchdog of the arm that carries the screwdriver also stops the screwdriver's motor. The lines are
         `screwdriver.current`, from which the torque is read, and `screwdriver.motor`.
         """
         self._data, self._watchdog, self._lines = data, watchdog, lines

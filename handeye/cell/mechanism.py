@@ -35,21 +35,21 @@ class Mechanism(ABC, Generic[S]):
     """
 
     def begin_stage(self, number: int) -> None:
-        """Apply the effects that are due at a stage of the program, given by its number from 1, or at an earlier
-        stage.
+        """Apply the effects that are due at stage `number` of the program or at an earlier stage. The first stage has
+        the number 1.
         """
 
     def before(self, seconds: float) -> None:
         """Prepare for the next `seconds`."""
 
     def rested(self, seconds: float) -> None:
-        """Let `seconds` pass at once, because everything sleeps. These seconds come in addition to those that
+        """Let `seconds` pass at once, because everything sleeps. These seconds are not part of the seconds that
         `before` announced.
         """
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Continue in a changed scene, in which bodies, joints and servos may have other numbers. Raises Refused if
-        the mechanism cannot.
+        the mechanism cannot continue in that scene.
         """
         raise Refused(f"{self.name} cannot continue in a changed scene")
 

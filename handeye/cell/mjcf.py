@@ -80,8 +80,8 @@ def _textures(spec: mujoco.MjSpec) -> dict[str, bytes]:
 
 @contextmanager
 def _in_full() -> Iterator[None]:
-    """Make MuJoCo write numbers in full precision while the context is open. MuJoCo has a setting for this, but no
-    Python name for the setting.
+    """Make MuJoCo write numbers in full precision while the context is open. MuJoCo has a setting for full precision,
+    but no Python name for this setting.
     """
     try:
         (library,) = Path(mujoco.__file__).parent.glob("*mujoco.[0-9ds]*")
@@ -100,7 +100,9 @@ def _in_full() -> Iterator[None]:
 
 @contextmanager
 def _decimal_points() -> Iterator[None]:
-    """Use a C locale with decimal points in this process while the context is open. MuJoCo needs it to read meshes."""
+    """Use a C locale with decimal points in this process while the context is open. MuJoCo needs such a locale to read
+    meshes.
+    """
     before = locale.setlocale(locale.LC_NUMERIC)
     locale.setlocale(locale.LC_NUMERIC, "C")
     try:

@@ -1,7 +1,7 @@
 """Off-screen pictures by OpenGL, on a computer without a display.
 
-This module tests the OpenGL libraries, and then makes the OpenGL context itself. It does not leave the choice of a
-library to the environment variable that MuJoCo reads when it is first imported, so the result does not depend on
+This module tests the OpenGL libraries, and then makes the OpenGL context itself. When MuJoCo is first imported, it
+chooses a library by an environment variable. This module does not use that choice, so the result does not depend on
 the order of imports.
 """
 
@@ -71,8 +71,8 @@ class OpenGlRenderer(SceneRenderer):
 
     @cached_property
     def _context(self) -> mujoco.MjrContext:
-        """The OpenGL context with the scene. It is made for the first picture, because making it takes longer than
-        building the cell.
+        """The OpenGL context with the scene. The context is made only when the first picture is taken, because making
+        it takes longer than building the cell.
         """
         return drawing(self._model, _QUALITY, _WIDTH, _HEIGHT)
 
@@ -151,7 +151,7 @@ def context() -> tuple[str, Any]:
     """Return the name of the platform and the only OpenGL context of this process.
 
     All renderers share the context, so that the objects of one renderer are never freed in the context of another.
-    Raises InvalidInput if OpenGL does not work here. This is tested with an empty scene, because an OpenGL version
+    Raises InvalidInput if OpenGL does not work here. OpenGL is tested with an empty scene, because an OpenGL version
     that is too old fails only when it is given a scene.
     """
     set_here = sorted(

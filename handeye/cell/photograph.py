@@ -1,4 +1,4 @@
-"""Colour photographs of the cell, taken with the cameras of the scene. The arm program never sees them."""
+"""Colour photographs of the cell, taken with the cameras of the scene. The arm program never sees these photographs."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -35,8 +35,8 @@ class Near:
 
 
 class Photographer:
-    """Takes photographs of one scene, which is loaded into OpenGL once. In each photograph the bodies may be at
-    different places.
+    """Takes photographs of one scene, which is loaded into OpenGL once. The bodies may be at different places from one
+    photograph to the next.
     """
 
     def __init__(
@@ -62,8 +62,8 @@ class Photographer:
         return self.exposed()
 
     def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
-        """Return the shapes, camera and lights of a view. They may be changed before the exposure. Raises
-        InvalidInput if there is no such camera.
+        """Return the shapes, camera and lights of a view. The caller may change the shapes, camera and lights before
+        the exposure. Raises InvalidInput if there is no such camera.
         """
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
@@ -124,8 +124,8 @@ def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco
 def smooth_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
-    """Take a photograph that is drawn at twice its size and averaged. Raises InvalidInput as `photograph` does, or
-    for an impossible size.
+    """Take a photograph that is drawn at twice its size and averaged. Raises InvalidInput as `photograph` does, and
+    also if the size is impossible.
     """
     return next(smooth_photographs(model, data, cameras=[camera], width=width, height=height))
 
@@ -146,7 +146,7 @@ def smooth_photographs(
 
 
 def check_size(width: int, height: int) -> None:
-    """Check the size of a photograph. Raises InvalidInput if it is impossible."""
+    """Check the size of a photograph. Raises InvalidInput if the size is impossible."""
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise BadArgument(

@@ -1,31 +1,32 @@
 """Steps of the physics: none while everything sleeps, long steps while only carried parts touch other bodies, and
-short steps while there are any other contacts. If the task allows it, most of these other contacts take middle steps.
+short steps while there are any other contacts. If the task allows middle steps, the physics uses them instead of short
+steps for most of these other contacts.
 
-Contacts need short steps, because their softness grows with the square of the step. Free motion does not: with long
-steps it has the same speeds, but is early by 1.6 ms, half of the difference between the two steps. Brakes and dry
-friction of joints are constraints too. A joint held by friction creeps at up to 9e-6 rad/s with long steps, instead
-of 4e-6 rad/s.
+Contacts need short steps, because their softness grows with the square of the step. Free motion does not need short
+steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long step and a
+short step. Brakes and dry friction of joints are constraints too. A joint held by friction creeps at up to 9e-6 rad/s
+with long steps, and at up to 4e-6 rad/s with short steps.
 
-A part that is carried through the air touches only the bodies that hold it. Steps with these contacts may be long
-too, if the task names the pair of bodies. In long steps these contacts are made stiffer, so that a part sinks as
-deep into the fingers as in short steps (`stiffened`). Contacts may neither begin nor end in long steps. If a finger
-that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5 mm into the part before
-the next step detected the contact, and would throw the part away.
+A part that is carried through the air touches only the bodies that hold it. While the part has only these contacts,
+steps may be long too, if the task names the pairs of bodies that touch. In long steps these contacts are made stiffer,
+so that a part sinks as deep into the fingers as in short steps (`stiffened`). Contacts may neither begin nor end in
+long steps. If a finger that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5
+mm into the part before the next step detected the contact, and would throw the part away.
 
 In middle steps all contacts and couplings are made stiffer in the same way, so a change of step changes no force at
 rest. Contacts may begin and end in middle steps, except those of the hand. The task names the *delicate* contacts,
-which need short steps, and the joints that must be at rest in middle steps. A screw that is tightened in middle steps,
-for example, clamps with less force.
+which need short steps, and the joints that must be at rest in middle steps. For example, a screw clamps with less
+force if it is tightened in middle steps.
 
-Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. It leaves
-out the second-order term of the motion: half the acceleration times the square of the step. After long steps this
-term is therefore added to carried bodies; it is a few micrometres in a servo period. The term does not
-hold a part in the fingers; friction alone does, and a part that slips goes on slipping. With the term, a held part
-creeps less than in short steps, which leave it out.
+Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. For a free
+body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
+step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
+term does not hold a part in the fingers; friction alone does, and a part that slips goes on slipping. Short steps
+leave the term out. With the term, a held part creeps less than in short steps.
 
-MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. It
-wakes the tree when an awake body touches it, but not on a new command to a motor: code that drives a motor must
-wake its tree.
+MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
+wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that
+drives a motor must therefore wake the tree of this motor.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -69,8 +70,8 @@ class Carrying:
 def stiffened(
     impedances: NDArray[np.float64], time_constants: NDArray[np.float64], short: float, times: int
 ) -> NDArray[np.float64]:
-    """Return impedances (shape (n, 5)) with which constraints are as stiff in steps of `times` the length as they are
-    in short steps.
+    """Return impedances, shape (n, 5), for steps that are `times` as long as short steps. With these impedances, the
+    constraints are as stiff as they are in short steps.
 
     MuJoCo raises the time constant T (s) of a constraint to at least two timesteps. At impedance d, and at the largest
     impedance D, the stiffness is proportional to d**2 / (D**2 * T**2 * (1 - d)) (MuJoCo's documentation, "Solver
@@ -91,7 +92,7 @@ def check_physics(
     warnings: NDArray[np.integer[Any]], rates: NDArray[np.float64], fastest: float = np.inf
 ) -> None:
     """Raise PhysicsFailed if the simulator has given a warning, or if a body moves faster than `fastest` (m/s,
-    rad/s). `warnings` are the numbers of warnings of each kind, and `rates` those of all joints.
+    rad/s). `warnings` are the numbers of warnings of each kind, and `rates` are the rates of all joints.
     """
     counts = warnings.tolist()
     if any(counts):
@@ -107,7 +108,7 @@ def check_physics(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Contacts:
-    """What touches, and which steps this allows."""
+    """The contacts of a scene, and the lengths of steps that these contacts allow."""
 
     pairs: BodyPairs
     of_hand: BodyPairs  # the pairs with a body that the arm moves
@@ -156,8 +157,8 @@ class PhysicsStepper:
         }
 
     def _marked(self, pairs: Iterable[tuple[str, ...]]) -> NDArray[np.bool_]:
-        """Return a symmetric table that marks pairs of trees of bodies, or all pairs of one tree if only one body is
-        named. The last row is for bodies fixed in the world.
+        """Return a symmetric table that marks the pairs of trees to which the named bodies belong. If only one body is
+        named, all pairs with its tree are marked. The last row is for bodies fixed in the world.
         """
         model = self._model
         table = np.zeros((model.ntree + 1, model.ntree + 1), dtype=bool)
@@ -194,7 +195,7 @@ class PhysicsStepper:
         )
 
     def _smoothly(self, steps: int, touching: _Contacts) -> bool:
-        """Make long steps. If a contact begins or ends, undo them and return False."""
+        """Make long steps. If a contact begins or ends, undo all these steps and return False."""
 
         def same() -> bool:
             return self._contacts.now().pairs == touching.pairs
@@ -210,8 +211,8 @@ class PhysicsStepper:
         return done
 
     def _midway(self, steps: int, of_hand: BodyPairs) -> bool:
-        """Make middle steps. Undo them and return False if the hand gains or loses a contact, if a delicate contact
-        begins, or if a joint moves that must be at rest.
+        """Make middle steps. If the hand gains or loses a contact, if a delicate contact begins, or if a joint that
+        must be at rest moves, undo all these steps and return False.
         """
 
         def allowed() -> bool:
@@ -230,8 +231,8 @@ class PhysicsStepper:
         allowed: Callable[[], bool],
         at_the_end: Callable[[], bool] = lambda: True,
     ) -> bool:
-        """Make steps of `times` the length, in the time of `steps` short steps. If the contacts of a step are not
-        allowed, undo all steps and return False.
+        """Make steps that are `times` as long as a short step and together cover the time of `steps` short steps. If
+        the contacts of a step are not allowed, undo all steps and return False.
         """
         model, data, began = self._model, self._data, self._data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
@@ -260,8 +261,8 @@ class PhysicsStepper:
             impedance[:] = value
 
     def _held(self, touching: BodyPairs) -> tuple[tuple[int, int], ...]:
-        """Return the bodies that the hand carries while these pairs of bodies touch, directly or by way of other
-        carried bodies; see `_Contacts`.
+        """Return the bodies that the hand carries while these pairs of bodies touch (see `_Contacts`). A carried body
+        touches the hand or another carried body.
         """
         pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in touching]
         hand = int(self._model.body_treeid[self._hand])
@@ -319,7 +320,7 @@ def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
 def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Let the trees of bodies whose velocities are all zero fall asleep after one step, if they then still rest.
 
-    MuJoCo sets the velocities of a sleeping tree to zero, so these trees slept before.
+    MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity has slept before.
     """
     resting = np.ones(model.ntree, dtype=bool)
     resting[model.dof_treeid[data.qvel != 0.0]] = False

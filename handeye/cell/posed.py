@@ -19,13 +19,13 @@ a clock hand.
 
 def hand_poses(model: mujoco.MjModel, time: float) -> dict[str, Array]:
     """Return the pose of each clock hand at a time (s) of the cell's clock. The keys are the names of the bodies;
-    poses are as in `drawn_poses`.
+    each pose has the form that `drawn_poses` describes.
     """
     return {name: rows[0] for name, rows in drawn_poses(model, _turns(model), np.array([time])).items()}
 
 
 def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> dict[str, Array]:
-    """Return the poses in W, at times (s) of the cell's clock, of bodies that are fixed in the world. The keys are
+    """Return the poses of bodies that are fixed in the world, in W, at times (s) of the cell's clock. The keys are
     the names of the bodies; the poses of each body have shape (n, 7).
 
     A pose is a position (m), then a unit quaternion w, x, y, z. Clock hands turn clockwise about their z axis, and
@@ -87,8 +87,8 @@ def standing(scene: mujoco.MjModel, qpos: Array) -> Posed:
 
 
 def as_it_stands(scene: mujoco.MjModel, truth: Truth) -> Posed:
-    """Make a copy of a scene with its bodies where the bodies of a cell are, for pictures of a cell whose own scene
-    has fewer shapes.
+    """Make a copy of `scene` in which each body has the pose of the same body in a cell. The copy is for pictures, if
+    the cell's own scene has fewer shapes than `scene`.
     """
     model, data = truth.model, truth.data
     waiting = {*model.geom_bodyid[model.geom_group == LATENT].tolist()}

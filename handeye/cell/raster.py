@@ -50,8 +50,8 @@ class Raster:
         )
 
     def target(self, uv: Array) -> Array:
-        """Return the positions on the target that are read at picture points `uv`, shape (..., 2), in points of an
-        ideal raster.
+        """Return the positions on the target that are read at picture points `uv`. The positions are in points of an
+        ideal raster; both arrays have shape (..., 2).
         """
         return np.stack(self._target(uv[..., 0], uv[..., 1]), axis=-1)
 

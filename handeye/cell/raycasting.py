@@ -26,8 +26,8 @@ class RayRenderer(SceneRenderer):
     """Casts a ray for every sample. From the point that this ray hits, casts a ray to every light, to find the
     shadows. Needs no OpenGL.
 
-    A picture point has one sample, and four where the picture changes: at edges of solids and of shadows (adaptive
-    sampling after T. Whitted, "An improved illumination model for shaded display", 1980).
+    A picture point has one sample, or four if it lies where the picture changes: at edges of solids and of shadows
+    (adaptive sampling after T. Whitted, "An improved illumination model for shaded display", 1980).
     """
 
     identity = Renderer(method="rays")
@@ -91,8 +91,8 @@ class RayRenderer(SceneRenderer):
 def cast(
     model: mujoco.MjModel, data: mujoco.MjData, origin: Array, rays: Array
 ) -> tuple[NDArray[np.int32], Array, Array]:
-    """Cast rays along unit vectors, shape (n, 3). Returns the geom hit or -1, shape (n,); the distance (m), shape
-    (n,); and the normal, shape (n, 3).
+    """Cast rays along unit vectors, shape (n, 3). Returns, for each ray, the geom that it hits, or -1 if it hits none,
+    shape (n,); the distance (m), shape (n,); and the normal, shape (n, 3).
     """
     n = len(rays)
     geom, distance, normal = np.full(n, -1, dtype=np.int32), np.zeros(n), np.zeros(3 * n)
@@ -115,8 +115,8 @@ def cast(
 
 
 def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
-    """Return an array in the shape of the picture. It is True where the picture changes: at both points of each pair
-    of neighbours whose geoms or luminances differ.
+    """Return an array in the shape of the picture. The array is True where the picture changes: at both points of each
+    pair of neighbours whose geoms or luminances differ.
     """
     rough = np.zeros(geom.shape, dtype=bool)
     for a, b in (
@@ -130,8 +130,8 @@ def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
 
 
 def ambient(model: mujoco.MjModel) -> float:
-    """Return the ambient light. The rest of MuJoCo's headlight is meant for interactive viewers and does not appear
-    in pictures.
+    """Return the luminance of the ambient part of MuJoCo's headlight. The rest of the headlight is meant for
+    interactive viewers and does not appear in pictures.
     """
     head = model.vis.headlight
     return float(LUMA @ head.ambient) if head.active else 0.0

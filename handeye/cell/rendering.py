@@ -1,9 +1,9 @@
 """Two methods to compute the light on the camera's target (the light-sensitive plate of its tube): OpenGL
 off-screen, and ray casting.
 
-Within the resolution of a vidicon the two methods give the same picture: diffuse surfaces without texture or gloss,
-lights with shadows, an ambient level, and four samples per picture point with an edge. For one state of the scene,
-each method always gives the same values. Neither changes the state.
+Within the resolution of a vidicon, the two methods give the same picture. Both draw diffuse surfaces without texture
+or gloss, lights with shadows, and an ambient level. Both take four samples for each picture point with an edge. For
+one state of the scene, each method always gives the same values. Neither changes the state.
 """
 
 from abc import ABC, abstractmethod
@@ -67,7 +67,7 @@ CameraMaker = Callable[[mujoco.MjModel], PictureMaker]
 
 
 class ReplacedCamera(SceneRenderer):
-    """A picture maker supplied by the user. It gets copies of the state, so it cannot change the run."""
+    """A picture maker supplied by the user. The picture maker gets copies of the state, so it cannot change the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
         """Make the picture maker of the user for a scene. `name` is the name of the user's code. Raises

@@ -65,7 +65,9 @@ class SignalLinesState(Record, frozen=True, kw_only=True):
 
 
 class SignalLines(Mechanism[SignalLinesState]):
-    """The signal lines of a cell. Several defects on one line act one after another."""
+    """The signal lines of a cell. If a line has several defects, each acts on the values that the defect before it
+    passes on.
+    """
 
     name = "lines"
     kind = SignalLinesState

@@ -44,7 +44,7 @@ class SimulatedCell(Clock, SnapshotCell):
         stepper: PhysicsStepper | None = None,
         noise: np.random.Generator,
     ) -> None:
-        """Switch a cell on. Its devices are read for the first time.
+        """Switch a cell on, and read all its devices for the first time.
 
         `mechanisms`, such as threads and further arms, act on the model in the given order. All sensors except the
         camera draw their noise from `noise`. Raises ValueError if two devices or mechanisms have the same name,
@@ -74,7 +74,7 @@ class SimulatedCell(Clock, SnapshotCell):
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of the cell's camera. Its method is `none` if the cell has no camera."""
+        """The renderer of the cell's camera. The method of this renderer is `none` if the cell has no camera."""
         camera = self.devices.camera
         return Renderer(method="none") if camera is None else camera.renderer
 

@@ -1,4 +1,4 @@
-"""A cell whose state can be saved and restored. It consists of a MuJoCo model, and of mechanisms with states."""
+"""A cell whose state can be saved and restored. The cell consists of a MuJoCo model, and of mechanisms with states."""
 
 import copy
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 
 class SnapshotCell:
-    """A cell for runs of any system. Its state can be saved, restored and viewed."""
+    """A cell for runs of any system. The state of the cell can be saved, restored and viewed."""
 
     def __init__(
         self,
@@ -28,7 +28,9 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change, and mechanisms with distinct names. They act in the given order."""
+        """Take a scene that will not change, and mechanisms with distinct names. The mechanisms act in the given
+        order.
+        """
         self._model, self._data, self._noise = model, data, noise
         self._drawn = copy.deepcopy(model)
         self._mechanisms = tuple(mechanisms)
@@ -52,7 +54,7 @@ class SnapshotCell:
 
     @property
     def renderer(self) -> Renderer:
-        """The renderer of the cell's camera. Its method is `none` if the cell has no camera."""
+        """The renderer of the cell's camera. The renderer's method is `none` if the cell has no camera."""
         return Renderer(method="none")
 
     def capture(self) -> CellState:
@@ -67,13 +69,13 @@ class SnapshotCell:
         )
 
     def restore(self, state: CellState) -> None:
-        """Restore the cell to a state. Whatever follows is then identical, byte for byte, no matter what happened
-        before.
+        """Restore the cell to a state. Everything that the cell does after that is identical, byte for byte, no matter
+        what happened before.
 
-        Sleep is not part of a state: when a state is restored, all bodies wake, and those at rest fall asleep again.
-        If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own state at every
-        point where the run might be interrupted. Raises InvalidInput if the state belongs to another kind of cell
-        or is not valid.
+        Sleep is not part of a state: when a state is restored, all bodies wake, and then the bodies at rest fall
+        asleep again. If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own
+        state at every point where the run might be interrupted. Raises InvalidInput if the state belongs to another
+        kind of cell or is not valid.
         """
         try:
             self._check(state)

@@ -1,7 +1,7 @@
 """The solids of a scene, by name, as trimesh meshes; and the scene as a glTF file (GLB) that contains these
 solids.
 
-A solid is a coloured surface with a mass. It also records whether the surface is closed. If a surface consists of
+A solid is a coloured surface with a mass. A solid also records whether its surface is closed. If a surface consists of
 several coloured pieces in the scene, the pieces form one solid here. A surface is closed only if its faces share
 their corners, and a corner has only one colour. Where two colours meet, the corners get the lighter colour.
 
@@ -205,8 +205,8 @@ def glb(scene: SolidScene, told: Mapping[str, str]) -> bytes:
 
 
 def _node(tree: trimesh.Scene, body: mujoco.MjsBody, data: mujoco.MjData, bodies: Collection[str]) -> str:
-    """Return the name of the node of a body. The node is attached to the node of the parent body if that is in the
-    tree.
+    """Return the name of the node of a body. If the node of the parent body is in the tree, the new node is attached
+    to that node.
     """
     around = body.parent
     if around is None:

@@ -29,7 +29,7 @@ class CellState(Record, frozen=True, kw_only=True):
         return float(self.physics[0])
 
     def equals(self, other: "CellState") -> bool:
-        """Return True if this is the same state of the same cell."""
+        """Return True if `other` is the same state of the same cell."""
         return (
             np.array_equal(self.physics, other.physics)
             and self.noise == other.noise

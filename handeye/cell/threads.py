@@ -1,21 +1,21 @@
 """Screw threads: when the tip of a screw enters a tapped hole and the screw is turned the right way, the carrier of
 the hole replaces the screw.
 
-Threads are too fine to simulate by contact. Each tapped hole has a carrier in the model (`carriers.py`). A loose
-screw is an ordinary body until three conditions are met at the same tick: its tip is in the bore, near the axis and
-deep enough; the screw turns clockwise; and it is at the phase of the thread. The body of the screw is then parked
-out of sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that
-angle, and jams before it is seated. From there on everything is physics again: the shank touches the holes of the
-parts above, the head touches the part beneath, and friction grows with the clamp force. The motor turns the carrier
-against the body of the driver, so the bodies that hold the driver and the tapped part carry the torque. A screw
-that is turned back to where its thread began is loose again. The limits of the model are in
-scenes/water_pump/README.md.
+Threads are too fine to simulate by contact. Each tapped hole has a carrier in the model (`carriers.py`). A loose screw
+is an ordinary body until three conditions are met at the same tick: its tip is in the bore, near the axis and deep
+enough; the screw turns clockwise; and it is at the phase of the thread. The body of the screw is then parked out of
+sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that angle, and
+jams before it is seated. Once the carrier has taken the place of the screw, everything is physics again: the shank
+touches the holes of the parts above, the head touches the part beneath, and friction grows with the clamp force. The
+motor turns the carrier against the body of the driver, so the bodies that hold the driver and the tapped part carry
+the torque. A screw that is turned back to the place where its thread began is loose again. The limits of the model are
+in scenes/water_pump/README.md.
 
-A scene with screws numbers them from 0 and uses these names. Each screw is a free body `screw0`, whose origin is
-the point of the screw, with a geom `screw_head0` and a site `park0` out of sight. Each carrier is a body `carrier0`
-in the tapped body, with the site `thread0`, the joints `thread_slide0` and `thread_turn0`, and the geoms `head0`
-and `shank0`. The only driver has the geom `bit`, the joint and actuator `spindle`, and the actuators `magnet` and
-`drive`; `drive` acts from the site of a thread on the body of the driver.
+In a scene with screws, the screws are numbered from 0, and the scene uses the following names. Each screw is a free
+body `screw0`, whose origin is the point of the screw, with a geom `screw_head0` and a site `park0` out of sight. Each
+carrier is a body `carrier0` in the tapped body, with the site `thread0`, the joints `thread_slide0` and
+`thread_turn0`, and the geoms `head0` and `shank0`. The only driver has the geom `bit`, the joint and actuator
+`spindle`, and the actuators `magnet` and `drive`; `drive` acts from the site of a thread on the body of the driver.
 """
 
 from collections.abc import Set
@@ -89,7 +89,7 @@ class Driver(Protocol):
 
     @property
     def speed(self) -> float:
-        """Speed of the spindle, in rad/s; positive drives a screw in."""
+        """Speed of the spindle, in rad/s; a positive speed drives a screw in."""
 
     @property
     def magnet(self) -> bool:
@@ -236,7 +236,9 @@ class Threads(Mechanism[ThreadsState]):
         return acos(min(1.0, float(X_WS[:3, 2] @ self._axes()[:, 2])))
 
     def _rate(self, screw: int) -> float:
-        """Return the rotation rate of a loose screw about its axis, in rad/s, positive counter-clockwise."""
+        """Return the rotation rate of a loose screw about its axis, in rad/s. The rate is positive if the screw turns
+        counter-clockwise.
+        """
         return float(self._data.qvel[self._free(screw)[1] + 5])  # free joints turn in body axes
 
     def _free(self, screw: int) -> tuple[int, int]:
@@ -255,7 +257,7 @@ class Threads(Mechanism[ThreadsState]):
         mujoco.mj_forward(self._model, self._data)
 
     def _disengage(self) -> None:
-        """Release a screw that has been turned back to where its thread began."""
+        """Release a screw that has been turned back to the place where its thread began."""
         hole = self._under_bit()
         if hole is None or self._carriers.depth(hole) > START_DEPTH:
             return
@@ -361,7 +363,7 @@ class Threads(Mechanism[ThreadsState]):
         return float(forces.sum())  # elliptic cones: a contact's first row is its normal
 
     def _of_heads(self, geoms: NDArray[np.int32]) -> list[NDArray[np.intp]]:
-        """Return the contacts of each head, except those with the driver."""
+        """Return the contacts of each head, except its contacts with the driver."""
         others = ~np.isin(geoms, self._driver_geoms).any(axis=1)
         return [np.flatnonzero((geoms == head).any(axis=1) & others) for head in self._carriers.head]
 

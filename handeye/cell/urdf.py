@@ -1,7 +1,7 @@
 """Writes an arm as URDF (unified robot description format), for other programs.
 
 The links, their masses and their shapes are those of the arm's MuJoCo model. Limits, torques and rates of the joints
-are those of the arm as a value.
+are those of the `ArmModel`.
 """
 
 import math
@@ -24,8 +24,8 @@ _HINGE: Final = int(mujoco.mjtJoint.mjJNT_HINGE)
 
 
 def urdf(arm: ArmModel, scene: Path) -> bytes:
-    """Return the URDF of an arm whose MuJoCo model is the file `scene`. Its joints are called `j1`, `j2`, ... and its
-    fingers `finger_a` and `finger_b`, as in the model. The same arm gives the same bytes.
+    """Return the URDF of an arm whose MuJoCo model is the file `scene`. As in the model, the joints are called `j1`,
+    `j2`, ..., and the fingers `finger_a` and `finger_b`. The same arm gives the same bytes.
     """
     model = mujoco.MjModel.from_xml_path(str(scene))
     root = ET.Element("robot", name=arm.name)
@@ -129,7 +129,9 @@ def _origin(element: ET.Element, X: Pose) -> None:
 
 
 def roll_pitch_yaw(R: Array) -> tuple[float, float, float]:
-    """Return the angles (rad) with `R = Rz(yaw) Ry(pitch) Rx(roll)`. If the pitch is a right angle, the yaw is 0."""
+    """Return the roll, the pitch and the yaw (rad) for which `R = Rz(yaw) Ry(pitch) Rx(roll)`. If the pitch is a right
+    angle, the yaw is 0.
+    """
     pitch = math.atan2(-R[2, 0], math.hypot(R[0, 0], R[1, 0]))
     if math.hypot(R[0, 0], R[1, 0]) < 1e-9:
         return math.atan2(math.copysign(1.0, pitch) * R[0, 1], R[1, 1]), pitch, 0.0

@@ -25,21 +25,21 @@ class Correction(Record, frozen=True, kw_only=True):
 
 
 class Corrections(Record, frozen=True, kw_only=True):
-    """The same correction in two runs. None stands for a run that did not make it."""
+    """The same correction in two runs. None stands for a run that did not make the correction."""
 
     a: Correction | None
     b: Correction | None
 
     @property
     def apart(self) -> float | None:
-        """Distance between the two corrections (m), or None if one of them is missing."""
+        """Distance between the two corrections (m), or None if one of the corrections is missing."""
         if self.a is None or self.b is None or len(self.a.at) != len(self.b.at):
             return None
         return float(np.linalg.norm(np.subtract(self.b.at, self.a.at)))
 
     @property
     def alike(self) -> bool:
-        """True if the two corrections differ too little to be reported, or if only one was made."""
+        """True if the two corrections differ too little to be reported, or if only one correction was made."""
         return self.apart is None or self.apart <= ASTRAY
 
 
@@ -67,14 +67,14 @@ class Stop(Record, frozen=True, kw_only=True):
 
 
 class Stops(Record, frozen=True, kw_only=True):
-    """The same guarded motion in two runs. None stands for a run that did not reach it."""
+    """The same guarded motion in two runs. None stands for a run that did not reach the motion."""
 
     a: Stop | None
     b: Stop | None
 
     @property
     def alike(self) -> bool:
-        """True if the same guard ended both motions, if no guard ended either, or if only one run reached the
+        """True if the same guard ended both motions, if no guard ended either motion, or if only one run reached the
         motion."""
         return len({side.guard for side in (self.a, self.b) if side is not None}) == 1
 
@@ -102,7 +102,7 @@ class Search(Record, frozen=True, kw_only=True):
 
 
 class Searches(Record, frozen=True, kw_only=True):
-    """The same search in two runs. None stands for a run that did not reach it."""
+    """The same search in two runs. None stands for a run that did not reach the search."""
 
     a: Search | None
     b: Search | None

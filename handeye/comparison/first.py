@@ -53,7 +53,7 @@ class Stretch:
     told: list[StepMessage] = field(default_factory=list)
 
     def add(self, messages: Iterable[tuple[RawMessage, AnyEvent | None]]) -> None:
-        """Add messages, each with its event or None."""
+        """Add messages, each with its event, or with None if the message has no event."""
         self.told += (StepMessage(message, event, message.time - self.begin) for message, event in messages)
 
 

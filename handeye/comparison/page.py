@@ -1,4 +1,4 @@
-"""Builds the page that compares two runs. It shows both 3D views under one time slider, the differences, and both
+"""Builds the page that compares two runs. The page shows both 3D views under one time slider, the differences, and both
 runs step by step.
 """
 
@@ -103,8 +103,9 @@ def _turn(found: Comparison, way: Course) -> Iterator[Markup]:
 
 
 def _opening(found: Comparison, way: Course) -> float:
-    """Return the time on the common timeline (s) at which the page opens: just after the divergence, or 0 if
-    there is none."""
+    """Return the time on the common timeline (s) at which the page opens: just after the divergence, or 0 if the runs
+    do not diverge.
+    """
     if found.parted is None:
         return 0.0
     turnings = found.parted.a, found.parted.b
@@ -228,7 +229,7 @@ def _row(
 
 
 def _link(way: Course, a: Place | None, b: Place | None, words: str) -> Markup:
-    """Return a link to a step of the first run or, if the first run has no such step, of the second."""
+    """Return a link to a step of the first run or, if the first run has no such step, to the step of the second run."""
     if a is not None:
         return to_moment(way.at(a, 0), words)
     return element("span", words) if b is None else to_moment(way.at(b, 1), words)

@@ -150,7 +150,7 @@ def _turns(run: RecordedRun, numbers: Mapping[int, int]) -> Iterator[CarriedOut]
 
 
 def side_by_side(a: Mapping[Turn, Fact], b: Mapping[Turn, Fact]) -> Iterator[tuple[Fact | None, Fact | None]]:
-    """Yield, for each executed step in the order of the script, the facts that the two runs have about it. None
+    """For each executed step, in the order of the script, yield the facts that the two runs have about this step. None
     stands for a run that has no fact about the step.
     """
     for turn in sorted({*a, *b}):
@@ -201,7 +201,9 @@ class _TimedStep:
 
 
 def course(runs: TwoRuns) -> Course:
-    """Align two runs step by step. A step that both runs executed takes as long as in the slower run."""
+    """Align two runs step by step. If both runs executed a step, this step takes as long on the timeline as it took in
+    the slower run.
+    """
     a, b = (_done(run, steps) for run, steps in zip((runs.a, runs.b), runs.carried_out, strict=True))
     legs: list[Leg] = []
     time, at = 0.0, (a[0].begin, b[0].begin)
@@ -214,8 +216,8 @@ def course(runs: TwoRuns) -> Course:
 
 
 def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
-    """Return the steps of a run with their times, preceded by the time before the first step. Each step lasts
-    until the next one begins.
+    """Return the steps of a run with their times. The first item is the time before the first step. Each step lasts
+    until the next step begins.
     """
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
@@ -226,8 +228,8 @@ def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
 def _side_by_side(
     runs: TwoRuns, a: Sequence[_TimedStep], b: Sequence[_TimedStep]
 ) -> Iterator[tuple[_TimedStep | None, _TimedStep | None]]:
-    """Yield the pairs of steps in order. Steps that only one run executed come between the pairs, those of the
-    first run first.
+    """Yield the pairs of steps in order. Steps that only one run executed come between the pairs. The steps of the
+    first run come first.
     """
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():

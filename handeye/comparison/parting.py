@@ -34,7 +34,7 @@ class Divergence:
 
 
 def parting(runs: TwoRuns) -> Divergence | None:
-    """Find the divergence of two runs. Returns None if they do not diverge.
+    """Find the divergence of two runs. Returns None if the runs do not diverge.
 
     The course of a run consists of its steps and of the events that decide which steps follow: tripped guards,
     raised errors, answers to tests, and user commands.

@@ -190,8 +190,8 @@ def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
 
 
 def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Corrections]) -> Iterator[str]:
-    """Yield a line that says how many findings both runs have, and how many of these are alike. Yields nothing if
-    there are no findings.
+    """Yield a line that says how many findings both runs have, and how many of these findings are alike. Yields
+    nothing if there are no findings.
     """
     both = [each for each in found if each.a is not None and each.b is not None]
     if found:
@@ -204,7 +204,7 @@ def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Correctio
 
 
 def _took(found: Comparison) -> Iterator[str]:
-    """Yield a row for each stage, and one for the total. A row gives the simulated seconds of each run, and by how
+    """Yield a row for each stage, and a row for the total. A row gives the simulated seconds of each run, and by how
     many seconds run B took longer.
     """
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))

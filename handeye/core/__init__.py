@@ -1,1 +1,3 @@
-"""Foundations for all other packages of handeye: units, poses, records, files, errors. It imports none of them."""
+"""Foundations for all other packages of handeye: units, poses, records, files, errors. This package imports none of
+the other packages.
+"""

@@ -21,8 +21,8 @@ def whole(given: object) -> int | None:
 
 
 def given_file(given: object, what: str) -> Path:
-    """Return the path that a caller gave. Raises BadArgument if it cannot be a path; `what` is the beginning of the
-    error message.
+    """Return the path that a caller gave. Raises BadArgument if the argument cannot be a path; `what` is the beginning
+    of the error message.
     """
     if not isinstance(given, (str, os.PathLike)):
         raise BadArgument(f"{what}, not {given!r}")

@@ -65,7 +65,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """`error` or `warning`: the value of `own` if it is set, or else the severity of the code."""
+        """`error` or `warning`: the value of `own` if `own` is set; if not, the severity of the code."""
         return self.own or CODES[self.code].severity
 
 
@@ -137,7 +137,7 @@ def quoted(name: str) -> str:
 
 def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | None:
     """Suggest the nearest known name, at an edit distance of at most a third of the length of `name`. If no name is
-    near enough, return all known names if they are few, or else None.
+    near enough, return all known names if there are only a few, and None if there are many.
     """
     choices = sorted(set(known))
     if _too_many(name, choices):
@@ -165,8 +165,8 @@ def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """Find a known name that looks the same, or else the name at the least edit distance. Returns None if that
-    distance is greater than `farthest`.
+    """Find a known name that looks the same. If there is none, find the name at the least edit distance. Returns None
+    if that distance is greater than `farthest`.
     """
     choices = sorted(set(known))
     if _too_many(name, choices):

@@ -98,13 +98,13 @@ _registered: Final[dict[str, Entry]] = {}
 
 
 def register(entry: Entry) -> None:
-    """Make a system known in this process. It replaces a registered system of the same name."""
+    """Make a system known in this process. The system replaces a registered system of the same name."""
     _registered[entry.name] = entry
 
 
 def entries() -> Mapping[str, Entry]:
-    """Return all entries by name: those included with handeye, those of installed packages, and those of registered
-    systems.
+    """Return all entries by name: the entries included with handeye, the entries of installed packages, and the
+    entries of registered systems.
     """
     return {entry.name: entry for entry in (*_installed(), *_registered.values())}
 
@@ -147,8 +147,8 @@ def entry_named(name: str) -> Entry:
 
 
 def loaded(place: str, what: str = "") -> Any:
-    """Import the object at `module:NAME`. Raises BadFile if it cannot be imported; `what` precedes the location in
-    the error message.
+    """Import the object at `module:NAME`. Raises BadFile if the object cannot be imported; `what` precedes the
+    location in the error message.
     """
     module, _, name = place.partition(":")
     try:
@@ -170,8 +170,8 @@ def entry_of_file(name: str) -> tuple[Entry | None, str]:
 
 
 def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
-    """Make the exception for a system that lacks a capability. `whose` names the run or file concerned, if there is
-    one.
+    """Make the exception for a system that lacks a capability. `whose` names the run or file concerned; it is empty if
+    there is no such run or file.
     """
     entry = entry_named(name)
     why = entry.reasons.get(capability, "")

@@ -19,8 +19,8 @@ interface or gives an unusable file, and for a run that broke down; each carries
     ├── CalibrationFailed         the camera could not be calibrated
     └── FrictionUnknown           the friction of the joints could not be measured
 
-A system or a sweep may define exceptions below these. If any of them is raised, the command line ends with exit code
-2.
+A system or a sweep may define exceptions below these. If any of these exceptions is raised, the command line ends with
+exit code 2.
 """
 
 from typing import Final

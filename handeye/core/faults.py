@@ -17,7 +17,7 @@ from handeye.core.units import UNITS, Unit
 
 
 class Fault(Record, frozen=True, kw_only=True):
-    """One injected fault of a run. It is present from the start, unless `stage` or `after` says when it begins."""
+    """One injected fault of a run. The fault is present from the start, unless `stage` or `after` is given."""
 
     name: str
     value: float | None = None  # size, in SI units; None if the kind has none
@@ -103,7 +103,9 @@ class FaultKind:
         return UNITS[self.unit]
 
     def usual(self, stage: int | None = None) -> Fault:
-        """Make the fault at its usual size. It begins at the given stage, or else at its default stage."""
+        """Make the fault at its usual size. The fault begins at the given stage or, if no stage is given, at its
+        default stage.
+        """
         value = None if self.size is None else self.size.usual * self.measure.size
         fault = Fault(name=self.name, value=value, stage=stage or self.usual_stage)
         self.check(fault)
@@ -144,14 +146,16 @@ class Catalogue:
     """The faults of a task, in the order in which they are listed."""
 
     def __init__(self, *kinds: FaultKind, matrix: Sequence[str] = ()) -> None:
-        """`matrix` names the faults with which a program is tested by default; all faults if it is empty."""
+        """`matrix` names the faults with which a program is tested by default; if `matrix` is empty, all faults are
+        used.
+        """
         self.kinds = {kind.name: kind for kind in kinds}
         assert len(self.kinds) == len(kinds), "two faults have the same name"
         self.matrix = tuple(matrix) or tuple(self.kinds)
         assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that does not exist"
 
     def kind(self, name: str) -> FaultKind:
-        """Return the kind of fault called `name`. Raises NoSuchName if there is none."""
+        """Return the kind of fault called `name`. Raises NoSuchName if there is no such kind."""
         if name in self.kinds:
             return self.kinds[name]
         inside = [known for known in self.kinds if known.startswith(f"{name}.")]
@@ -164,8 +168,8 @@ class Catalogue:
         raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 
     def select(self, name: str) -> tuple[FaultKind, ...]:
-        """Return the kind of fault called `name`, or all kinds in the group of that name. Raises NoSuchName if
-        there is none.
+        """Return the kind of fault called `name`, or all kinds in the group of that name. Raises NoSuchName if there
+        is neither.
         """
         found = tuple(kind for kind in self.kinds.values() if f"{kind.name}.".startswith(f"{name}."))
         return found or (self.kind(name),)
@@ -186,7 +190,7 @@ class Catalogue:
 
 
 def _begun(fault: Fault) -> str:
-    """Write when a fault begins, as it is typed; empty if it is present from the start."""
+    """Write the beginning of a fault as users type it; empty if the fault is present from the start."""
     if fault.after is not None:
         return f"@{fault.after:g}s"
     return "" if fault.stage is None else f"@{fault.stage}"

@@ -131,7 +131,7 @@ def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
 
 
 def check_new(path: Path) -> None:
-    """Raise Taken if the path exists. For typed commands, which have no option `--overwrite`."""
+    """Raise Taken if the path exists. Typed commands use this check, because they have no option `--overwrite`."""
     if path.exists():
         raise Taken(f"{path} already exists; nothing was written, choose another name")
 
@@ -218,7 +218,7 @@ class LineFile:
         self._file.close()
 
     def _lock(self, writer: str) -> None:
-        """Lock the file if the platform and the file system support locks. Raises CannotWrite if it is already
+        """Lock the file if the platform and the file system support locks. Raises CannotWrite if the file is already
         locked.
         """
         with suppress(ImportError):

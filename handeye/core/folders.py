@@ -23,8 +23,8 @@ class FolderKind:
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
-    """Check that a folder of this kind can be written here. Raises CannotWrite if it cannot, or Taken if one exists
-    and must not be replaced.
+    """Check that a folder of this kind can be written here. Raises CannotWrite if the folder cannot be written, or
+    Taken if a folder exists here and must not be replaced.
     """
     try:
         _refuse_others(path, kind, overwrite=overwrite)
@@ -64,7 +64,7 @@ def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def fill_folder(path: Path, fill: Callable[[Path], None]) -> None:
-    """Replace a folder atomically. `fill` makes the new folder at the path that it is given. If that fails, the old
+    """Replace a folder atomically. `fill` makes the new folder at the path that it is given. If `fill` fails, the old
     folder stays.
     """
     place = Path(os.path.realpath(path))
@@ -83,7 +83,7 @@ def fill_folder(path: Path, fill: Callable[[Path], None]) -> None:
 
 
 def _put(temporary: Path, place: Path) -> None:
-    """Rename the new folder to its place. If that fails, restore the old folder."""
+    """Rename the new folder to its place. If the renaming fails, restore the old folder."""
     try:
         (temporary / "new").rename(place)
     except BaseException:

@@ -1,4 +1,4 @@
-"""Wall-clock time and processor time of this computer. They do not affect the course of a run."""
+"""Wall-clock time and processor time of this computer. These times do not affect the course of a run."""
 
 import time
 from dataclasses import dataclass, field

@@ -1,5 +1,5 @@
-"""HTML elements for notebooks. They use no style sheets or scripts, so they do not affect the rest of the notebook
-page.
+"""HTML elements for notebooks. These elements use no style sheets or scripts, so they do not affect the rest of the
+notebook page.
 """
 
 from collections.abc import Iterable, Sequence
@@ -50,14 +50,14 @@ def picture(webp: bytes, what: str) -> Markup:
 
 
 def svg(drawing: str, what: str) -> Markup:
-    """Show an SVG drawing with alternative text. Its styles do not affect the rest of the page."""
+    """Show an SVG drawing with alternative text. The drawing's styles do not affect the rest of the page."""
     address = data_address("image/svg+xml", drawing.encode())
     return element("img", alt=what, src=address, style="max-width:100%")
 
 
 def sandbox(file: bytes, what: str, height: int) -> Markup:
-    """Show a separate HTML page within the notebook page. Its scripts run, but cannot reach the notebook or its
-    kernel.
+    """Show a separate HTML page within the notebook page. The scripts of the separate page run, but cannot reach the
+    notebook or its kernel.
 
     The page is given by a `data:` address instead of `srcdoc`. With `srcdoc`, links to moments of the run would
     lead to the address of the notebook.

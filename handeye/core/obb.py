@@ -34,9 +34,9 @@ def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
 
 
 def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
-    """Return the depths (m) to which n boxes overlap m other boxes, shape (N, n, m); 0 if two boxes do not touch.
-    The n boxes are given in frame A. Each other box has its own frame B; `X_BA`, shape (N, m, 4, 4), is the pose of
-    A in it.
+    """Return the depths (m) to which n boxes overlap m other boxes, shape (N, n, m); 0 if two boxes do not touch. The
+    n boxes are given in frame A. Each other box has its own frame B; `X_BA`, shape (N, m, 4, 4), is the pose of A in
+    B.
     """
     a, b = halves(boxes), halves(others)
     R = X_BA[..., :3, :3]
@@ -56,7 +56,7 @@ def _oblique(R: Array, gap: Array, a: Array, b: Array) -> Array:
     Args:
         R: orientation of the first box in the frame of the second, shape (K, 3, 3).
         gap: vector from the centre of the second box to that of the first, in m, shape (K, 3). `a` and `b` are the
-            half lengths of the two boxes, likewise.
+            half lengths of the first and the second box, also in m, shape (K, 3).
     """
     own = np.swapaxes(R, -1, -2)
     crossed = np.cross(np.eye(3)[None, :, None], own[:, None]).reshape(-1, 9, 3)

@@ -25,7 +25,9 @@ def packed(record: object) -> bytes:
 
 
 def unpacked(data: bytes, kind: type[T], largest: int) -> T:
-    """Decode bytes made by `packed`. Raises ValueError if they are invalid or inflate to more than `largest` bytes."""
+    """Decode bytes made by `packed`. Raises ValueError if the bytes are invalid or inflate to more than `largest`
+    bytes.
+    """
     try:
         return decoded(_inflated(data, largest), kind)
     except zlib.error as error:

@@ -22,7 +22,7 @@ def pages(folder: Path) -> dict[str, Path]:
 
 
 def page_named(topic: str, folder: Path) -> Path:
-    """The page of a topic, which may be given with its folder; raises NoSuchName if there is none."""
+    """The page of a topic, which may be given with its folder; raises NoSuchName if there is no such page."""
     from difflib import get_close_matches
 
     found = pages(folder)

@@ -20,7 +20,7 @@ Off = Callable[[Rows, Rows, Rows], Array]
 
 
 def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
-    """Find the rows from which all others can be interpolated within the tolerance. The result includes the rows
+    """Find the rows from which all other rows can be interpolated within the tolerance. The result includes the rows
     `always`, which must be sorted and contain the first and last row.
 
     The search starts with the segments between the rows `always`. A segment with a row too far from the

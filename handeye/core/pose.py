@@ -3,11 +3,11 @@
 Letters: W world (the table frame: origin at a table corner, z up, table top z = 0), B arm base, T tool centre point
 (midway between the finger tips), C camera, P part.
 
-The hand frame T has z along the approach direction and y along the finger line, the line through both finger tips.
-The orientation of the hand is written with the three angles O, A, T of the arm programs of 1973. If all three are
-zero, the hand points along -Y, with the finger line along X. O turns the hand about the vertical, A tilts the
-approach direction downwards, and T rolls the hand about the approach direction. A hand that points straight down
-has A = 90 degrees and T = 0; O is then the angle from the x axis of the table to the finger line.
+The hand frame T has z along the approach direction and y along the finger line, the line through both finger tips. The
+orientation of the hand is written with the three angles O, A, T of the arm programs of 1973. If all three angles are
+zero, the hand points along -Y, with the finger line along X. O turns the hand about the vertical, A tilts the approach
+direction downwards, and T rolls the hand about the approach direction. A hand that points straight down has A = 90
+degrees and T = 0; O is then the angle from the x axis of the table to the finger line.
 """
 
 import math

@@ -23,7 +23,7 @@ def processor() -> str:
 
 
 def _model() -> str:
-    """Return the model name that the processor reports, or "" if there is none."""
+    """Return the model name that the processor reports, or "" if the processor reports no name."""
     try:
         found = re.search(
             r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(errors="replace"), re.MULTILINE
@@ -34,7 +34,7 @@ def _model() -> str:
 
 
 def _kernels() -> str:
-    """Return the name of the kernels that NumPy's OpenBLAS has selected, or "" if it is unknown."""
+    """Return the name of the kernels that NumPy's OpenBLAS has selected, or "" if this name is unknown."""
     import numpy
 
     for file in (Path(numpy.__file__).parents[1] / "numpy.libs").glob("*openblas*"):

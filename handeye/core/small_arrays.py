@@ -1,4 +1,4 @@
-"""Operations on arrays of a few numbers, on which they are several times as fast as NumPy's own."""
+"""Operations on arrays of a few numbers. On such arrays, these functions are several times as fast as NumPy's own."""
 
 from typing import Any
 

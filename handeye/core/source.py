@@ -98,7 +98,7 @@ class Source:
 
 
 def line_name(line: int, file: str = "") -> str:
-    """Name a line: `12`, or `pins.al:12` in a required file."""
+    """Return the name of a line: its number, such as `12`, or in a required file `pins.al:12`."""
     return f"{printable(file)}:{line}" if file else f"{line}"
 
 

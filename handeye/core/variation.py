@@ -1,7 +1,7 @@
 """The quantities that vary between worlds: a task's table of quantities, and the worlds generated from it.
 
-A quantity is one number with a dotted name such as `camera.place.x`; the parts of a name before a dot name groups
-(`camera.place`, `camera`). Each quantity is drawn from a separate random stream, made from the seed and the
+A quantity is one number with a dotted name such as `camera.place.x`; the part of a name before each dot is the name of
+a group (`camera.place`, `camera`). Each quantity is drawn from a separate random stream, made from the seed and the
 quantity's name. Adding a quantity therefore changes no other quantity, and one quantity can be switched off or set
 while the others keep their values.
 """
@@ -174,12 +174,12 @@ class Variation:
         return values.get(choice, self.quantities[choice].nominal) == wanted
 
     def select(self, name: str, values: Mapping[str, float] | None = None) -> tuple[Quantity, ...]:
-        """Return the quantity called `name`, or all quantities in the group of that name. Raises NoSuchName if
-        there is none.
+        """Return the quantity called `name`, or all quantities in the group of that name. Raises NoSuchName if there
+        is neither.
 
         Args:
-            values: values set in the world (SI). Quantities that such a world does not have are left out. If None,
-                the quantities of all worlds count.
+            values: values set in the world (SI). Quantities that a world with these values does not have are left out.
+                If `values` is None, the quantities of all worlds count.
         """
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         there = [q for q in found if values is None or self._is_there(q, values)]
@@ -219,7 +219,9 @@ class Variation:
         return SPREADS[spec.level] * (scale[max(mine, key=len)] if mine else 1.0)
 
     def scalable(self, name: str) -> tuple[Quantity, ...]:
-        """Return the quantities to which a scale with this name applies. Raises BadArgument if there are none."""
+        """Return the quantities to which a scale with this name applies. Raises BadArgument if there are no such
+        quantities.
+        """
         those = self.quantities.values() if name == UNSOURCED else self.select(name)
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
@@ -270,7 +272,7 @@ def drawn(quantity: Quantity, factor: float, stream: np.random.Generator) -> flo
 
 
 def checked_seed(seed: object) -> int:
-    """Check a seed and return it as a plain `int`. Raises BadArgument if it is no seed."""
+    """Check a seed and return it as a plain `int`. Raises BadArgument if the value is not a valid seed."""
     number = whole(seed)
     if number is None or not 0 <= number <= LARGEST_SEED:
         told = repr(seed) if number is None or abs(number) < _LONG else "a longer one"

@@ -35,8 +35,8 @@ def _installed(package: str) -> str:
 
 @cache
 def code_digest() -> str:
-    """Compute a digest (16 hexadecimal digits) of handeye's files and scenes on disk. Raises BadFile if one cannot
-    be read.
+    """Compute a digest (16 hexadecimal digits) of handeye's files and scenes on disk. Raises BadFile if one of these
+    files cannot be read.
     """
     import hashlib
 

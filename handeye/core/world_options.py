@@ -60,7 +60,9 @@ def overrides(
 
 
 def _scale(variation: Variation, text: str) -> tuple[str, float]:
-    """Parse a scale. Returns the name of a quantity or group, or `unsourced`, and the factor on its errors."""
+    """Parse a scale. Returns two values: the name of a quantity or group, or `unsourced`; and the factor on the errors
+    of the quantities with this name.
+    """
     name, equals, factor = (part.strip() for part in text.partition("="))
     written = split_value(factor)
     if not equals or written is None or written[1]:
@@ -70,8 +72,8 @@ def _scale(variation: Variation, text: str) -> tuple[str, float]:
 
 
 def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
-    """Parse a setting. Returns the name of a quantity or group, and the value of each of its quantities, in any
-    world.
+    """Parse a setting. Returns the name of a quantity or group, and a value for every quantity that the name stands
+    for in any world.
     """
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:

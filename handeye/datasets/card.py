@@ -1,4 +1,4 @@
-"""The card of a data set: what it contains, where it comes from, and what it does not show."""
+"""The card of a data set: what the data set contains, where it comes from, and what it does not show."""
 # ruff: noqa: E501 - a row of a table is a line
 
 from collections import Counter

@@ -61,7 +61,9 @@ def runs_in(places: Iterable[Path]) -> tuple[Path, ...]:
 
 
 def read_episode(run: Path, number: int) -> tuple[Trace, Episode]:
-    """Read a recorded run as the episode with this index. Raises InvalidInput if it cannot be read or has not ended."""
+    """Read a recorded run as the episode with this index. Raises InvalidInput if the run cannot be read or has not
+    ended.
+    """
     if not (run / RESULT).is_file():
         raise BadFile(f"the run in {run} has not ended; `handeye resume {run}` continues it")
     trace, result = read_trace(run / TRACE), kept_run(run).result

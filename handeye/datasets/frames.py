@@ -1,8 +1,8 @@
-"""Reduces a recorded run to frames, ten a second.
+"""Reduces a recorded run to frames, ten frames a second.
 
-A frame belongs to a moment. Its observation is what the sensors read in the tenth of a second before this moment, and
-its action is what the arm did in the tenth of a second after it. So no observation contains anything that happened
-after its action began.
+A frame belongs to a moment. The observation of a frame is what the sensors read in the tenth of a second before this
+moment. The action of a frame is what the arm did in the tenth of a second after this moment. So the observation of a
+frame contains nothing that happened after the frame's action began.
 """
 
 from collections.abc import Iterable, Iterator
@@ -34,8 +34,9 @@ NO_PICTURE: Final = -1  # number of the picture, and its age (s), before the fir
 class Frames:
     """A run as K frames, of an arm with n joints. Joint positions are in rad, or m if prismatic.
 
-    The positions of a frame are those of the joints, then the opening of the fingers (m). While the brakes hold the
-    arm for several servo periods, the sensors are not read. A frame in this time has the last reading.
+    The positions of a frame are the positions of the joints, followed by the opening of the fingers (m). While the
+    brakes hold the arm for several servo periods, the sensors are not read. A frame in such a pause has the last
+    reading before the pause.
     """
 
     times: Array  # moments of the frames, s since the program began, shape (K,)
@@ -60,7 +61,7 @@ class Frames:
 
 
 def frames_of(trace: Trace) -> Frames:
-    """Reduce a run to frames. Raises Refused if its trace is thinned, or holds no motion."""
+    """Reduce a run to frames. Raises Refused if the run's trace is thinned or holds no motion."""
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned, so most sensor readings are missing; use the original trace")
     motion, forces = trace.motion, trace.forces()
@@ -93,7 +94,9 @@ def frames_of(trace: Trace) -> Frames:
 
 
 def _windows(times: Array, moments: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the last reading of each frame, and its first one. A frame without a reading keeps the last one."""
+    """Return the last reading and the first reading of each frame. A frame without a reading keeps the last reading
+    before it.
+    """
     end = np.searchsorted(times, moments + CLOCKS)
     begin = np.concatenate([[0], end[:-1]])
     last = np.maximum(end - 1, 0)
@@ -108,7 +111,9 @@ def _means(values: Array, first: NDArray[np.intp], last: NDArray[np.intp]) -> Ar
 def _last_felt(
     estimated: NDArray[np.bool_], first: NDArray[np.intp], last: NDArray[np.intp]
 ) -> NDArray[np.intp]:
-    """Return, for each frame, its last reading with an estimate of force, or its first reading if it has none."""
+    """For each frame, return the last reading that has an estimate of force, or the first reading if none has an
+    estimate.
+    """
     newest = np.maximum.accumulate(np.where(estimated, np.arange(len(estimated)), 0))
     return np.maximum(newest[last], first)
 

@@ -1,4 +1,4 @@
-"""Writes runs as a data set of LeRobot, version 3 of its format, with that library.
+"""Writes runs as a data set of LeRobot, version 3 of its format, with the library of LeRobot.
 
 https://github.com/huggingface/lerobot
 """
@@ -214,7 +214,9 @@ def _single(values: Array | float) -> NDArray[np.float32]:
 
 
 def shown(picture: Picture) -> NDArray[np.uint8]:
-    """Return a television picture as an image, shape (256, 334, 3): level 15 is 255, the last column is black."""
+    """Return a television picture as an image, shape (256, 334, 3): level 15 becomes 255, and the last column is
+    black.
+    """
     wide = np.zeros((ROWS, WIDTH), np.uint8)
     wide[:, :COLUMNS] = picture * LEVEL
     return np.repeat(wide[:, :, None], 3, axis=2)

@@ -30,7 +30,7 @@ class RecordedWorld(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recording:
-    """Records a run of a plan in a world. If the run was interrupted, it continues from its newest checkpoint."""
+    """Records a run of a plan in a world. If the run was interrupted, the run continues from its newest checkpoint."""
 
     folder: Path
     plan: Plan
@@ -53,8 +53,8 @@ def _begun(place: Path, plan: Plan, world: WorldSpec, camera: str) -> Run:
 
 
 def worlds(plan: Plan, first: WorldSpec, n: int, faulty: int) -> tuple[RecordedWorld, ...]:
-    """Return `n` worlds without faults, and then `faulty` worlds with one fault each. The seeds follow each other,
-    and the faults are those of the task's standard set, one after another.
+    """Return `n` worlds without faults, and then `faulty` worlds with one fault each. The seeds are consecutive, and
+    the faults are taken from the task's standard set, one after another.
 
     Raises:
         Refused: the task has no standard set of faults.
@@ -80,7 +80,7 @@ def record_all(
     jobs: int,
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> dict[EpisodeOutcome, int]:
-    """Record the runs that are missing, with several processes. Returns the number of runs by outcome.
+    """Record the missing runs in several processes. Returns the number of runs by outcome.
 
     Raises:
         InvalidInput: a run cannot be executed or recorded.

@@ -25,9 +25,9 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     """Return the breakpoint that a text names. Raises InvalidInput if there is no such place, or if no step can
     raise that error.
 
-    The text is one of: `error:23`; a line of the source, such as `12` or `pins.al:3`, which means the first
-    step on the line or after it; a label; an instruction word, which means every step that begins with that
-    word; a stage, by its name or a part of the name.
+    The text names an error, such as `error:23`, a label, or a stage (by its name or a part of the name). A line of the
+    source, such as `12` or `pins.al:3`, means the first step on the line or after it. An instruction word means every
+    step that begins with that word.
     """
     text = text.strip()
     if not text:
@@ -80,8 +80,8 @@ def step_number(text: str, listing: Listing) -> int:
 
 
 def meant(name: str, known: Iterable[str]) -> str:
-    """Return `; did you mean ...` with the nearest known name, or an empty text if less than half of `name` is
-    right.
+    """Return `; did you mean ...` with the nearest known name. The text is empty if no known name agrees with at least
+    half of `name`.
 
     Names typed at the stepper are short, so half is enough: a user who types `L9` may mean `L1`.
     """

@@ -1,4 +1,4 @@
-"""The functions that execute the stepper's commands on a session. Each gets the text after the command word.
+"""The functions that execute the stepper's commands on a session. Each function gets the text after the command word.
 
 The table of commands describes each command.
 """
@@ -247,8 +247,8 @@ MAX_NUMBER: Final = 1000.0
 
 
 def _set(runner: Runner, text: str) -> None:
-    """Set a value. The user gives its kind, name and numbers, such as `saved H 0 0 .1`. Raises InvalidInput if
-    the value cannot be set.
+    """Set a value. The user gives the kind, name and numbers of the value, such as `saved H 0 0 .1`. Raises
+    InvalidInput if the value cannot be set.
     """
     kind, _, rest = text.strip().partition(" ")
     settables = runner.system.settables()

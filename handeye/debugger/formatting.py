@@ -65,7 +65,7 @@ def _standing(reply: Reply) -> str:
 
 
 def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[str]:
-    """Return the executed steps as lines of text, but at most the last `most`."""
+    """Return the executed steps as lines of text. Of more than `most` steps, only the last `most` are shown."""
     left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {counted(left_out, 'line')} before these" if left_out else ""][: left_out and 1]
     return head + [told_row(step) for step in did[left_out:]]

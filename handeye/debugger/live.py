@@ -27,8 +27,7 @@ _LATE_S: Final = 0.1  # a run that is later than this (after a picture, for exam
 
 @dataclass(slots=True, eq=False)
 class Pace(Observer):
-    """Limits the pace of a run to `factor` times real time by waiting. This does not change the course of the
-    run."""
+    """Limits the pace of a run to `factor` times real time by waiting. Waiting does not change what the run does."""
 
     factor: float | None = None  # simulated seconds per second; None for as fast as possible
     clock: Callable[[], float] = time.monotonic
@@ -89,8 +88,9 @@ class Live:
 
 @dataclass(slots=True, eq=False)
 class LineInput(Observer):
-    """Reads the lines that the user types during a run. It checks for them in every servo period and at every
-    step."""
+    """Reads the lines that the user types during a run. The reader checks for new lines in every servo period and at
+    every step.
+    """
 
     typed: Callable[[], str | None]
     answer: Callable[[str], None]
@@ -146,7 +146,7 @@ class LiveText(Observer):
             self.put(self._open)
 
     def leave_line(self, *, ended: bool = False) -> None:
-        """End an unfinished line. If `ended`, the user's Enter key has already ended it."""
+        """End an unfinished line. If `ended` is True, the user's Enter key has already ended the line."""
         if self._open and not ended:
             self.put("\n")
         self._open = ""

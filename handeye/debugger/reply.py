@@ -1,5 +1,6 @@
-"""Defines the stepper's reply to a command. It is a record for programs and people, with a summary of each
-executed step."""
+"""Defines the stepper's reply to a command. The reply is a record for programs and people, with a summary of each
+executed step.
+"""
 
 from collections.abc import Iterable, Sequence
 from typing import Final
@@ -80,8 +81,8 @@ def _outcome(
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:
-    """Return where the hand or the fingers were at the end of a step in which nothing else happened. Empty if the
-    step took no time.
+    """Return where the hand or the fingers were at the end of a step in which nothing else happened. The text is empty
+    if the step took no time.
     """
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
@@ -92,7 +93,7 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
 
 
 class Break(Record, frozen=True, kw_only=True):
-    """A breakpoint with its number, by which the user can delete it."""
+    """A breakpoint, with the number by which the user can delete it."""
 
     number: int
     stop: AnyStop

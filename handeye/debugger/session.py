@@ -93,8 +93,8 @@ class DebugSession:
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
-        """Let the arm undo steps until `left` executed steps remain. With `halts`, the run ends there. Raises
-        InvalidInput if the arm cannot undo them.
+        """Let the arm undo steps until `left` executed steps remain. If `halts` is True, the run then ends. Raises
+        InvalidInput if the arm cannot undo these steps.
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
@@ -140,7 +140,7 @@ class DebugSession:
         return Pause(kind="break", next=self.runner.at, met=ByHand())
 
     def at_its_end(self) -> str | None:
-        """Return the reason why the run cannot continue without the operator, or None if it can."""
+        """Return the reason why the run cannot continue without the operator, or None if the run can continue."""
         runner = self.runner
         if not runner.ended:
             return None

@@ -1,4 +1,4 @@
-"""The interactive stepper. It executes commands, returns each reply as a record, and prints the replies."""
+"""The interactive stepper, which executes commands, returns each reply as a record, and prints the replies."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -82,7 +82,7 @@ class Stepper:
         return self._reply(line, told, happened)
 
     def standing(self) -> Reply:
-        """Return the reply that is shown before the first command. It says where the run is paused."""
+        """Return the reply that is shown before the first command. This reply says where the run is paused."""
         runner = self.session.runner
         steps = counted(len(self.session.program.steps), "step")
         said = f"{self.session.program.name}, {steps}; `help` lists the commands"
@@ -130,7 +130,7 @@ def interact(
         write: prints lines of text, which it gets without the final newline.
         json: answer each command with one JSON object on one line, and print nothing else.
         prompt: print a prompt for each line; an empty line repeats the last command that advanced the run.
-        most: greatest number of executed steps to print; all if None.
+        most: greatest number of executed steps to print. If None, all are printed.
         live: print each step as it begins, and answer lines that are typed during the run.
     """
     face = as_json if json else partial(as_text, most=most)

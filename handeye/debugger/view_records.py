@@ -18,14 +18,14 @@ class JointView(Record, frozen=True, kw_only=True):
 
 
 class HandView(Record, frozen=True, kw_only=True):
-    """The pose of the hand in W. Its angles are O, A, T."""
+    """The pose of the hand in W. The angles of the pose are O, A, T."""
 
     at_in: Vector3
     angles_deg: Vector3
 
 
 class ErrorView(Record, frozen=True, kw_only=True):
-    """The error that the next step tests for."""
+    """The error whose occurrence the next step tests."""
 
     number: int
     sentence: str
@@ -70,7 +70,7 @@ class PictureShown(Record, frozen=True, kw_only=True):
 
 
 class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """Where one of several tasks is in the program."""
+    """The place in the program that one of several tasks has reached."""
 
     task: str
     step: int  # the step that the task does next
@@ -81,7 +81,7 @@ class TaskView(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class RunViews(Record, frozen=True, kw_only=True):
-    """The views that the user asked for. All other fields are left out."""
+    """The views for which the user asked. The fields of all other views are left out."""
 
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET

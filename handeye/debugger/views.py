@@ -16,7 +16,7 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunViews:
-    """Return the views for the topics in `what`, which may be abbreviated. If `what` is empty, all topics
+    """Return the views for the topics in `what`. The names of topics may be abbreviated. If `what` is empty, all topics
     except `positions` are shown. Raises InvalidInput.
 
     The last picture is written to the folder `pictures`, if one is given.
@@ -34,7 +34,9 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunVie
 
 
 def task_views(runner: Runner) -> tuple[TaskView, ...]:
-    """Return where each task is in the program. Empty if the tasks have no names, as in a system with one task."""
+    """Return where each task is in the program. Returns no views if the tasks have no names, as in a system with one
+    task.
+    """
     steps = runner.listing.steps
     return tuple(
         TaskView(

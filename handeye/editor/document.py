@@ -20,7 +20,7 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, kw_only=True)
 class Document:
-    """A script. Offsets count characters of its text. All results are computed when they are needed."""
+    """A script. An offset counts characters of the script's text. All results are computed when they are needed."""
 
     source: Source
     taught: Taught = field(default_factory=Taught)

@@ -55,7 +55,7 @@ def explanation(word: str) -> str:
 
 
 def listing() -> str:
-    """Return all codes with their meaning, divided into errors and warnings, and all error numbers."""
+    """Return three lists: the codes of errors, the codes of warnings, and the error numbers, each with its meaning."""
     width = max(map(len, CODES))
     out = []
     for severity in ("error", "warning"):

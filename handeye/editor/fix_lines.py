@@ -98,16 +98,18 @@ def _behind_motion(document: Document, number: int) -> int | None:
 
 
 def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that removes the test, but only for SKIPE, which never skips here. SKIPN of an impossible
-    error always skips, so there is no plausible fix for it.
+    """Yield a fix that removes a test of an impossible error if the test is a SKIPE, which then never skips. A SKIPN
+    of an impossible error always skips, so no fix is plausible.
     """
     if word_of(line_of(document, diagnostic)) == "SKIPE":
         yield from remove_line(document, diagnostic)
 
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix for a macro that ends with a modifier while its motion follows after blank lines: remove the
-    blank lines, so that the motion belongs to the macro. There is no fix if the macro would then have no end."""
+    """Yield a fix for a macro that ends with a modifier, if the motion of this modifier follows after blank lines. The
+    fix removes the blank lines, so that the motion belongs to the macro. There is no fix if the macro would then have
+    no end.
+    """
     behind = document.line_of(diagnostic.secondary[0].span.start)
     body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))
     words = {word_of(line) for line in body if line.split()[1]}

@@ -66,8 +66,9 @@ def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def remove_parameter(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that removes a parameter and its operands in all calls, unless the operands are separated by
-    commas."""
+    """Yield a fix that removes a parameter, and its operands in all calls. There is no fix if commas separate the
+    operands.
+    """
     name = document.name_at(diagnostic.primary.span.start)
     macro = None if name is None else document.macros.get(name.scope)
     if name is None or macro is None:

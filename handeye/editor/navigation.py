@@ -20,7 +20,7 @@ _NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """A span in the script, in the taught file, or in a required file, which `file` names."""
+    """A span in the script, in the taught file, or in the required file that `file` names."""
 
     span: Span
     taught: bool = False
@@ -35,8 +35,9 @@ class Edit(Place):
 
 
 def definition(document: Document, offset: int) -> list[Place]:
-    """Return the definitions of the name at an offset. For a difference, these are all SAVEs; for a required
-    file, its start."""
+    """Return the definitions of the name at an offset. A difference is defined by each of its SAVEs. A required file
+    is defined at its start.
+    """
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
         if file.span.start <= offset <= file.span.end:
@@ -53,7 +54,7 @@ def references(document: Document, offset: int) -> list[Place]:
 
 
 def renamable(document: Document, offset: int) -> Occurrence:
-    """Return the name at an offset. Raises Refused if it cannot be renamed."""
+    """Return the name at an offset. Raises Refused if the name cannot be changed."""
     name = document.name_at(offset)
     if name is None:
         raise Refused("there is no name here")
@@ -67,8 +68,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Return edits in all files that rename the name at an offset. Raises BadArgument if the new name is not
-    possible."""
+    """Return edits in all files that rename the name at an offset. Raises BadArgument if the new name is invalid."""
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise BadArgument(
@@ -91,7 +91,7 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
-    """Return True if a name would clash with the new one. A position and a part must not get the same name,
+    """Return True if a name would clash with the new name. A position and a part must not get the same name,
     because AIM accepts both.
     """
     if name.kind == PARAMETER:

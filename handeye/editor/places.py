@@ -38,8 +38,9 @@ def places(definition: Instruction, tokens: Sequence[Token]) -> list[OperandToke
 
 
 def expected(definition: Instruction, tokens: Sequence[Token]) -> list[Operand]:
-    """Return the operands that may come next: the first missing one and, if that one is optional, those after
-    it."""
+    """Return the operands that may come next: the first missing operand and, if that operand is optional, the operands
+    after it.
+    """
     walk = _Walk(definition, tokens)
     for _ in walk.go():
         pass

@@ -22,7 +22,7 @@ class Protocol(LanguageServerProtocol):
     """
 
     def structure_message(self, data: dict[str, Any]) -> Any:
-        """Make a typed message. The JSON decoder calls this for each object in a message."""
+        """Make a typed message. The JSON decoder calls this method for each object in a message."""
         try:
             return super().structure_message(data)
         except JsonRpcException:
@@ -71,8 +71,8 @@ async def end_with(process: int) -> None:
 
 
 def is_running(process: int) -> bool:
-    """Return True if a process is running, or if this cannot be determined. On Windows it cannot: the usual
-    check would end the process.
+    """Return True if a process is running, or if handeye cannot determine whether it is. On Windows, handeye does not
+    check, because the usual check would end the process.
     """
     if sys.platform == "win32" or process <= 0:
         return True

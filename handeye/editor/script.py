@@ -22,7 +22,9 @@ from handeye.runs.scripts import taught
 
 
 def text_of(workspace: Workspace, uri: str) -> TextDocument:
-    """Return the text of a URI, from the editor or from a file. Raises BadFile if neither has it."""
+    """Return the text of a URI, from the editor or from a file. Raises BadFile if neither the editor nor a file has
+    the text.
+    """
     if uri not in workspace.text_documents:
         if not uri.startswith("file:"):
             raise BadFile(f"{uri} is not open in the editor")
@@ -103,8 +105,9 @@ class EditedScript:
         return uri in map(self._uri, self.document.whole.required)
 
     def _taught_text(self, file: Path) -> str:
-        """Return the text of the taught file, from the editor if the file is open there. Empty if there is no
-        such file."""
+        """Return the text of the taught file, from the editor if the file is open there. The text is empty if there is
+        no such file.
+        """
         if not is_there(file):
             return ""
         self.taught_uri = from_fs_path(str(file)) or ""

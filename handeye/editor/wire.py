@@ -45,8 +45,8 @@ def range_(source: Source, span: Span, units: Units) -> lsp.Range:
 def diagnostic(
     found: Diagnostic, at: lsp.Range, related: Sequence[tuple[lsp.Location, str]], where: str = ""
 ) -> lsp.Diagnostic:
-    """Return a diagnostic for an editor. Its message begins with `where`; the texts of labels, notes and help
-    follow as further lines.
+    """Return a diagnostic for an editor. The message of the returned diagnostic begins with `where`; the texts of
+    labels, notes and help follow as further lines.
     """
     severity = lsp.DiagnosticSeverity.Error if found.severity == "error" else lsp.DiagnosticSeverity.Warning
     said = [found.message, found.primary.text, *found.notes, *([f"help: {found.help}"] if found.help else [])]

@@ -1,8 +1,8 @@
 """Gymnasium environments of the work cell. Importing this package registers them.
 
-An environment runs at the servo's 60 Hz. Its observations are the readings of the sensors, and "done" is a part of
-the action: only the referee, at the end of the episode, says whether the work is right. docs/environments.md
-describes observations, actions and rewards.
+An environment runs at the servo's 60 Hz. The observations are the readings of the sensors, and "done" is a part of the
+action: only the referee, at the end of the episode, says whether the work is right. docs/environments.md describes
+observations, actions and rewards.
 """
 
 try:

@@ -70,7 +70,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             world: further arguments of `handeye.World` (`without`, `set`, `scale`, `faults`) for every world.
             pictures: add the last television picture to the observation, and the commands to the camera to the
                 action.
-            shaped: add a reward in every step that is computed from the true state, and mark the episode as
+            shaped: in every step, add a reward that is computed from the true state. The episode is then marked as
                 privileged.
             limit_s: time limit of an episode (s on the cell's clock) instead of the job's.
             camera: renderer of the television camera: `ray` gives the same pictures on every computer.
@@ -116,10 +116,9 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         Args:
             options: arguments of `handeye.World` for this episode only, such as `{"level": "high"}`.
 
-        Returns:
-            the first observation, and a dictionary with the world, the stage of the program that begins, what
-            the arm has measured of itself, and the seeds of worlds that were passed over because the program does
-            not reach the start there.
+        Returns: the first observation, and a dictionary with the world, the stage of the program that begins, what the
+            arm has measured of itself, and the seeds of worlds that were passed over because, in them, the program
+            does not reach the start of the job.
 
         Raises:
             InvalidInput: the seed or an option cannot be used.
@@ -185,7 +184,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         return photographed(self._runner)
 
     def facts(self, seed: int = 0) -> Facts:
-        """Return what a policy may know at the beginning of the present episode. `seed` is for its own random numbers.
+        """Return what a policy may know at the beginning of the present episode. `seed` is the seed of the policy's
+        own random numbers.
 
         Raises:
             InvalidInput: no episode has begun.
@@ -228,7 +228,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         return World(seed, task=self.job.task, **settings).spec
 
     def _start(self, world: WorldSpec) -> Checkpoint | None:
-        """Return the start of an episode in a world; None if the program does not reach it."""
+        """Return the start of an episode in a world; None if the program does not reach this start."""
         job = self.job
         stage = job.stages[int(random_numbers(world.seed, "env.start").integers(len(job.stages)))]
         start = self._starts.before(stage, world)
@@ -292,7 +292,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         return of(self._runner) if self.shaped and of is not None and self._runner is not None else 0.0
 
     def _progress(self, stopped: str) -> float:
-        """Return the shaped reward of a step: how much nearer to the goal the true state has come."""
+        """Return the shaped reward of a step: by how much the true state has come nearer to the goal."""
         if not self.shaped or stopped:
             return 0.0
         before, self._height = self._height, self._potential()
@@ -300,7 +300,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
 
 
 def _settings(name: str, given: object) -> dict[str, Any]:
-    """Return the settings of a world as a dictionary. Raises BadArgument if they are anything else."""
+    """Return the settings of a world as a dictionary. Raises BadArgument if the settings are anything else."""
     if not isinstance(given, Mapping | None):
         raise BadArgument(f"`{name}` must be a dictionary of settings of a world, not {given!r}")
     return dict(given or {})

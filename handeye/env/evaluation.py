@@ -61,7 +61,9 @@ class PlayedEpisode:
 
 
 def play(env: AssemblyEnv, maker: PolicyMaker, seed: int) -> PlayedEpisode:
-    """Let a policy play an episode in the world of a seed. Raises InvalidInput, or what the policy raises."""
+    """Let a policy play an episode in the world of a seed. Raises InvalidInput, or any exception that the policy
+    raises.
+    """
     first, began = env.reset(seed=seed)
     own = int(random_numbers(seed, "env.policy").integers(1 << 32))
     ended: dict[str, Any] = {}
@@ -93,7 +95,7 @@ class Evaluation:
     settings: Mapping[str, Any] = field(default_factory=dict)  # further arguments of the environment
 
     def __call__(self, case: Case) -> list[EpisodeRow]:
-        """Play the episode of a case. Raises InvalidInput, or what the policy raises."""
+        """Play the episode of a case. Raises InvalidInput, or any exception that the policy raises."""
         maker = policy_maker(self.policy)
         env = AssemblyEnv(self.environment, action=self.action, pictures=self._sees(maker), **self.settings)
         found = play(env, maker, case.seed)

@@ -131,7 +131,7 @@ JOBS: Final = (
 
 
 def job_named(name: str) -> Job:
-    """Return the job of an environment. Raises NoSuchName if there is none."""
+    """Return the job of an environment. Raises NoSuchName if there is no such job."""
     found = {job.id: job for job in JOBS}
     if not isinstance(name, str) or name not in found:
         name = str(name)

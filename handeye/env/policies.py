@@ -24,7 +24,7 @@ class EpisodeOver(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Facts:
-    """What a policy may know before an episode: nothing in it comes from the true state of the cell."""
+    """What a policy may know before an episode. None of these facts comes from the true state of the cell."""
 
     environment: str  # its id
     task: str
@@ -61,10 +61,11 @@ class Episode:
 
 
 class Policy:
-    """A policy for one episode: `MODULE:NAME` names its class, or a function that makes it from the facts.
+    """A policy for one episode: `MODULE:NAME` names the class of the policy, or a function that makes the policy from
+    the facts.
 
-    A policy that answers each observation with an action has the method `act`. One that is written as a sequence of
-    motions overrides `play` instead, and calls `episode.step` once in each servo period.
+    A policy that answers each observation with an action has the method `act`. A policy that is written as a sequence
+    of motions overrides `play` instead, and calls `episode.step` once in each servo period.
     """
 
     actions: tuple[ActionKind, ...] = (
@@ -89,7 +90,9 @@ class Policy:
 
 
 class RandomPolicy(Policy):
-    """Draws every component of every action uniformly. In one of a thousand steps, it reports that the work is done."""
+    """Draws every component of every action uniformly. On average, the policy reports in one of a thousand steps that
+    the work is done.
+    """
 
     def __init__(self, facts: Facts) -> None:
         super().__init__(facts)
@@ -111,8 +114,8 @@ BUILT_IN: Final = {
 
 
 def policy_maker(name: str) -> PolicyMaker:
-    """Return the maker of a policy: one that is included, or MODULE:NAME in a module on Python's path or in the
-    current folder. Raises InvalidInput if there is none.
+    """Return the maker of a policy. `name` is the name of an included policy, or MODULE:NAME for a maker in a module
+    on Python's path or in the current folder. Raises InvalidInput if there is no such policy.
     """
     if name in BUILT_IN:
         found: PolicyMaker = loaded(BUILT_IN[name])
@@ -155,7 +158,7 @@ def check_policy(name: str, maker: PolicyMaker, environment: str, action: Action
 
 def played(policy: Any, episode: Episode) -> None:
     """Let a policy play an episode to its end. If the policy ends before the episode, the arm holds still until the
-    time limit: the policy has not reported that the work is done.
+    time limit, because the policy has not reported that the work is done.
     """
     try:
         if hasattr(policy, "play"):

@@ -1,5 +1,5 @@
-"""Shaped rewards. They are computed from the true state of the cell, so a policy trained with them has had help that
-no sensor gives; episodes with such a reward are marked as privileged.
+"""Shaped rewards. They are computed from the true state of the cell. A policy that is trained with shaped rewards
+therefore has had help that no sensor gives, and episodes with such rewards are marked as privileged.
 """
 
 from collections.abc import Callable
@@ -15,10 +15,12 @@ Potential = Callable[
 
 
 def potential(job: Job) -> Potential | None:
-    """Return the potential of a job's shaped reward, or None if the job has none."""
+    """Return the potential of a job's shaped reward, or None if the job has no shaped reward."""
     return _pin if job.task == "insertion" else None
 
 
 def _pin(runner: Runner) -> float:
-    """Return the depth of the pin in units of a hundred millimetres, negative above its seat."""
+    """Return the depth of the pin below its seat, in units of a hundred millimetres. The depth is negative while the
+    pin is above its seat.
+    """
     return -findings_so_far(runner)["seat"].value * MILLIMETRE / (100 * MILLIMETRE)

@@ -14,7 +14,7 @@ from handeye.vision.camera_model import CameraModel
 
 
 def _camera(facts: Facts) -> CameraModel | None:
-    """Return the camera as the program has calibrated it, or as its drawing describes it."""
+    """Return the camera as the program has calibrated it, or as the camera's drawing describes it."""
     if facts.memory.calibration is not None:
         return facts.memory.calibration.model
     eye = task(facts.task).eye
@@ -24,8 +24,8 @@ def _camera(facts: Facts) -> CameraModel | None:
 class ProgramPolicy(Policy):
     """Continues the program from the state in which the episode starts, with what the program remembers there.
 
-    It reports that the work is done when the program has ended the stages of the job. When the program calls the
-    operator, the policy sets the brakes and waits for the time limit.
+    When the program has ended the stages of the job, the policy reports that the work is done. When the program calls
+    the operator, the policy sets the brakes and waits for the time limit.
     """
 
     actions: tuple[ActionKind, ...] = ("torques",)

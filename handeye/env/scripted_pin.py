@@ -1,7 +1,7 @@
 """A scripted policy for `handeye/Pin-v0`: guarded descents at the places of a spiral, then a press to the seat.
 
-It knows only the observations. Its servo is the one of the working phase: it computes torques from the readings, and
-estimates the force on the hand from torques and rates.
+It knows only the observations. The policy uses the servo of the working phase. This servo computes torques from the
+readings, and estimates the force on the hand from torques and rates.
 """
 
 from typing import Final
@@ -72,7 +72,9 @@ class ScriptedPin(Policy):
                 drive.follow(samples)
 
     def _down(self, drive: ArmDrive, distance: float, speed: float, force: float) -> bool:
-        """Go down, and yield sideways. Returns True if a force stopped the hand before the end of the way."""
+        """Go down, and yield sideways. Returns True if a force stopped the hand before the hand had moved by
+        `distance` (m).
+        """
         friction = np.abs(felt_friction(drive.arm, drive.state.q, drive.state.friction)).sum(axis=1)
         course = Course(
             compliance=drive.arm.compliance, direction=_DOWN, distance=distance, speed=speed,
@@ -81,7 +83,7 @@ class ScriptedPin(Policy):
         return drive.comply(course, monitor((Force(force=(0.0, 0.0, -force)),))).trip is not None
 
     def _seated(self, drive: ArmDrive, face: float) -> bool:
-        """Push a pin that is in the hole down to its shoulder. Returns True if it stands there."""
+        """Push a pin that is in the hole down to its shoulder. Returns True if the pin stands on its shoulder."""
         if self._down(drive, NOSE - 3 * LIFTED, QUICK, PRESSED) or not self._down(
             drive, 0.01, SLOW, PRESSED / 2
         ):

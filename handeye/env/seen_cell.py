@@ -68,8 +68,8 @@ class _Screwdriver(ScrewdriverPort):
 
 
 class _Camera(TvCamera):
-    """The television camera. Its mechanism takes time that the observation does not show, so every duration is 0, and
-    the wait for a picture includes the wait for the mechanism.
+    """The television camera. The camera's mechanism takes time that the observation does not show, so every duration
+    is 0, and the wait for a picture includes the wait for the mechanism.
     """
 
     def __init__(self, commands: _Commands) -> None:
@@ -123,7 +123,7 @@ class SeenClock(Clock):
             self._commands.step()
 
     def done(self) -> None:
-        """Say that the work is done. Raises EpisodeOver, because that ends the episode."""
+        """Say that the work is done. Always raises EpisodeOver, because this report ends the episode."""
         self._commands.step(done=True)
 
 

@@ -33,7 +33,7 @@ _LATE: Final = 1e6  # beyond any reading of the clock, s
 
 
 class Component(Record, frozen=True, kw_only=True):
-    """One component of an action. Its value is the component of the Box times `scale`, in `unit`."""
+    """One component of an action. The value of the component, in `unit`, is the component of the Box times `scale`."""
 
     name: str
     scale: float
@@ -42,7 +42,9 @@ class Component(Record, frozen=True, kw_only=True):
 
 
 def components(kind: ActionKind, arm: ArmModel, *, pictures: bool) -> tuple[Component, ...]:
-    """Return the components of an action, in order. With `pictures`, they include the commands to the camera."""
+    """Return the components of an action, in order. If `pictures` is True, the components include the commands to the
+    camera.
+    """
     done = Component(name="done", scale=1.0, unit="")
     return (*_driven(kind, arm), *_hand(arm), *(_CAMERA if pictures else ()), done)
 
@@ -123,7 +125,9 @@ def observation_space(arm: ArmModel, *, pictures: bool) -> spaces.Dict:
 
 
 def observation(sensed: Sensed, torque: Array) -> Observation:
-    """Return the readings of a servo period as an observation. `torque` are the torques commanded in it, shape (n,)."""
+    """Return the readings of a servo period as an observation. `torque` has the torques that were commanded in this
+    servo period, shape (n,).
+    """
     return {
         "q": sensed.q.copy(),
         "qd": sensed.qd.copy(),
@@ -137,12 +141,16 @@ def observation(sensed: Sensed, torque: Array) -> Observation:
 
 
 def named(parts: tuple[Component, ...], action: Array) -> Mapping[str, float]:
-    """Return the values of an action in their units, by component. Values outside of the Box are clipped."""
+    """Return the values of an action by component, each in the unit of its component. Values outside of the Box are
+    clipped.
+    """
     least = np.array([-1.0 if part.signed else 0.0 for part in parts])
     values = np.clip(action, least, 1.0)
     return {part.name: float(value) * part.scale for part, value in zip(parts, values, strict=True)}
 
 
 def encoded(parts: tuple[Component, ...], values: Mapping[str, float]) -> Array:
-    """Return the action with these values, in their units. Components that are left out are 0."""
+    """Return the action with these values. Each value is in the unit of its component. Components that are left out
+    are 0.
+    """
     return np.array([values.get(part.name, 0.0) / part.scale for part in parts])

@@ -1,4 +1,4 @@
-"""The television camera of an episode: its mechanism is slow, and the arm need not wait for it."""
+"""The television camera of an episode: its mechanism is slow, but the arm need not wait for the mechanism."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -25,7 +25,7 @@ class Television:
         self._taken: float | None = None
 
     def command(self, values: Mapping[str, float]) -> None:
-        """Carry out the camera commands of an action, before its servo period passes."""
+        """Carry out the camera commands of an action, before the action's servo period passes."""
         now = self._drive.cell.clock.now
         took = 0.0
         if values["set_lens"] > SWITCHED:
@@ -41,7 +41,7 @@ class Television:
             self._due = max(self._ready, now) + DIGITISE
 
     def expose(self) -> None:
-        """After a servo period, take the requested picture if it is due."""
+        """After a servo period, take the requested picture if the picture is due."""
         now = self._drive.cell.clock.now
         if self._due is not None and now >= self._due - self._drive.period / 2:
             self._picture, self._taken, self._due = self._camera.digitise(hold_target=self._held), now, None

@@ -35,7 +35,7 @@ class Verdict(Record, frozen=True, kw_only=True):
 
     @property
     def right(self) -> bool:
-        """True if the work is right, whether or not the policy said so."""
+        """True if the work is right, whether or not the policy said that it is done."""
         return all_right(self.findings)
 
     @property
@@ -60,7 +60,7 @@ def verdict(job: Job, runner: Runner, *, done: bool, stopped: str = "") -> Verdi
 
     Args:
         done: the policy said that the work is done.
-        stopped: why the arm stopped for good; empty if it did not.
+        stopped: why the arm stopped for good; empty if the arm did not stop for good.
     """
     found = {} if stopped else _required(job, runner)
     right = all_right(found)
@@ -73,7 +73,9 @@ def verdict(job: Job, runner: Runner, *, done: bool, stopped: str = "") -> Verdi
 
 
 def _required(job: Job, runner: Runner) -> dict[str, Finding]:
-    """Return the findings that the job requires. A cell that cannot be measured has none, so it is never right."""
+    """Return the findings that the job requires. A cell that cannot be measured has no findings, so its work is never
+    right.
+    """
     try:
         every = findings_so_far(runner)
     except HandeyeError:
@@ -93,6 +95,6 @@ def _reached(job: Job, found: Findings) -> tuple[str, ...]:
 
 
 def _peak(runner: Runner) -> float | None:
-    """Return the greatest force that a cell's witness has seen (N), or None if the cell has none."""
+    """Return the greatest force that a cell's witness has seen (N), or None if the cell has no witness."""
     witness = getattr(runner.cell, "witness", None)
     return None if witness is None else round(float(witness.peak), 6)

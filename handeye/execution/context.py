@@ -96,7 +96,7 @@ class ExecutionContext:
 
     @property
     def planned(self) -> PlannedMotion:
-        """The planned motion of the present step. Steps without a motion have none."""
+        """The planned motion of the present step. Steps without a motion have no planned motion."""
         assert self.state.at is not None
         return self.plan.motions[self.state.at]
 

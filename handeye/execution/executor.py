@@ -1,5 +1,5 @@
-"""The executor: executes the steps of a plan one by one. After a step that tests for an error, it continues with
-the step that the test selects.
+"""The executor: executes the steps of a plan one by one. After a step that tests for an error, the executor continues
+with the step that the test selects.
 """
 
 from dataclasses import dataclass
@@ -66,8 +66,8 @@ class Executor:
         return self.run.state
 
     def step(self) -> None:
-        """Execute one step, or reverse one. If a step raises an error and the next step does not test for it, call
-        the operator.
+        """Execute one step, or reverse one. If a step raises an error and the next step does not test for this error,
+        call the operator.
         """
         if self.state.undoing is not None:
             stopped = undo_last(self.run)
@@ -178,7 +178,9 @@ class Executor:
         return branch is not None and branch.error is not None
 
     def _first(self, stage: int) -> int | None:
-        """Return the first step of a stage, or of the next stage that has steps, or None after the last stage."""
+        """Return the first step of a stage. If the stage has no steps, return the first step of the next stage that
+        has steps, or None if there is no such stage.
+        """
         steps = self.run.plan.program.steps
         return next((number for number, step in enumerate(steps) if step.stage >= stage), None)
 

@@ -125,7 +125,7 @@ def tool(run: ExecutionContext, operation: Tool) -> None:
 
 
 def nothing(_: ExecutionContext, __: Operation) -> None:
-    """Do nothing. Used for operations that only select the next step or call the operator."""
+    """Do nothing. The executor uses this for operations that only select the next step or call the operator."""
 
 
 FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {

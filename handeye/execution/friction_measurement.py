@@ -1,11 +1,11 @@
 """Measures joint friction and link weights with the arm itself, before the first step of the program.
 
-This is the textbook method: each joint moves slowly out and back over the same range at a constant rate. The drive
-torque beyond weight and inertia changes sign between out and back, so half the difference is friction. A second,
-quicker pass removes the part of friction that is proportional to the rate: the line through both passes gives the
-Coulomb friction at rate 0 (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, on identification).
-All joints move at the same time, because the friction of a joint appears only in the torque of that joint. The mean
-of the torques out and back is the weight torque, whatever the friction.
+This is the textbook method: each joint moves slowly out and back over the same range at a constant rate. The torque
+that friction takes changes sign between the motion out and the motion back, so friction is half the difference between
+the two drive torques. A second, quicker pass removes the part of friction that is proportional to the rate: the line
+through both passes gives the Coulomb friction at rate 0 (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30,
+1994, on identification). All joints move at the same time, because the friction of a joint appears only in the torque
+of that joint. The mean of the two drive torques is the weight torque, whatever the friction.
 """
 
 from collections.abc import Callable, Sequence
@@ -90,8 +90,8 @@ def at_rest(slow: Array, quick: Array) -> Array:
     """Compute the Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the two
     passes.
 
-    Here, friction cannot fall as the rate rises. Where it seems to fall, the mean of the two passes is used,
-    weighted by their durations.
+    In our model of friction, friction cannot fall as the rate rises. If it seems to fall, the mean of the two passes
+    is used, weighted by the durations of the passes.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)
@@ -160,7 +160,7 @@ def _profile(way: Pass, period: float) -> Array:
 
 def _stroke(q: Array, rate: Array, share: Array, period: float) -> Samples:
     """Return the set-points of a motion from rest at `q` to rest. `rate`, shape (n,), is the constant rate;
-    `share` is the fraction of it that is reached at the end of each servo period.
+    `share` is the fraction of this rate that is reached at the end of each servo period.
     """
     before = np.concatenate(([0.0], share[:-1]))
     gone = np.cumsum((before + share) / 2) * period

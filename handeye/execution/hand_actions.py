@@ -197,7 +197,7 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
     """Compare the gap with the nominal thickness of the object held here. Returns None if they agree.
 
     A gap outside the limits that the program gives is not reported the first time, because the hand may hold
-    another object, or hold the object askew. If the next grasp reads the same gap, it is reported.
+    another object, or hold the object askew. If the next grasp reads the same gap, the gap is reported.
     """
     state, gap = run.state, run.drive.sensed.gap
     name, thickness = _nominal(run)
@@ -210,7 +210,9 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
 
 
 def _nominal(run: ExecutionContext) -> tuple[str, float | None]:
-    """Return the name of the object held here and its nominal thickness (m), or None if it is not known."""
+    """Return the name of the object held here and its nominal thickness (m), or "" and None if the object is not
+    known.
+    """
     objects = run.plan.program.held.items()
     known = ((name, held.thickness) for name, held in objects if run.state.place in held.positions)
     return next(known, ("", None))

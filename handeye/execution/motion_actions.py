@@ -93,7 +93,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
 def _trajectory(
     run: ExecutionContext, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
-    """Return the planned trajectory if all poses are as planned, or else an adjusted trajectory. Returns the reason
+    """Return the planned trajectory if all poses are as planned, and an adjusted trajectory if not. Returns the reason
     if a pose is out of reach.
     """
     motion = run.planned
@@ -192,8 +192,8 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
-    """Return the error of a motion. A motion has no error if one of its guards tripped; if none tripped, it has the
-    error of its guards.
+    """Return the error of a motion, or None. If one of the motion's guards tripped, there is no error. If the motion
+    has guards and none of them tripped, the error is that of the guards.
     """
     if outcome.error is not None:
         cause = outcome.cause
@@ -218,8 +218,8 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
 def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow | MotorFast | None:
     """Compare the current of the screwdriver's motor with the known torques of starting and of the clutch.
 
-    If the motor starts against a resistance, it takes more torque than usual. It never takes less, and never more
-    than its clutch transmits.
+    If the motor starts against a resistance, it takes more torque than usual. The motor never takes less torque than
+    usual, and never more than its clutch transmits.
     """
     drive, least = run.drive.state, STARTING_TORQUE - 4 * CURRENT_NOISE / math.sqrt(STARTING_PERIODS)
     if drive.current > STALLED_TORQUE + 5 * CURRENT_NOISE:
@@ -248,8 +248,8 @@ def _fast(drive: DriveState) -> MotorFast | None:
 
 
 def _turned_hard(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """Return the error if a screw that was driven to its torque took too much torque on the way. Its thread then
-    uses up torque that should clamp the parts.
+    """Return the error if a screw that was driven to its torque took too much torque on the way. The thread of such a
+    screw uses up torque that should clamp the parts.
     """
     asked = [each.torque for each in guards if isinstance(each, Torque)]
     running = run.drive.state.lately[: -round(WIND_UP / run.drive.period)]
@@ -266,8 +266,8 @@ def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
     """Return the error if the motor is held fast: its torque of the last second is high, but below the torque of
     the guard.
 
-    No thread and no slipping bit takes as much torque for so long. A motor that is held fast takes the torque of
-    its clutch.
+    No thread and no slipping bit takes this much torque for a whole second. A motor that is held fast takes the torque
+    of its clutch.
     """
     lately, asked = run.drive.state.lately, min(each.torque for each in guards if isinstance(each, Torque))
     enough = len(lately) >= round(PLATEAU / run.drive.period) and asked <= STALLED_TORQUE

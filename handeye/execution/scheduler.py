@@ -1,4 +1,5 @@
-"""Runs tasks together under one clock. Each task waits for a time or a condition, and their order is deterministic.
+"""Runs tasks together under one clock. Each task waits for a time or a condition, and the order of the tasks is
+deterministic.
 
 Time is counted exactly, in rational seconds or whole microseconds, so that periods of 10 ms and 1/60 s do not drift
 apart.
@@ -126,9 +127,8 @@ def microseconds(count: int) -> Fraction:
 def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> list[T]:
     """Run tasks together under one clock, each when it is due. Returns the result of each task.
 
-    When the motion of an arm has ended, the arm is no longer driven while other arms move, so its watchdog sets the
-    brakes. `names` are the names of the tasks in the message of a deadlock, by default `task 1`, `task 2` and so
-    on.
+    When the motion of an arm has ended, this arm is no longer driven while other arms move, so its watchdog sets the
+    brakes. `names` are the names of the tasks in the message of a deadlock, by default `task 1`, `task 2` and so on.
     """
     names = names or [f"task {number + 1}" for number in range(len(tasks))]
     running = dict(zip(names, tasks, strict=True))

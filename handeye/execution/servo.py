@@ -1,4 +1,4 @@
-"""The servo of an arm. In each servo period it commands torques and estimates the force on the hand.
+"""The servo of an arm. In each servo period, the servo commands torques and estimates the force on the hand.
 
 The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
 forces from the residual of the joint torques. A period does not let time pass itself: it yields after commanding
@@ -53,7 +53,7 @@ of the motion.
 
 
 class Halted(Exception):
-    """Raised when the panic button is pressed. The drives are off and the brakes set since this servo period."""
+    """Raised when the panic button is pressed. From this servo period on, the drives are off and the brakes are set."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -152,7 +152,7 @@ class Servo:
         friction: Array | float = 0.0,
         dither: Array | float = 0.0,
     ) -> Motion[Array]:
-        """Run one servo period. At its beginning, the arm should be at `q` and move with rates `qd`.
+        """Run one servo period. At the beginning of the period, the arm should be at `q` and move with rates `qd`.
 
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
         `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
@@ -237,8 +237,8 @@ class Servo:
 
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
         """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
-        is None. A blow on the hand also changes readings suddenly; it is recognised by the other joints, and does
-        not count.
+        is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
+        other joints, and does not count.
         """
         moved = after.q - before.q
         found = jumped(self.arm, moved, before.qd, after.qd)

@@ -1,6 +1,6 @@
 """The servo loop: motions of an arm along set-points, one servo period at a time, watched by guards.
 
-A motion does not let time pass itself. It is a generator that yields after commanding all devices for a servo
+A motion does not let time pass itself. A motion is a generator. It yields after commanding all devices for a servo
 period, and reads the cell when it is resumed. In between, the caller advances the clock, so any number of arms can
 move under one clock.
 """
@@ -171,8 +171,9 @@ class ServoLoop(Servo):
         is stopped lags behind its set-points from that point on; a hand on which a force acts is displaced during the
         whole motion.
 
-        The torques are compared with the arm's weight only if the hand is clear of all objects when the motion
-        begins. After a guarded motion, for example, a held pin may stand in a hole, which then bears weight.
+        The torques are compared with the arm's weight only if the hand is clear of all objects when the motion begins.
+        After a guarded motion, for example, a held pin may stand in a hole, and the hole then bears part of the
+        weight.
         """
         clear, self.state.clear = self.state.clear, False
         self.state.in_air = False
@@ -311,16 +312,16 @@ class ServoLoop(Servo):
     def height(self) -> float:
         """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
-        The converter steps are up to .05 in at the hand, while a set-point has no steps. A moving arm passes many
-        readings, over which the steps average out. Two motions that end on the same force therefore end at the same
-        mean height.
+        At the hand, one step of the converters is up to .05 in, while a set-point has no steps. A moving arm passes
+        many readings, over which the steps average out. Two motions that end on the same force therefore end at the
+        same mean height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
-        """Move the set-point of the hand along `direction` to the place where the hand now is at rest. Otherwise the
-        servo would kick the hand towards the old set-point.
+        """Move the set-point of the hand along `direction` to the place where the hand now is at rest. If the
+        set-point were not moved, the servo would kick the hand towards the old set-point.
         """
         self.state.met = self.chain.forward(self.state.q)[:3, 3]
         X_set, X_is = self.chain.forward(self.state.q), self.chain.forward(self.state.here)
@@ -347,11 +348,13 @@ class ServoLoop(Servo):
     # -- doubting -----------------------------------------------------------------------------------
 
     def _unloaded(self) -> Array:
-        """Return the force (N, shape (3,)) on the hand at the last tare, without the load carried by the servo."""
+        """Return the force (N, shape (3,)) on the hand at the last tare, without the weight of the load that the servo
+        compensates.
+        """
         return np.asarray(self.state.tare[:3] + np.array((0.0, 0.0, self.state.load)))
 
     def _force_in_air(self) -> Outcome:
-        """Return the error of a force that was taken as zero at the last tare, but is too large for free air."""
+        """Return the error that the force taken as zero at the last tare is too large for free air."""
         x, y, z = (round(float(component), 6) for component in self._unloaded())
         cause = ForceInAir(force=(x, y, z), limit=FREE_FORCE, load=self.state.load)
         return Outcome(error=errors.FORCE_WRONG, cause=cause)
@@ -361,8 +364,8 @@ class ServoLoop(Servo):
         return JointAgreement(arm=self.arm, start=self.sensed.q, rate=self.sensed.qd)
 
     def _doubted(self, sensors: JointAgreement, sensed: Sensed) -> Outcome | None:
-        """Compare the sensors of the joints at the end of a servo period. If they disagree, return the error, and make
-        the measured position of the arm the set-point.
+        """Compare the sensors of the joints at the end of a servo period. If the sensors of a joint disagree, return
+        the error, and make the measured position of the arm the set-point.
         """
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
@@ -389,8 +392,8 @@ class ServoLoop(Servo):
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 
     def _behind(self, met: Array, swing: Array) -> Outcome | None:
-        """Check that every joint follows its set-point. If one does not, return the error, and make the measured
-        position of the arm the set-point. See `_lagging`.
+        """Check that every joint follows its set-point. If a joint does not follow, return the error, and make the
+        measured position of the arm the set-point. See `_lagging`.
         """
         joint, lag = self._lagging(swing)
         if lag <= 1.0:

@@ -33,7 +33,7 @@ from handeye.vision.marks import GraspLine, Mark, marks
 
 
 class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """An executed step. Pairs give the values before and after the step."""
+    """An executed step. A field that holds a pair gives the values before and after the step."""
 
     step: Natural
     way: bytes = b""  # set-points, see `undo.way`; empty if nothing moved

@@ -29,11 +29,11 @@ class ToolAxes(Axes):
     """The axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m). A channel gives the force that the
     hand exerts on the world.
 
-    For each goal, the arm is driven for one servo period towards the goal, at most at the speed limit of each
-    axis. No path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force
-    is measured relative to the last call of `tare`. It is estimated well if the drive knows the friction of the
-    joints (`measure_joints`). The estimate is one period late: a descent onto the table that should stop at 6 N
-    stops at 6.1 to 7.5 N if its speed is .01 m/s, at 17 N if it is .025 m/s, and at 34 N if it is .05 m/s.
+    For each goal, the arm is driven for one servo period towards the goal, at most at the speed limit of each axis. No
+    path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is measured
+    relative to the last call of `tare`. The force is estimated well if the drive knows the friction of the joints
+    (`measure_joints`). The estimate is one period late: a descent onto the table that should stop at 6 N stops at 6.1
+    to 7.5 N if the speed is .01 m/s, at 17 N if the speed is .025 m/s, and at 34 N if the speed is .05 m/s.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
@@ -76,7 +76,9 @@ class ToolAxes(Axes):
         return self._goal
 
     def resume(self, goal: Array) -> None:
-        """Continue from set-points that `goal` has returned. The state of the drive must be that of the same moment."""
+        """Continue from set-points that `goal` has returned. The drive must be in the state that it had when `goal`
+        returned these set-points.
+        """
         self._start = self._goal = goal
         self._motion = None
 

@@ -92,7 +92,7 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
-    """Return the reason why a picture cannot come from a sound live camera, or None if it can."""
+    """Return the reason why a picture cannot come from a sound live camera, or None if there is no such reason."""
     if blank(picture):
         return PictureBlank(picture=name)
     for earlier, shot in run.state.shots.items():
@@ -105,7 +105,9 @@ def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | No
 
 
 def _start(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Add to the time at which the camera will be ready. Its mechanism performs one action after another."""
+    """Add to the time at which the camera will be ready. The mechanism of the camera performs one action after
+    another.
+    """
     if seconds <= 0:
         return
     run.state.camera_ready = max(run.state.camera_ready, run.time) + seconds

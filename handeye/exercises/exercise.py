@@ -66,8 +66,8 @@ class Grade(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """0: right in every case; 1: not right in every case, but without a silent failure; 3: a silent failure in
-        some case.
+        """0 if the program is right in every case; 1 if it fails in some case, but never silently; 3 if it fails
+        silently in some case.
         """
         if not self.failures:
             return 0
@@ -126,15 +126,15 @@ class Exercise(ABC):
 
     @abstractmethod
     def diagnostics(self, given: Submission) -> list[Diagnostic]:
-        """Check a program. Returns the diagnostics of its language."""
+        """Check a program. Returns the diagnostics in the words of the program's language."""
 
     @abstractmethod
     def broken_rules(self, given: Submission) -> list[str]:
-        """Return the rules that a program without errors breaks, each as a sentence."""
+        """Return the rules that a program breaks, each as a sentence. The program has no errors."""
 
     @abstractmethod
     def verdicts(self, given: Submission) -> list[Verdict]:
-        """Judge a program without errors that keeps the rules."""
+        """Judge a program that has no errors and breaks no rule."""
 
     def grade(self, given: Submission) -> Grade:
         """Judge a program that has no errors. A program that breaks a rule is not run."""
@@ -159,7 +159,9 @@ class Exercise(ABC):
         return found
 
     def read(self, file: Path) -> Source:
-        """Read a student's program. Raises InvalidInput if it cannot be read, or is not in the right language."""
+        """Read a student's program. Raises InvalidInput if the program cannot be read, or is not in the right
+        language.
+        """
         ending = Path(self.start).suffix
         if file.suffix.lower() != ending:
             raise BadArgument(f"{file}: the exercise {self.name} needs a program whose name ends in {ending}")

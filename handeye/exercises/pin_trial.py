@@ -80,7 +80,7 @@ class PinTrial:
         return [PinRow(trial=number, seed=case.seed, found=self._verdict(case.seed, done))]
 
     def verdict(self, row: PinRow) -> Verdict:
-        """Return the verdict of a row, even if the trial did not finish."""
+        """Return the verdict on the trial of a row. A trial that did not finish also gets a verdict."""
         return row.found or self._told(row.seed, "wrong", "did not end", row.detail)
 
     def _verdict(self, seed: int, done: FinishedRun) -> Verdict:

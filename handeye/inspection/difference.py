@@ -69,7 +69,9 @@ def _pair_of(pairs: Sequence[Pair], side: int, number: int | None) -> int:
 
 
 def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
-    """Return the index of the first pair, from `at` on, that has a step in both programs, or None if there is none."""
+    """Return the index of the first pair, from `at` on, that has a step in both programs, or None if there is no such
+    pair.
+    """
     return next((place for place in range(at, len(pairs)) if None not in pairs[place]), None)
 
 
@@ -85,8 +87,8 @@ _LEAST_TURN: Final = 1e-6  # rad; the precision of an arc cosine near 1
 
 
 class PlaceChange(Record, frozen=True, kw_only=True):
-    """A position or part that was added, removed, moved or changed. `shift` (m) and `turn` (rad) say how it moved,
-    in the axes of the table or of its part.
+    """A position or part that was added, removed, moved or changed. `shift` (m) and `turn` (rad) say how the position
+    or part moved. They are in the axes of the table, or of the part to which the position belongs.
     """
 
     kind: Literal["added", "removed", "moved", "changed"]

@@ -12,7 +12,7 @@ from handeye.program.program import Step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Node:
-    """A step of the graph. Its guards are shown as notes."""
+    """A step of the graph. The guards of the step are shown as notes."""
 
     step: int
     stage: int  # index
@@ -36,8 +36,8 @@ class FlowEdge:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Flow:
-    """The graph of a plan or of one stage. Edges that leave the stage end in the steps of `outside`, which are not
-    drawn.
+    """The graph of a plan or of one stage. If an edge leaves the stage, it ends at one of the steps in `outside`.
+    These steps are not drawn.
     """
 
     name: str

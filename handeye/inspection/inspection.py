@@ -54,7 +54,7 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """Return the measured values that a motion or look needs. Each comes with a flag, which is True if only the
+    """Return the measured values that a motion or look needs. Each value has a flag, which is True if only the
     horizontal part of the value is needed. `kept` holds the positions that `HERE` defines.
     """
     found: list[tuple[Key, bool]] = []

@@ -1,8 +1,8 @@
 """Lays out a flow graph: positions of steps and routes of edges, in pixels, with y downwards.
 
-Stages stand side by side in rows, which are called shelves. The steps of a stage run from top to bottom. A long
-stage has several columns, but no loop is split between two columns. An edge to the step below is short and
-straight. An edge that goes back runs left of its column, and an edge that skips steps runs right of it, each in a
+Stages stand side by side in rows, which are called shelves. The steps of a stage run from top to bottom. A long stage
+has several columns, but no loop is split between two columns. An edge to the step below is short and straight. An edge
+that goes back runs left of its column. An edge that skips steps runs right of its column. Each such edge has a
 separate lane. An edge to another column runs over the top.
 """
 
@@ -34,12 +34,12 @@ class Column:
 
     @property
     def before(self) -> float:
-        """Width of the lanes left of the steps, pixels."""
+        """Width (pixels) of the lanes left of the steps."""
         return _breadth(self.back)
 
     @property
     def width(self) -> float:
-        """Width of the steps and all lanes, pixels."""
+        """Width (pixels) of the steps and all lanes."""
         return self.before + WIDTH + _breadth(self.skip)
 
     @property
@@ -53,7 +53,7 @@ def _breadth(lanes: dict[FlowEdge, int]) -> float:
 
 
 def height(node: Node) -> float:
-    """Return the height of the box of a step, pixels."""
+    """Return the height (pixels) of the box of a step."""
     return ROW + NOTE * len(node.notes)
 
 

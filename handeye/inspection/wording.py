@@ -66,7 +66,7 @@ _MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
 
 
 def stops(guards: g.Guards) -> str:
-    """Write the guards that end a motion, and the error that is raised if none of them trips."""
+    """Write the guards that end a motion, and the error that is raised if no guard trips."""
     return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 

@@ -37,7 +37,7 @@ class Finding:
 
     @property
     def beyond(self) -> float:
-        """Amount by which the value exceeds its limit, in `unit`; negative if it is within the limit."""
+        """Amount by which the value exceeds its limit, in `unit`; negative if the value is within the limit."""
         return self.value - self.limit if self.relation == "at most" else self.limit - self.value
 
 
@@ -72,7 +72,7 @@ def worse(one: Findings, other: Findings) -> Findings:
 
 
 def all_right(findings: Findings) -> bool:
-    """Return True if there are findings, and none of them makes the referee reject the work."""
+    """Return True if there is at least one finding, and if no finding makes the referee reject the work."""
     return bool(findings) and not any(finding.refuses for finding in findings.values())
 
 

@@ -70,7 +70,7 @@ class SettledState:
         return float(way + turn * away.max(initial=0.0))
 
     def gap(self, geom: str, other: str) -> float:
-        """Return the signed distance between two geoms (m), which is negative if they overlap."""
+        """Return the signed distance (m) between two geoms. The distance is negative if the geoms overlap."""
         ends = np.zeros(6)
         ids = self.model.geom(geom).id, self.model.geom(other).id
         return float(mujoco.mj_geomDistance(self.model, self.data, *ids, 0.5, ends))

@@ -16,7 +16,7 @@ _OWN: Final = {"purbrick": "handeye.machines.purbrick:PURBRICK"}
 
 
 def find_machine(name: str) -> ArmMachine:
-    """Return the machine called `name`. Raises NoSuchName if there is none."""
+    """Return the machine called `name`. Raises NoSuchName if there is no such machine."""
     places = {key: place for entry in entries().values() for key, place in entry.machines.items()} | _OWN
     if name not in places:
         raise NoSuchName(f"there is no machine {quoted(name)}; the machines are {', '.join(places)}")

@@ -1,3 +1,3 @@
-"""The plan, which is the interface between the planning phase and the working phase: its file format and its
-checks.
+"""The file format of plans, and the checks of a plan. The plan is the interface between the planning phase and the
+working phase.
 """

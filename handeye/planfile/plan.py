@@ -1,4 +1,5 @@
-"""The plan: a program together with the motions of one arm. It is versioned, in SI units and self-contained.
+"""The plan: a program together with the motions of one arm. A plan has a format version, uses SI units, and is
+self-contained.
 
 Everything that passes from planning to execution is in the plan.
 """

@@ -81,7 +81,7 @@ def decode(text: str | bytes, name: str) -> Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """Read a plan from a file. Raises BadFile as `decode` does, or if the file cannot be read."""
+    """Read a plan from a file. Raises BadFile if `decode` does, or if the file cannot be read."""
     entry, _ = entry_of_file(path.name)
     if entry is not None:
         raise refusal(entry.name, "plans", str(path))
@@ -117,7 +117,9 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """Remove all floating-point numbers, which may have been computed, from a value made of dictionaries and lists."""
+    """Remove all floating-point numbers from a value made of dictionaries and lists, because such numbers may have
+    been computed.
+    """
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
@@ -133,7 +135,7 @@ def alike(one: Plan, other: Plan) -> bool:
 
 
 def written_digest(data: bytes) -> str:
-    """Compute the digest of the bytes of a plan file. It covers all digits of the numbers in the file."""
+    """Compute the digest of the bytes of a plan file. The digest covers all digits of the numbers in the file."""
     import hashlib
 
     return hashlib.sha256(data).hexdigest()[:16]

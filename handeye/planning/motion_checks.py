@@ -115,7 +115,7 @@ def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weakness:
-    """The joint (from 0) that limits a force or moment of the hand to `most` (N or N m)."""
+    """The joint (counted from 0) that limits a force or moment of the hand to `most` (N or N m)."""
 
     joint: int
     most: float
@@ -124,8 +124,8 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """Find the joint that keeps the hand from exerting a force (N, in W) at one of the configurations, shape (N,
-    n). Returns None if there is none.
+    """Find the joint that keeps the hand from exerting a force (N, in W) at one of the configurations, shape (N, n).
+    Returns None if no joint does.
 
     If `turning` is True, `wanted` is a moment (N m). `weight` (N) is the weight of a load in the hand.
     """
@@ -153,7 +153,7 @@ class Demand:
 
 
 def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
-    """Return the forces and moments that the guards of a motion along the vector `along` wait for."""
+    """Return the forces and moments for which the guards of a motion along the vector `along` wait."""
     waited = (guard.exerted(along) for guard in guards)
     return [Demand(exerted, guard=True) for exerted in waited if exerted is not None]
 

@@ -1,4 +1,6 @@
-"""Motions of each kind. The planner makes them with planned poses, and the executor with measured poses."""
+"""Motions of each kind. The planner computes motions from planned poses, and the executor computes them from measured
+poses.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -38,8 +40,8 @@ class Unreachable:
 def move_trajectory(
     arm: ArmModel, q: Array, via: Sequence[Pose], X_WT: Pose, operation: Move, speed: float
 ) -> Trajectory | Unreachable:
-    """Compute the trajectory of a Move from `q` through hand poses `via` to `X_WT`. Returns the reason if there is
-    none.
+    """Compute the trajectory of a Move from `q` through hand poses `via` to `X_WT`. Returns the reason if there is no
+    such trajectory.
     """
     passed: list[Array] = []
     for name, X_via in zip(operation.via, via, strict=True):

@@ -1,4 +1,4 @@
-"""Plans a program for an arm. It uses no clock, random numbers or simulator.
+"""Plans a program for an arm. The planner uses no clock, random numbers or simulator.
 
 The planner goes through the program in text order. Each motion begins where the previous motion was planned to end.
 Goals that are out of reach, loads that are too heavy and collisions are found here, before the program runs.
@@ -50,8 +50,8 @@ def make_plan(
     """Plan a program for an arm. Returns the plan, or None if there are errors, and the findings.
 
     A position that only a `HERE` defines gets the pose that the arm is planned to have at that `HERE`. The arm begins
-    at `start`, shape (n,), rad and m. By default it begins at the position `HOME`, or if there is none, at the first
-    goal.
+    at `start`, shape (n,), rad and m. By default, the arm begins at the position `HOME`, or at the first goal if the
+    program has no `HOME`.
     """
     findings = FindingList()
     walk = _Walk(
@@ -118,7 +118,7 @@ class _Walk:
         self.world.state.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
 
     def _start(self) -> None:
-        """Begin at the position `HOME`, or if there is none, at the first goal of the program."""
+        """Begin at the position `HOME`, or at the first goal if the program has no `HOME`."""
         known = self.program.positions
         led_to = (step.operation.goal_position for step in self.program.steps)
         goals = [goal for goal in led_to if goal in known]
@@ -217,7 +217,7 @@ def plan_source(
     task: str,
     start: Array | None = None,
 ) -> PlannedScript:
-    """Compile and plan a script. For `task` and `start` see `make_plan`."""
+    """Compile and plan a script. `make_plan` describes `task` and `start`."""
     program, diagnostics = language.compile(source, taught)
     if program is None:
         return PlannedScript(source=source, plan=None, diagnostics=diagnostics)
@@ -228,8 +228,8 @@ def plan_source(
 def plan_program(
     program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """Plan a program. Returns the plan, or None if there are errors, and diagnostics in the words of its language.
-    `task` is only stored in the plan.
+    """Plan a program. Returns the plan, or None if there are errors, and diagnostics in the words of the program's
+    language. `task` is only stored in the plan.
     """
     plan, findings = make_plan(program, arm, task=task, start=start)
     return plan, language.phrase(program, arm, findings)

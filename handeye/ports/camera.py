@@ -56,8 +56,9 @@ class TvCamera(ABC):
 
     @abstractmethod
     def focus(self, distance: float) -> float:
-        """Focus on a distance (m). Returns the duration (s). Raises InvalidInput if no lens can focus on so
-        near a distance."""
+        """Focus on a distance (m). Returns the duration (s). Raises InvalidInput if the distance is too short for
+        every lens.
+        """
 
     @abstractmethod
     def pots(self) -> tuple[float, float]:
@@ -74,7 +75,7 @@ class TvCamera(ABC):
 
         Args:
             hold_target: keep the vidicon's target voltage (gain) of the previous picture instead of adjusting
-                it. This is necessary if the two pictures will be subtracted from each other.
+                it. The target voltage must be kept if the two pictures will be subtracted from each other.
         """
 
     @property

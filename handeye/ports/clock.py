@@ -18,7 +18,8 @@ _DIGITS: Final = ".12g"  # digits of a period in a message, so that a user can t
 class Clock(ABC):
     """A clock on which time passes only on request.
 
-    While time passes, the last command to each device remains in effect. New readings are taken at the end.
+    While time passes, the last command to each device remains in effect. New readings are taken at the end of this
+    time.
     """
 
     @property
@@ -28,8 +29,8 @@ class Clock(ABC):
 
     @property
     def tick(self) -> Fraction | None:
-        """The unit of time (s): waiting times are rounded up to a multiple of it. If it is None, the clock
-        refuses any waiting time that is not a multiple of the physics step.
+        """The unit of time (s): waiting times are rounded up to a multiple of this unit. If the unit is None, the
+        clock refuses any waiting time that is not a multiple of the physics step.
         """
         return None
 

@@ -1,7 +1,7 @@
 """Defines a bus of microcomputers as it appears to the central computer, which runs the user's program.
 
 The interface carries commands of five bytes, levels of status lines, one interrupt, bytes of answers, and a
-clock in whole microseconds. It reveals nothing else of the machine.
+clock in whole microseconds. The interface reveals nothing else of the machine.
 """
 
 from abc import ABC, abstractmethod
@@ -94,8 +94,8 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def next_event(self) -> int | None:
-        """The time (microseconds) until which the status lines, the interrupt and `free` will not change. None if
-        they will not change without a command.
+        """The time (microseconds) until which the status lines, the interrupt and `free` will not change. The value is
+        None if these levels will not change without a command.
         """
 
     @abstractmethod

@@ -24,7 +24,7 @@ class ScrewdriverPort(ABC):
 
     @abstractmethod
     def torque(self) -> float:
-        """Return the torque of the motor (N m), estimated from its current. It is positive if the motor drives
+        """Return the torque of the motor (N m), estimated from its current. The torque is positive if the motor drives
         a screw in. The value does not change until time passes.
         """
 
@@ -36,7 +36,7 @@ class ScrewdriverPort(ABC):
 
     @abstractmethod
     def attract(self, on: bool) -> None:
-        """Switch the magnet of the bit on or off. At the beginning it is on."""
+        """Switch the magnet of the bit on or off. At the beginning the magnet is on."""
 
 
 class LampPort(ABC):
@@ -67,7 +67,7 @@ class HandPort(ABC):
     @abstractmethod
     def drive(self, gap: float, grip: float) -> None:
         """Set the goal of the gap between the fingers (m), and the greatest force of each finger (N). Raises
-        InvalidInput unless both are finite.
+        InvalidInput unless both values are finite.
         """
 
 
@@ -119,8 +119,8 @@ def sense_axes(machines: Sequence[Axes], before: Sensed | None = None) -> Sensed
     the name of a channel begins with the machine's name, as in `left.force`.
 
     Args:
-        before: the previous readings, from which velocities are computed. Without them, all velocities are
-            zero.
+        before: the previous readings, from which velocities are computed. Without previous readings, all velocities
+            are zero.
     """
     readings = [machine.read() for machine in machines]
     time, q = readings[0].time, np.concatenate([reading.q for reading in readings])

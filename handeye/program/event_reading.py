@@ -1,4 +1,4 @@
-"""Reads events: the kinds of events that all systems have, and those that the system of the run adds."""
+"""Reads events: the kinds of events that all systems have, and the kinds that the system of the run adds."""
 
 from functools import cache, reduce
 from operator import or_
@@ -23,8 +23,8 @@ def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
 
 @cache
 def _at(place: str) -> tuple[type[SystemEvent], ...]:
-    """Load the kinds of events at `module:NAME`. Raises InvalidInput if they cannot be loaded, or cannot be written
-    as JSON and read back.
+    """Load the kinds of events at `module:NAME`. Raises InvalidInput if these kinds cannot be loaded, or if their
+    events cannot be written as JSON and read back.
     """
     own: tuple[type[SystemEvent], ...] = loaded(place)
     try:
@@ -84,8 +84,8 @@ class EventReader:
 
 
 def read_packed(data: msgspec.Raw, system: str) -> tuple[AnyEvent, ...]:
-    """Read events of a system's run from MessagePack. Raises ValueError if the data are invalid or of an unknown
-    kind.
+    """Read events of a system's run from MessagePack. Raises ValueError if the data are invalid, or if an event is of
+    an unknown kind.
     """
     kind: Any = tuple.__class_getitem__((event_type(system), ...))
     try:

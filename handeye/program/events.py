@@ -1,5 +1,5 @@
-"""Events of a run, as plain records. The only time in them is simulated time, so that two runs with the same seed
-give the same bytes.
+"""Events of a run, as plain records. The only time in these events is simulated time, so that two runs with the same
+seed give the same bytes.
 """
 
 from typing import ClassVar, Literal
@@ -69,12 +69,12 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def lacking(self) -> tuple[str, ...]:
-        """Senses that were switched off in the program; empty if all were on."""
+        """Senses that were switched off in the program; empty if all senses were on."""
         return self.without or ()
 
     @property
     def own_parts(self) -> dict[str, str]:
-        """The parts of handeye that the caller replaced, by name; empty if none was replaced."""
+        """The parts of handeye that the caller replaced, by name; empty if no part was replaced."""
         return self.replaced or {}
 
 
@@ -196,8 +196,8 @@ class HandTold(Event, frozen=True, kw_only=True):
 
 
 class PositionDefined(Event, frozen=True, kw_only=True):
-    """HERE defined a position: x, y, z (m) and the angles O, A, T (rad), measured by the sensors of the arm. The
-    position is relative to the part `of`, if one is given.
+    """HERE defined a position: x, y, z (m) and the angles O, A, T (rad), measured by the sensors of the arm. If the
+    part `of` is given, the position is relative to this part.
     """
 
     name: str
@@ -214,7 +214,7 @@ class Restored(Event, frozen=True, kw_only=True):
 
 
 class PictureTaken(Event, frozen=True, kw_only=True):
-    """A picture was taken through a lens. `lens` is its focal length (m)."""
+    """A picture was taken through a lens. `lens` is the focal length of the lens (m)."""
 
     picture: str
     lens: float
@@ -238,8 +238,8 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
-    """Vision compared the place of a part in two pictures. The part is displaced by `off` (m), and a fraction
-    `unlike` of it looks different.
+    """Vision compared the place of a part in two pictures. The part is displaced by `off` (m), and a fraction `unlike`
+    of the part looks different.
     """
 
     part: str
@@ -251,7 +251,7 @@ class PartMatched(Event, frozen=True, kw_only=True):
 class CameraStarted(Event, frozen=True, kw_only=True):
     """The mechanism of the camera was given an action, `lens`, `aim` or `focus`, that takes `seconds` (s).
 
-    The action begins when the present movement of the mechanism ends. The arm continues in the meantime.
+    The action begins when the present movement of the mechanism ends. While the mechanism moves, the arm continues.
     """
 
     action: str
@@ -285,8 +285,8 @@ class OperatorAnswered(Event, frozen=True, kw_only=True):
 
 
 class ExperimentMade(Event, frozen=True, kw_only=True):
-    """A person at the stepper changed the memory of the program (values in m and rad). The run then no longer
-    follows from the plan alone.
+    """A person at the stepper changed the memory of the program (values in m and rad). From then on, the plan alone no
+    longer determines the run.
     """
 
     what: str  # kind of value: `saved`, `position`, or another kind of the system
@@ -305,8 +305,8 @@ class CommandedPeriod(Record, frozen=True, kw_only=True, array_like=True):
 
 
 class PeriodsCommanded(Event, frozen=True, kw_only=True):
-    """Between two steps, a controller of the calling program commanded the arm. The run then no longer follows from
-    the plan alone.
+    """Between two steps, a controller of the calling program commanded the arm. From then on, the plan alone no longer
+    determines the run.
     """
 
     by: str  # name of the controller
@@ -314,8 +314,8 @@ class PeriodsCommanded(Event, frozen=True, kw_only=True):
 
 
 class LineTyped(Event, frozen=True, kw_only=True):
-    """A person typed a line at the console of a system, for one of its tasks. The run then no longer follows from
-    the program alone.
+    """A person typed a line at the console of a system, for one of its tasks. From then on, the program alone no
+    longer determines the run.
     """
 
     text: str
@@ -352,7 +352,7 @@ class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class UndoFinished(StepFinished, frozen=True, kw_only=True):
-    """A step has been undone. `force` (N) is the greatest force that was sensed while it was undone."""
+    """A step has been undone. `force` (N) is the greatest force that was sensed while the step was undone."""
 
     force: float  # greatest force on the hand during the undoing, N
 
@@ -391,8 +391,8 @@ _encoder = msgspec.json.Encoder()
 
 
 def to_line(event: Event) -> bytes:
-    """Write an event as one line of JSON. Raises BadArgument for NaN, which JSON would write as null, so that it
-    could not be read back.
+    """Write an event as one line of JSON. Raises BadArgument if a number is NaN. JSON would write NaN as null, which
+    could not be read back as a number.
     """
     try:
         line = _encoder.encode(event)

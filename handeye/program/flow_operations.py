@@ -9,9 +9,11 @@ from handeye.program.operation import Branch, Operation, action
 
 
 class Search(Operation, frozen=True, kw_only=True):
-    """Start a search with steps of `step` (m) and at most `limit` places. The present place is the first.
+    """Start a search with steps of `step` (m) and at most `limit` places. The present place is the first place of the
+    search.
 
-    The places lie on a square spiral. If `along` (rad from table x) is given, they lie on a line in that direction.
+    The places lie on a square spiral. If `along` (rad from table x) is given, the places lie on a line in that
+    direction.
     """
 
     family: ClassVar = "search"
@@ -24,7 +26,7 @@ class Search(Operation, frozen=True, kw_only=True):
 
 
 class Advance(Operation, frozen=True, kw_only=True):
-    """Go to the next place of the search (AOJ). Raises error 6 if there is none."""
+    """Go to the next place of the search (AOJ). Raises error 6 if there is no next place."""
 
     family: ClassVar = "search"
     raising: ClassVar = action(errors.SEARCH_EXHAUSTED)
@@ -32,8 +34,8 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 
 class Test(Operation, frozen=True, kw_only=True):
-    """Test for error `number` of the last action, and clear the error. If it was raised, the next step is `raised`;
-    None ends the program.
+    """Test for error `number` of the last action, and clear the error. If the error was raised, the next step is
+    `raised`; if `raised` is None, the program ends.
     """
 
     __test__ = False
@@ -62,8 +64,8 @@ class Assign(Operation, frozen=True, kw_only=True):
 
 
 class Countdown(Operation, frozen=True, kw_only=True):
-    """Decrement a counter (SOJG). While the counter is positive, the next step is `positive`; None ends the
-    program.
+    """Decrement a counter (SOJG). While the counter is positive, the next step is `positive`; if `positive` is None,
+    the program ends.
     """
 
     branches: ClassVar = True
@@ -86,11 +88,11 @@ class Jump(Operation, frozen=True, kw_only=True):
 
 
 class Save(Operation, frozen=True, kw_only=True):
-    """Save the difference between the actual position of the hand and the goal of the last Move. After a Center,
-    save only the part of it along the finger line, the line through both finger tips.
+    """Save the difference between the actual position of the hand and the goal of the last Move. After a Center, save
+    only the component of the difference along the finger line (the line through both finger tips).
 
     If the goal already contains a Restore of the same name, the restored shift is part of the new difference.
-    In repeated saves under one name, the difference thus follows a place that moves.
+    If a program saves repeatedly under one name, the difference thus follows a place that moves.
     """
 
     family: ClassVar = "search"
@@ -125,7 +127,9 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Reverse the stage and repeat it. After `times` reversals since the stage began, continue instead."""
+    """Reverse the stage and repeat the stage. If the stage has already been reversed `times` times since it began,
+    continue instead.
+    """
 
     bounds: ClassVar = {"times": (1, 100)}
 

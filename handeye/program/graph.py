@@ -14,8 +14,8 @@ MAX_SEARCHED: Final = 100  # steps
 
 @dataclass(frozen=True, slots=True)
 class Graph:
-    """Steps by number, with their successors (None for the end of the program) and predecessors, the numbers of the
-    steps of each kind of operation, and the reachable steps.
+    """Steps by number, with their predecessors and successors; the successor None stands for the end of the program.
+    The graph also has the numbers of the steps of each kind of operation, and the reachable steps.
     """
 
     steps: Sequence[Step]
@@ -55,7 +55,7 @@ class Graph:
                 yield number, operation
 
     def at(self, number: int | None, kind: type[A]) -> A | None:
-        """Return the operation of a step if it is of this kind, or else None."""
+        """Return the operation of a step if the operation is of this kind, or else None."""
         operation = None if number is None else self.steps[number].operation
         return operation if isinstance(operation, kind) else None
 
@@ -72,8 +72,8 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Return the reachable steps that can be the last step of these kinds before a given step. The list is
-        empty if some path has no such step, or if the search takes too long.
+        """Consider the last step of one of these kinds before a given step. Return the reachable steps that can be
+        this last step. The list is empty if some path has no such step, or if the search takes too long.
         """
         found: list[int] = []
         seen: set[int] = set()
@@ -90,8 +90,8 @@ class Graph:
         return found
 
     def leads(self, first: int | None, last: int | None, without: Container[int]) -> bool:
-        """Return True if a path leads from step `first` to step `last`, or to the end if `last` is None, without
-        passing `without`. Nearby steps are searched first.
+        """Return True if a path leads from step `first` to step `last` without passing any step in `without`. If
+        `last` is None, the path must lead to the end of the program. Nearby steps are searched first.
         """
         waiting = [] if first is None or first in without else [first]
         seen = set(waiting)
@@ -145,8 +145,8 @@ class Graph:
         return set(range(len(self.steps))) - reachable(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
-        """Return the steps that can be reached from `start`, or an empty set if they lead into `known`. Adds them to
-        `known`.
+        """Return the steps that can be reached from `start`, or an empty set if one of these steps leads into `known`.
+        Adds them to `known`.
         """
         found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])

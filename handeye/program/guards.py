@@ -1,5 +1,5 @@
-"""Guards: conditions that end a motion. Each has the error that is raised if the motion ends before its condition
-is met.
+"""Guards: conditions that end a motion. Each guard has the error that is raised if the motion ends before the guard's
+condition is met.
 """
 
 import math

@@ -32,7 +32,7 @@ class Language(Record, frozen=True, kw_only=True):
 
 
 class OwnLanguage(ABC):
-    """A system's own language for its files. It checks a text, and answers commands and editors."""
+    """A system's own language for its files. The language checks a text, and answers commands and editors."""
 
     system: str
 
@@ -41,7 +41,9 @@ class OwnLanguage(ABC):
         """Check a text without executing it. Returns its diagnostics."""
 
     def formatted(self, text: str) -> str:
-        """Return the text in the standard format of the language. Raises Refused if the language has none."""
+        """Return the text in the standard format of the language. Raises Refused if the language has no standard
+        format.
+        """
         raise refusal(self.system, "format")
 
     def explanation(self, word: str) -> str | None:
@@ -73,8 +75,8 @@ def own_languages() -> Iterator[OwnLanguage]:
 
 
 def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:
-    """Return the language of a file, by the ending of the file, or the first language if no language has that
-    ending.
+    """Return the language whose files have the ending of this file. If no language has this ending, return the first
+    language.
     """
     found = languages.get(file.suffix.lower())
     return next(iter(languages.values())) if found is None else found

@@ -44,7 +44,9 @@ class Mistakes:
         meant: SimilarName | KnownNames | None = None,
         notes: tuple[str, ...] = (),
     ) -> Diagnostic:
-        """Make a diagnostic. It has the cure of its code, unless a more specific cure is given."""
+        """Make a diagnostic. The diagnostic has the cure that belongs to its code, unless a more specific cure is
+        given.
+        """
         known = self._known[code]
         cure = help or names_sentence(meant) or known.cure
         return problem(

@@ -1,4 +1,4 @@
-"""Operations that move the arm or the hand, and operations that check how far they moved."""
+"""Operations that move the arm or the hand, and operations that check how far the hand moved."""
 
 import math
 from typing import Annotated, ClassVar, Final
@@ -23,7 +23,7 @@ class Restore(Record, frozen=True, kw_only=True):
 
 
 class ArmMotion(Operation, frozen=True, kw_only=True):
-    """Base class of arm motions. A motion with guards raises an error if none of them trips."""
+    """Base class of arm motions. A motion with guards raises an error if none of its guards trips."""
 
     family: ClassVar = "motion"
     moves: ClassVar = True
@@ -137,8 +137,8 @@ class Open(Operation, frozen=True, kw_only=True):
 
 
 class Close(Operation, frozen=True, kw_only=True):
-    """Close the fingers until both switches close. Raises error 2 if the gap is below `minimum` (m), and error 7
-    if it is above `maximum` (m). If `minimum` is 0, error 2 is raised only when the hand is empty.
+    """Close the fingers until both switches close. Raises error 2 if the gap is below `minimum` (m), and error 7 if
+    the gap is above `maximum` (m). If `minimum` is 0, error 2 is raised only when the hand is empty.
     """
 
     family: ClassVar = "hand"
@@ -190,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check how far (m) above the place of a saved difference the last motion ended. Raises error 9 if this height is
-    outside the range.
+    """Check the height (m) of the end of the last motion above the place of a saved difference. Raises error 9 if
+    this height is outside the range.
     """
 
     family: ClassVar = "test"

@@ -23,7 +23,9 @@ with only one, unnamed value.
 
 
 class Use(NamedTuple):
-    """A value that an operation reads or writes. If `level` is True, only its horizontal components count."""
+    """A value that an operation reads or writes. If `level` is True, only the horizontal components of the value
+    count.
+    """
 
     kind: Kind
     name: str = ""

@@ -83,8 +83,8 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Position(Record, frozen=True, kw_only=True):
-    """A taught or written position of the hand: x, y, z (m) and the angles O, A, T (rad). It is relative to the
-    part `of`, if one is given.
+    """A taught or written position of the hand: x, y, z (m) and the angles O, A, T (rad). If the part `of` is given,
+    the position is relative to this part.
     """
 
     at: tuple[float, float, float, float, float, float]
@@ -102,8 +102,8 @@ class Hole(Record, frozen=True, kw_only=True):
 class Part(Record, frozen=True, kw_only=True):
     """A part as the program knows it: its planned place, and what it looks like from above.
 
-    The reference point is the centre of the first hole. The reference direction points from there to the second
-    hole.
+    The reference point is the centre of the first hole. The reference direction points from the first hole to the
+    second hole.
     """
 
     at: tuple[float, float, float, float]  # planned x, y, z (m), yaw (rad)
@@ -122,7 +122,9 @@ class Fixture(Record, frozen=True, kw_only=True):
 
 
 class Held(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """An object that the hand holds after it has closed at one of `positions`, as boxes in the hand frame T."""
+    """An object that the hand holds after it has closed at one of `positions`. The object's shape is given as boxes in
+    the hand frame T.
+    """
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]

@@ -29,6 +29,6 @@ class SystemState(MutableRecord, kw_only=True):
     @property
     def places(self) -> tuple[TaskPlace, ...]:
         """The place of each unfinished task, in order. The task at `at` runs next. A system with several tasks
-        overrides this.
+        overrides this property.
         """
         return () if self.at is None else (TaskPlace("", self.at),)

@@ -182,7 +182,7 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """Write the rest of a sentence that names the mismatch and its place, from the message of `msgspec`."""
+    """From the message of `msgspec`, write the rest of a sentence that names the mismatch and its place."""
     said, _, where = str(error).partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""

@@ -92,7 +92,9 @@ class Comparison(Operation, frozen=True, kw_only=True):
 
 
 class Inspect(Comparison, frozen=True, kw_only=True):
-    """Compare pictures taken before and after a gasket was laid on. Raises error 32 if the gasket is not in place."""
+    """Compare a picture taken before a gasket was laid on the part with a picture taken afterwards. Raises error 32 if
+    the gasket is not in place.
+    """
 
     raising: ClassVar = action(errors.GASKET_WRONG)
 

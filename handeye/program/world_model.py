@@ -40,7 +40,9 @@ class WorldModel:
 
     @classmethod
     def of(cls, program: Program, state: WorldState | None = None) -> "WorldModel":
-        """Make the model of a program, with the given differences from the plan; by default with none."""
+        """Make the model of a program, with the given differences from the plan; by default, there are no
+        differences.
+        """
         return cls(parts=program.parts, positions=program.positions, state=state or WorldState())
 
     def measure(self, part: str, X_WP: Pose) -> None:

@@ -14,9 +14,9 @@ WIDTH: Final = 43  # characters of a note
 
 
 def proof_flow(proof: Proof, plan: Plan) -> Flow:
-    """Return the flow between the steps on which a proof rests. Its edges stand for all paths from one of these steps
-    to the next. The notes of a step name the findings that rest on it. A step at which a path begins to avoid a claim
-    is drawn, too.
+    """Return the flow between the steps on which a proof rests. The edges of the flow stand for all paths from one of
+    these steps to the next. The notes of a step name the findings that rest on it. A step at which a path begins to
+    avoid a claim is drawn, too.
     """
     notes, graph = _notes(proof), Graph(plan.program.steps)
     whole = flow(plan)
@@ -26,7 +26,9 @@ def proof_flow(proof: Proof, plan: Plan) -> Flow:
 
 
 def _notes(proof: Proof) -> dict[int, list[str]]:
-    """Return, for each step to draw, the findings that rest on it, or that a path avoids from there on."""
+    """Return, for each step to draw, the findings that rest on the step, and the findings that a path avoids from this
+    step on.
+    """
     found: dict[int, dict[str, None]] = {}
     for finding in proof.findings:
         for number in finding.claims:

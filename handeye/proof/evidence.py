@@ -1,7 +1,8 @@
-"""Kinds of steps that would notice a wrong state of the work, by what they sense: the place, the sense and the limits.
+"""Describes kinds of steps that would notice a wrong state of the work. A kind is given by the place of the step, by
+what the step senses, and by the limits of the sensed value.
 
-A kind of evidence describes a step, and never names it. So it applies to every program of a task, whatever the names
-of labels and macros.
+A kind of evidence describes a step but never names one. The kind therefore applies to every program of a task,
+whatever the names of labels and macros.
 """
 
 import math
@@ -38,7 +39,7 @@ class Limits(Record, frozen=True):
     high: float
 
     def holds(self, low: float, high: float) -> bool:
-        """Return True if a range lies within this one."""
+        """Return True if another range lies within this range."""
         return self.low - SLACK <= low and high <= self.high + SLACK
 
 
@@ -50,7 +51,7 @@ class Region(Record, frozen=True, kw_only=True):
     height: Limits
 
     def meets(self, block: Block) -> Answer:
-        """Say whether a place lies in the region. The answer is `maybe` if it may lie inside or outside."""
+        """Say whether a place lies in the region. The answer is `maybe` if the place may lie inside or outside."""
         corners = [(x, y) for x in (block.low[0], block.high[0]) for y in (block.low[1], block.high[1])]
         inside = all(math.dist(corner, self.at) <= self.radius + SLACK for corner in corners)
         if inside and self.height.holds(block.low[2], block.high[2]):
@@ -91,7 +92,7 @@ def every(answers: list[Answer]) -> Answer:
 
 
 def among(answers: list[Answer]) -> Answer:
-    """Combine the answers for several possible situations, of which one is the true one."""
+    """Combine the answers for several possible situations, one of which is the true situation."""
     if answers and all(answer == "yes" for answer in answers):
         return "yes"
     return "no" if all(answer == "no" for answer in answers) else "maybe"
@@ -114,8 +115,8 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
 
 
 def touches(guards: Guards, along: Vector3, force: Limits) -> bool:
-    """Return True if all guards, at least one, trip on a force against a motion along `along`, within the limits
-    `force`.
+    """Return True if there is at least one guard, and if all guards trip on a force against a motion along `along`,
+    within the limits `force`.
     """
     felt = [guard.exerted(along) for guard in guards if isinstance(guard, Force | Against)]
     return bool(felt) and len(felt) == len(guards) and all(
@@ -133,7 +134,7 @@ def _aligned(one: Vector3, other: Vector3) -> bool:
 
 class Contact(Record, frozen=True, kw_only=True):
     """A straight motion that a contact has ended: where it began, its direction, and the force of its guard (N). If
-    `torque` is given, the torque of the screwdriver (N m) has ended it.
+    `torque` is given, the torque of the screwdriver (N m) has ended the motion.
     """
 
     where: Region
@@ -142,7 +143,7 @@ class Contact(Record, frozen=True, kw_only=True):
     torque: Limits | None = None
 
     def ended(self, passed: Passed, situation: Situation) -> Answer:
-        """Say whether the last motion of a situation was such a motion."""
+        """Say whether the last motion of a situation was a motion of this kind."""
         operation = passed.motion(situation)
         if operation is None:
             return "maybe"
@@ -151,7 +152,7 @@ class Contact(Record, frozen=True, kw_only=True):
         return self.where.meets(situation.start)
 
     def describes(self, operation: Operation) -> bool:
-        """Return True if an operation is such a motion, wherever the hand is."""
+        """Return True if an operation is a motion of this kind, wherever the hand is."""
         if not isinstance(operation, Change) or not _aligned(operation.displacement, self.along):
             return False
         if self.torque is not None:
@@ -165,7 +166,9 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class HeightWithin(Evidence, frozen=True, kw_only=True):
-    """A HEIGHT after a contact, measured from the height of another contact. Its range (m) lies within limits."""
+    """A HEIGHT after a contact, measured from the height of another contact. The range (m) of the HEIGHT lies within
+    limits.
+    """
 
     operations: ClassVar = (Height,)
 
@@ -187,7 +190,7 @@ class HeightWithin(Evidence, frozen=True, kw_only=True):
 
 
 class TravelWithin(Evidence, frozen=True, kw_only=True):
-    """A TRAVEL after a contact, whose range (m) lies within limits."""
+    """A TRAVEL after a contact. The range (m) of the TRAVEL lies within limits."""
 
     operations: ClassVar = (Travel,)
 
@@ -217,7 +220,7 @@ class Contacted(Evidence, frozen=True, kw_only=True):
 
 
 class FreeTurn(Evidence, frozen=True, kw_only=True):
-    """A turn about an axis, through at least an arc, that met less than a force (N).
+    """A turn about an axis that went through at least a given arc and met less than a given force (N).
 
     The arc is given by its ends (rad from table x, counter-clockwise) and by the sense of the turn, 1 for
     counter-clockwise or -1.
@@ -269,7 +272,9 @@ class FreeTurn(Evidence, frozen=True, kw_only=True):
 
 
 class Taken(Evidence, frozen=True, kw_only=True):
-    """A picture of a comparison: the earlier or the later one. `picture` is its name; the prover fills it in."""
+    """A picture of a comparison: the earlier or the later one. `picture` is the name of the picture; the prover fills
+    in this name.
+    """
 
     operations: ClassVar = (Look,)
 
@@ -284,7 +289,7 @@ class Taken(Evidence, frozen=True, kw_only=True):
 
 class Compared(Evidence, frozen=True, kw_only=True):
     """A comparison of two pictures of a part at a place (m, table frame): an INSPECT or a MATCH. `before` and `after`
-    are the names of its pictures; the prover fills them in.
+    are the names of the two pictures; the prover fills in these names.
     """
 
     operations: ClassVar = (Inspect, Match)

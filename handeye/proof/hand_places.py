@@ -1,8 +1,8 @@
 """Where the hand can be at each node, as far as the program fixes the place: the planned place of the last MOVE,
 and what the motions after it add.
 
-Corrections that are measured during a run (RESTORE, and the offset of a search) are left out: they lead the hand
-to the place for which the position stands.
+Corrections that are measured during a run (RESTORE, and the offset of a search) are left out, because these
+corrections only lead the hand to the true place of the position.
 """
 
 import math
@@ -28,7 +28,7 @@ class Block(NamedTuple):
     high: Vector3
 
     def moved(self, by: Vector3, least: float = 1.0) -> "Block":
-        """Shift the block by a share of a vector, which is anything from `least` to 1."""
+        """Shift the block by a share of a vector. The share may be anything from `least` to 1."""
         ends = [(least * d, d) for d in by]
         return Block(
             _rounded(tuple(a + min(e) for a, e in zip(self.low, ends, strict=True))),
@@ -83,7 +83,7 @@ class HandPlaces:
             self.before = self._solved()
 
     def references(self, node: int) -> list[Situations]:
-        """Return the situations at the saves with which a HEIGHT may compare."""
+        """Return the situations at the saves to which a HEIGHT may refer."""
         if node not in self._saved:
             self._saved[node] = self._references(node)
         return self._saved[node]

@@ -7,7 +7,7 @@ from handeye.proof.evidence import Compared, Evidence, Taken
 
 
 class Phase(Record, frozen=True, kw_only=True):
-    """One part of a claim: steps of any of the kinds `by` show it."""
+    """One part of a claim. A step of any of the kinds in `by` shows this part."""
 
     by: tuple[Evidence, ...] = ()
     undone: tuple[Evidence, ...] = ()
@@ -17,8 +17,8 @@ class Phase(Record, frozen=True, kw_only=True):
 
 
 class Claim(Record, frozen=True, kw_only=True):
-    """What some steps of a program show, in the order of its phases. If `at_first` is True, the claim holds when the
-    program begins, and need only be shown again after it was undone.
+    """What some steps of a program show, in the order of the claim's phases. If `at_first` is True, the claim holds
+    when the program begins. The program must then show the claim only if a step has undone it.
     """
 
     says: str  # clause, such as `the fingers feel the head`
@@ -50,7 +50,7 @@ class Claim(Record, frozen=True, kw_only=True):
 
 class Obligation(Record, frozen=True, kw_only=True):
     """A finding of the referee, and the claims that a program must show so that it would notice if the finding did
-    not hold. Without claims, no program is asked to show the finding; `rests` gives the reason.
+    not hold. If there are no claims, a program need not show the finding, and `rests` gives the reason.
     """
 
     finding: str

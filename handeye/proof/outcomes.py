@@ -1,8 +1,8 @@
 """The paths through a program, as a graph in which every action has one edge for each outcome.
 
 An action either succeeds or raises one of its errors. A raised error leads to the tests that follow the action, as in
-the executor. If one of them tests for this error, the path continues at that test's target. Otherwise, the arm stops.
-A call to the operator is a stop, too.
+the executor. If one of these tests is for the raised error, the path continues at the target of this test. Otherwise,
+the arm stops. A call to the operator is a stop, too.
 """
 
 from collections.abc import Sequence
@@ -23,8 +23,9 @@ ALWAYS: Final = frozenset({errors.WATCHDOG, errors.GAP_WRONG})
 class Edge(NamedTuple):
     """An edge to another node.
 
-    `outcome` is the outcome of the action at the start of the edge: SUCCESS, or the number of the raised error. It is
-    None if the step is no action. `taken` is True if a test found its error, or if a counter was still positive.
+    `outcome` is the outcome of the action at the start of the edge: SUCCESS, or the number of the raised error.
+    `outcome` is None if the step is no action. `taken` is True if a test found its error, or if a counter was still
+    positive.
     """
 
     to: int
@@ -34,8 +35,8 @@ class Edge(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class OutcomeGraph:
-    """The reachable nodes of a program. Each node is a step together with the pending error before it, 0 if there is
-    none. Node 0 is the first step.
+    """The reachable nodes of a program. Each node is a step together with the error that is pending before the step,
+    or 0 if no error is pending. Node 0 is the first step.
     """
 
     steps: Sequence[Step]
@@ -126,9 +127,7 @@ def _onward(steps: Sequence[Step], number: int, error: int) -> list[Onward]:
 
 
 def _goes_on(steps: Sequence[Step], number: int | None, error: int) -> bool:
-    """Return True if the program continues at a step while this error is pending, so that it does not stop the
-    arm.
-    """
+    """Return True if the program continues at a step while this error is pending, or False if it stops the arm."""
     while error and number is not None:
         operation = steps[number].operation
         if not isinstance(operation, Test):

@@ -19,7 +19,8 @@ UNREACHED: Final = 127
 @dataclass(frozen=True, slots=True)
 class Effects:
     """What the steps of a program do to a claim. With `generous`, a step whose place is not known counts as showing
-    the claim, and never as undoing it. Without, such a step counts as undoing the claim, and never as showing it.
+    the claim, and never as undoing it. Without `generous`, a step whose place is not known counts as undoing the
+    claim, and never as showing it.
     """
 
     claim: Claim
@@ -84,8 +85,9 @@ class Effects:
 
 
 def least_shown(graph: OutcomeGraph, effects: list[Effects]) -> list[int]:
-    """Return, for each claim, the least number of phases that a path to the end has shown. Every branch is taken to be
-    possible: counters are not followed. UNREACHED stands for a program that no path leads through.
+    """Return, for each claim, the least number of phases that a path to the end has shown. The search assumes that
+    every branch is possible: it does not follow counters. UNREACHED means that no path leads to the end of the
+    program.
     """
     by_edge: dict[EdgeKey, list[tuple[int, Table]]] = {}
     for number, one in enumerate(effects):

@@ -1,5 +1,5 @@
-"""Proves the obligations of a task for a program. For each obligation that it cannot prove, it finds a path that
-avoids it.
+"""Proves the obligations of a task for a program. If an obligation cannot be proved, the proof finds a path that
+avoids the obligation.
 """
 
 from collections.abc import Iterable, Sequence
@@ -48,7 +48,7 @@ class ClaimProof(Record, frozen=True, kw_only=True):
 
 
 class FindingProof(Record, frozen=True, kw_only=True):
-    """The verdict on one finding of the referee. Without claims, no program is asked to show it."""
+    """The verdict on one finding of the referee. If the finding has no claims, a program need not show it."""
 
     finding: str
     rests: str
@@ -66,7 +66,7 @@ class Proof(Record, frozen=True, kw_only=True):
     findings: tuple[FindingProof, ...]
 
     def verdict(self, finding: FindingProof) -> Verdict | None:
-        """Return the verdict on a finding; None if no program is asked to show it."""
+        """Return the verdict on a finding; None if a program need not show the finding."""
         verdicts = {self.claims[number].verdict for number in finding.claims}
         order: tuple[Verdict, ...] = ("avoided", "undecided", "shown")
         return next((verdict for verdict in order if verdict in verdicts), None)
@@ -117,8 +117,9 @@ class _Prover:
             yield self._shown(shown[0]) if shown else self._searched(some)
 
     def _forms(self, claim: Claim) -> list[Claim]:
-        """Return a claim, or if it rests on pictures, its forms for all pairs of pictures that the program
-        compares."""
+        """Return the claim itself. If the claim rests on pictures, return one form of it for each pair of pictures
+        that the program compares.
+        """
         return (
             [claim.with_pictures(*pair) for pair in self.pairs] if claim.compares and self.pairs else [claim]
         )
@@ -222,7 +223,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Find the last leg at which a path takes back what it had shown of a claim, and return the leg's index."""
+    """Find the last leg that undoes what the path had shown of a claim before, and return the index of this leg."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

@@ -32,7 +32,7 @@ class TooMany(Exception):
 
 
 def way_without(graph: OutcomeGraph, effects: Effects, live: list[frozenset[str]]) -> list[Leg] | None:
-    """Return a shortest path to the end that does not show all phases of a claim; None if there is none.
+    """Return a shortest path to the end that does not show all phases of a claim; None if there is no such path.
 
     Raises:
         TooMany: the search has become too large.

@@ -26,7 +26,7 @@ _NEAR: Final = 0.62  # m from the hand to the camera
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Photograph:
-    """A photograph, or the reason why there is none."""
+    """A photograph, or the reason why there is no photograph."""
 
     time: float  # s since the run began
     shows: str
@@ -145,7 +145,7 @@ def _at_hand(run: RecordedRun, time: float) -> str | Near:
 def _taken(
     run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSize
 ) -> tuple[Photograph, ...]:
-    """Take the photographs. Where that is impossible, the reason replaces the photograph."""
+    """Take the photographs. If they cannot be taken, the reason replaces each photograph."""
     try:
         return tuple(_take(run, wanted, size))
     except InvalidInput as fault:

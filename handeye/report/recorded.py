@@ -36,15 +36,16 @@ class RecordedRun:
 
     @property
     def period(self) -> HistoricalTiming | None:
-        """The times of 1973 if this program was timed then, or else None."""
+        """The times of 1973, or None if this program was not timed in 1973."""
         task = known(self.trace.head.task)
         then = None if task is None else task.period
         return then if then is not None and then.program == self.trace.head.program else None
 
     @property
     def begins(self) -> float:
-        """Time at which the recording of motions begins (s). It is 0, unless the run was resumed from a
-        checkpoint."""
+        """Time at which the recording of motions begins (s). The time is 0, unless the run was resumed from a
+        checkpoint.
+        """
         return self.trace.begins
 
     @property

@@ -36,7 +36,7 @@ class ExportedArm(Record, frozen=True, kw_only=True):
 
     @property
     def lines(self) -> Iterator[str]:
-        """The joints as a table, a line each."""
+        """The joints as a table, with one line for each joint."""
         yield f"{self.path}: the arm {self.arm}, {len(self.joints)} joints and two fingers"
         for joint in self.joints:
             turns = joint.kind == "revolute"
@@ -47,8 +47,8 @@ class ExportedArm(Record, frozen=True, kw_only=True):
 
 
 def export_urdf(path: Path, *, overwrite: bool = False) -> ExportedArm:
-    """Write the Stanford arm, as its drawing describes it, to a URDF file. Raises InvalidInput if the file cannot be
-    written.
+    """Write the nominal Stanford arm (the arm of the drawing) to a URDF file. Raises InvalidInput if the file
+    cannot be written.
     """
     check_place(path, URDF, overwrite=overwrite)
     write_over(path, urdf(STANFORD, scenes() / "stanford_arm" / "stanford.xml"), URDF)

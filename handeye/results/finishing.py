@@ -18,8 +18,8 @@ from handeye.runs.runner import Runner
 def outcome(
     runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
 ) -> Result:
-    """Make the result of a paused run. With `judged`, a run that has ended is judged by `referee`, or by the task's
-    referee if `referee` is None.
+    """Make the result of a paused run. If `judged` is True and the run has ended, `referee` judges the run. If
+    `referee` is None, the task's referee judges the run.
     """
     asked = judged and pause.kind != "break" and runner.system.cell is not None
     found = findings(runner, pause, referee) if asked else None
@@ -45,7 +45,8 @@ def finished(
     referee: Referee | None = None,
     folder: RunFolder | None = None,
 ) -> Result:
-    """Finish a run, unless it only pauses, and write its pictures and result to its folder. Returns the result.
+    """Write the pictures and the result of a run to its folder. Before that, end the run, unless it has only paused at
+    a break. Returns the result.
 
     The result is written last, so if it exists, all other files exist too. Raises InvalidInput if a file cannot
     be written.
@@ -61,8 +62,8 @@ def finished(
 def keep_outcome(
     folder: RunFolder, runner: Runner, pause: Pause, result: Result, *, photographs: bool = True
 ) -> None:
-    """Write the pictures and the result to the folder of a run, and close the folder. Raises InvalidInput if
-    that is impossible.
+    """Write the pictures and the result to the folder of a run, and close the folder. Raises InvalidInput if a file
+    cannot be written.
     """
     folder.close()
     keep_pictures(folder.path / PICTURES, runner, photographs=photographs)

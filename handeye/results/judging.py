@@ -38,8 +38,9 @@ def findings_so_far(runner: Runner) -> Findings:
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """Check what a caller's own referee returned. Raises InvalidInput if it is not a dictionary from names to
-    findings."""
+    """Check what a caller's own referee returned. Raises InvalidInput if the returned value is not a dictionary from
+    names to findings.
+    """
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
@@ -50,8 +51,9 @@ def checked_findings(referee: str, findings: object) -> Findings:
 
 
 def checked_limits(limits: Limits) -> dict[str, float]:
-    """Return the limits as floats. Raises InvalidInput if a limit is not a number, or is not given by the name
-    of a finding."""
+    """Return the limits as floats. Raises InvalidInput if a limit is not a number, or if its key is not the name of a
+    finding.
+    """
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):
@@ -63,7 +65,9 @@ def checked_limits(limits: Limits) -> dict[str, float]:
 
 
 def check_limits(runner: Runner) -> None:
-    """Check, before a run begins, that each limit belongs to a finding. Raises InvalidInput if one does not."""
+    """Check, before a run begins, that each limit belongs to a finding. Raises InvalidInput if a limit does not belong
+    to a finding.
+    """
     if runner.setup.limits:
         limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
 

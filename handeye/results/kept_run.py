@@ -62,7 +62,7 @@ def kept_run(path: Path) -> KeptRun:
 
 
 def _readable_events(path: Path) -> list[AnyEvent]:
-    """Return the events in the folder of a run; empty if they cannot be read."""
+    """Return the events in the folder of a run; the list is empty if the events cannot be read."""
     try:
         return effective(read_events(path / EVENTS, growing=True))
     except InvalidInput:
@@ -79,7 +79,7 @@ def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
 
 
 def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
-    """Return True if the run in a folder has ended and its result exists. With `judged`, the result must also
+    """Return True if the run in a folder has ended and its result exists. If `judged` is True, the result must also
     contain the referee's verdict.
 
     Args:
@@ -151,7 +151,7 @@ def _host(path: Path) -> tuple[HostSeconds, list[str]]:
 
 
 def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
-    """Return the call to the operator at which a run has stopped, or None if it has not stopped at a call."""
+    """Return the call to the operator at which a run has stopped, or None if the run has not stopped at a call."""
     standing = [event for event in events if not isinstance(event, StageFinished | RunFinished)]
     return standing[-1] if standing and isinstance(standing[-1], OperatorCalled) else None
 

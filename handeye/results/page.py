@@ -127,7 +127,7 @@ def stages(result: Result) -> Table:
 
 
 def timing(result: Result) -> Table:
-    """Return the table of times. It has a column for 1973 if the program was timed then."""
+    """Return the table of times. The table has a column for 1973 if the program was timed in 1973."""
     t, then = result.timing, period(result)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", "here", "" if then is None else str(then.year)):
@@ -169,7 +169,7 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
 
 
 def period(result: Result) -> HistoricalTiming | None:
-    """Return the times of 1973 if they belong to this program and the run undid no work, or else None."""
+    """Return the times of 1973 if these times belong to this program and the run undid no work. If not, return None."""
     if result.apart is not UNSET:
         return None
     task = known(result.task)

@@ -1,4 +1,4 @@
-"""Writes the pictures in a run's folder: those that the program took, with the detected features, and
+"""Writes the pictures in a run's folder: the pictures that the program took, with the detected features, and
 photographs of the finished work.
 """
 
@@ -50,8 +50,8 @@ def _annotated(system: RunningSystem, name: str) -> NDArray[np.uint8]:
 
 
 def keep_pictures(folder: Path, runner: Runner, *, photographs: bool = True) -> None:
-    """Write the program's pictures and, if OpenGL is available, photographs of the cell. Raises InvalidInput if
-    they cannot be written.
+    """Write the program's pictures and, if OpenGL is available, photographs of the cell. Raises InvalidInput if a
+    picture cannot be written.
     """
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost when a run is copied

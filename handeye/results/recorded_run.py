@@ -24,7 +24,9 @@ def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
 
 
 def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:
-    """Return the result in the folder of a run, or None, and the flaws of the result's file."""
+    """Return two values: the result in the folder of a run (None if the folder has no usable result), and the flaws of
+    the result's file.
+    """
     if not (run / RESULT).is_file():
         return None, ()
     try:

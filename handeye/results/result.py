@@ -19,8 +19,8 @@ Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undo
 
 
 class Stage(Record, frozen=True, kw_only=True):
-    """A stage of the program. `arm_s` is its simulated time (s), without the time in which the arm waited for
-    the camera.
+    """A stage of the program. `arm_s` is the simulated time of the stage (s), without the time in which the arm waited
+    for the camera.
     """
 
     name: str
@@ -188,15 +188,15 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def judged(self) -> bool | None:
-        """The referee's verdict: True if all work that it judged (assembly, undoing or both) is right. None if
-        it has not judged the run.
+        """The referee's verdict: True if all work that the referee judged (assembly, undoing or both) is right. None
+        if the referee has not judged the run.
         """
         words = [word for word in (self.assembled, self.apart) if isinstance(word, bool)]
         return all(words) if words else None
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """All findings of the referee. Findings on the assembly come before those on the undoing."""
+        """All findings of the referee. Findings on the assembly come before findings on the undoing."""
         return (*(self.built or {}).values(), *self.referee.values())
 
     @property
@@ -217,7 +217,9 @@ class Result(Record, frozen=True, kw_only=True):
 
 
 def to_json(result: Result, *, line: bool = False) -> bytes:
-    """Encode the result as one JSON object with a final newline. It is indented or, with `line`, on one line."""
+    """Encode the result as one JSON object with a final newline. The JSON text is indented or, if `line` is True, on
+    one line.
+    """
     encoded = msgspec.json.encode(result)
     return (encoded if line else msgspec.json.format(encoded, indent=1)) + b"\n"
 

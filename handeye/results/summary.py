@@ -38,8 +38,9 @@ from handeye.vision.calibration import Calibration
 def summary(
     runner: Runner, pause: Pause, *, findings: Findings | None, built: Findings, host: HostSeconds
 ) -> Result:
-    """Make the result of a run. `built` has the referee's findings on the finished work, measured before the arm
-    undid it."""
+    """Make the result of a run. `built` has the referee's findings on the finished work, measured before the arm undid
+    the work.
+    """
     completed = pause.kind == "end"
     names = runner.listing.stages
     cell = runner.system.cell
@@ -74,8 +75,9 @@ def summary(
 
 
 def _assembled(runner: Runner, findings: Findings | None, built: Findings, *, completed: bool) -> bool | None:
-    """Return the verdict on the assembly; None if the referee has not judged it, or if the work was undone
-    without a verdict."""
+    """Return the verdict on the assembly; None if the referee has not judged the assembly, or if the work was undone
+    without a verdict.
+    """
     if runner.undone:
         return all_right(built) if built else None
     return None if findings is None else completed and all_right(findings)
@@ -158,8 +160,9 @@ def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timin
 
 
 def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
-    """Return the time up to `clock` (s) in which the camera's mechanism was busy while the arm did not wait for
-    it."""
+    """Return the time up to `clock` (s) in which the camera's mechanism was busy while the arm did not wait for the
+    mechanism.
+    """
     ready = busy = 0.0
     for event in events:
         if isinstance(event, CameraStarted):

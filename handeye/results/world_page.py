@@ -97,8 +97,8 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, ...] | No
 
 
 def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
-    """Return a quantity as one line of the page, or as two lines if it does not fit on one. Names are padded to
-    `width` columns.
+    """Return a quantity as one line of the page, or as two lines if the quantity does not fit on one line. Names are
+    padded to `width` columns.
     """
     drawn = f"({how(quantity)})" if quantity.override else how(quantity)
     row = Text(f"  {quantity.name.ljust(width)} {quantity.value:10.4g} {quantity.unit:5}")

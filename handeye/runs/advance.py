@@ -13,7 +13,7 @@ from handeye.runs.snapshot import Snapshot
 
 
 class StopCondition(Record, frozen=True, kw_only=True, tag_field="stop", tag=True):
-    """Base class of the stop conditions. It never pauses a run."""
+    """Base class of the stop conditions. The base class itself never pauses a run."""
 
     def met_before(self, runner: Runner) -> bool:
         """Return True if the run must pause before the next step."""
@@ -154,7 +154,7 @@ def advance(
     steps: int | None = None,
     asked: Callable[[], bool] = lambda: False,
 ) -> Pause:
-    """Execute `steps` steps, at least one; without `steps`, continue until the run ends. `asked` is called
+    """Execute `steps` steps (at least one). If `steps` is not given, continue until the run ends. `asked` is called
     after each step, and the run pauses if it returns True. Returns the reason why the run paused.
     """
     done = 0
@@ -187,7 +187,7 @@ def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pa
 
 
 def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
-    """Execute one step. Returns the pause that follows it, or None."""
+    """Execute one step. Returns the pause that follows the step, or None if no pause follows."""
     happened = len(runner.events)
     try:
         runner.step()

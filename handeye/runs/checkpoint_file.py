@@ -36,8 +36,9 @@ LARGEST: Final = 1 << 28  # bytes of a state, decompressed: a hundred times what
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """Summary of a checkpoint. It is shown to users, and used to find the right checkpoint without decoding
-    states."""
+    """Summary of a checkpoint. Users see the summary, and handeye uses it to find the right checkpoint without
+    decoding states.
+    """
 
     system: str = "program"  # name of the system that executes the run
     program: str

@@ -1,5 +1,5 @@
-"""Manages the checkpoints of one run in a folder: writes and finds them, and, when the run goes back, removes
-those made after that point.
+"""Manages the checkpoints of one run in a folder: writes and finds them, and, when the run goes back to an earlier
+point, removes the checkpoints made after that point.
 """
 
 import re
@@ -120,7 +120,7 @@ class CheckpointStore:
 
     def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
         """Return the checkpoint from which a run with this setup reaches the stage with this number in the fewest
-        steps; None if there is none.
+        steps; None if there is no such checkpoint.
 
         Checkpoints made after a person interfered do not count. Raises BadFile if the checkpoints belong to
         another run.
@@ -149,7 +149,7 @@ def _position(path: Path) -> int:
 
 
 def file_name(checkpoint: Checkpoint) -> str:
-    """Return the name of a checkpoint's file. It contains the number of steps done and the present or next
+    """Return the name of a checkpoint's file. The name contains the number of steps done and the present or next
     stage, for example `0036-insert-the-aligning-pins.checkpoint`.
     """
     if checkpoint.snapshot is None:

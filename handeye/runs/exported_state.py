@@ -67,7 +67,7 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> ExportedState:
 
 
 def _task(name: str) -> Task:
-    """Return the task called `name`. Raises Refused if the cells of its system cannot be exported."""
+    """Return the task called `name`. Raises Refused if the cells of the task's system cannot be exported."""
     found = any_task(name)
     if not isinstance(found, Task):
         raise Refused(f"the task {quoted(name)} exports no scene")

@@ -108,7 +108,7 @@ class RunFolder(Observer):
 
     @property
     def unlocked(self) -> str:
-        """The reason why the folder cannot be locked against writing by other commands; empty if it is locked."""
+        """The reason why no lock keeps other commands from writing to the folder; empty if a lock does."""
         return "" if self._journal is None else self._journal.unlocked
 
     def begin(self, start: Checkpoint) -> None:
@@ -166,8 +166,8 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """Remove the files with the outcome when the run continues, because they are outdated. `close` removes those
-        that other commands write while the run goes on.
+        """Remove the files with the outcome when the run continues, because these files are then outdated. `close`
+        removes the outdated files that other commands write while the run goes on.
         """
         if not self._continued:
             self._remove_outcome()
@@ -261,8 +261,7 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     """Open the folder of an interrupted run. Returns the folder, its newest valid checkpoint, and a sentence
     for each file that cannot be used.
 
-    Raises BadFile if there is no checkpoint, or if the checkpoint belongs to a different plan from the plan in the
-    folder.
+    Raises BadFile if there is no checkpoint, or if the checkpoint does not belong to the plan in the folder.
     """
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():

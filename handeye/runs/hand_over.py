@@ -1,7 +1,7 @@
 """What one leg of a relay hands over to the next: a small record in SI units, which no language owns.
 
 Each system writes and reads the record in its own way (`handeye/runs/legs.py`). The record says where the hand is,
-what it holds, and which places the programs have found. It contains only what sensors and programs know.
+what the hand holds, and which places the programs have found. The record contains only what sensors and programs know.
 """
 
 from typing import Final, Literal
@@ -72,7 +72,7 @@ class HandOver(Record, frozen=True, kw_only=True):
                     )
 
     def value(self, name: str, kind: Kind) -> Array:
-        """Return the numbers of a value, SI. Raises Refused if it is missing or of another kind."""
+        """Return the numbers of a value, SI. Raises Refused if the value is missing or of another kind."""
         found = self.named.get(kind, {}).get(name)
         if found is not None:
             return np.array(found)
@@ -112,13 +112,13 @@ class HandOver(Record, frozen=True, kw_only=True):
 
 
 def place_now(sensed: Sensed, arm: ArmModel) -> tuple[float, ...]:
-    """Return the place of the hand by the potentiometers."""
+    """Return the place of the hand, as the potentiometers measure it."""
     return rounded_place(forward(arm, sensed.q))
 
 
 class StationMemory(MutableRecord, kw_only=True):
-    """What the station has measured of itself before the first leg, and the state of its camera. It belongs to the
-    devices and not to a program, so every leg may use it. Joint arrays have shape (n,).
+    """What the station has measured of itself before the first leg, and the state of its camera. This memory belongs
+    to the devices and not to a program, so every leg may use it. Joint arrays have shape (n,).
     """
 
     friction: Array  # Coulomb friction (N m, N); 0 if unknown

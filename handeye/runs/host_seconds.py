@@ -1,4 +1,4 @@
-"""Records the host time of a run over all its sessions, in a file of its own beside the run.
+"""Records the host time of a run over all its sessions, in a separate file of the run's folder.
 
 Because the file is separate, the checkpoints and traces of equal runs are equal byte for byte.
 """

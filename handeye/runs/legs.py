@@ -30,14 +30,14 @@ class Use(NamedTuple):
 
 
 class Lack(NamedTuple):
-    """What a leg cannot do, with the line of its text."""
+    """A demand of a program that a leg cannot meet, with the line of the program."""
 
     line: int
     sentence: str
 
 
 class RunningLeg(RunningSystem):
-    """A program during its legs. Between its legs, the program keeps its memory, and others may move the arm."""
+    """A program during its legs. Between these legs, it keeps its memory, and other programs may move the arm."""
 
     @abstractmethod
     def stand_at(self, stage: str) -> None:
@@ -46,7 +46,7 @@ class RunningLeg(RunningSystem):
     @abstractmethod
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
         """Take the arm over from another program, for a stage. Raises Refused, and changes nothing, if the record lacks
-        a value that the stage needs, or has it in another kind.
+        a value that the stage needs, or has a value of another kind under its name.
         """
 
     @abstractmethod
@@ -64,7 +64,7 @@ class RunningLeg(RunningSystem):
     @property
     @abstractmethod
     def station(self) -> StationMemory:
-        """What the station knows of itself now."""
+        """What the station knows about itself now."""
 
 
 class LegSystem(ABC):
@@ -82,7 +82,7 @@ class LegSystem(ABC):
 
     @abstractmethod
     def read(self, file: Path) -> Record:
-        """Read a program and make its plan. Raises InvalidInput if it has errors."""
+        """Read a program and make its plan. Raises InvalidInput if the program has errors."""
 
     def encode(self, plan: Record) -> bytes:
         """Encode a plan as bytes. By default, plans of legs are plans of the system."""
@@ -110,7 +110,7 @@ class LegSystem(ABC):
 
     @abstractmethod
     def steps(self, plan: Record, stage: str) -> range:
-        """Return the steps of a stage in the listing of a plan. Raises NoSuchName if it has no such stage."""
+        """Return the steps of a stage in the listing of a plan. Raises NoSuchName if the plan has no such stage."""
 
     def reads(self, plan: Record, stage: str) -> Sequence[Use]:
         """Return the values that a stage needs from the record or from an earlier stage of the same program."""
@@ -121,7 +121,7 @@ class LegSystem(ABC):
         return ()
 
     def lacks(self, plan: Record, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        """Return the demands of a stage that a leg cannot meet. `earlier` gives the stages that earlier legs of the
+        """Return those demands of a stage that a leg cannot meet. `earlier` gives the stages that earlier legs of the
         same program execute.
         """
         return ()
@@ -132,7 +132,7 @@ class LegSystem(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> RunningLeg:
-        """Build the running system of a program on a cell that others use, too."""
+        """Build the running system of a program on a cell that other programs use, too."""
 
 
 def leg_system(name: str) -> LegSystem:

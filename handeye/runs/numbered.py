@@ -50,7 +50,7 @@ class NumberedRun(RunningSystem):
         )  # fmt: skip
 
     def _enter(self) -> tuple[int, NumberedStep]:
-        """Return the next step and its number. Begins the stage at the first step."""
+        """Return the next step and its number. If this is the first step of the run, the stage begins."""
         state = self.state
         assert state.at is not None
         if state.stage is None:
@@ -95,4 +95,4 @@ class NumberedRun(RunningSystem):
 
     @abstractmethod
     def _set(self, what: str, name: str, number: float) -> None:
-        """Set a value. The caller has checked that it is one of the settable values."""
+        """Set a value. The caller has checked that the value is one of the settable values."""

@@ -1,4 +1,4 @@
-"""Defines observers of a run. They cannot change the run."""
+"""Defines observers of a run. Observers cannot change the run."""
 
 from handeye.execution.servo import ServoPeriod
 from handeye.program.events import AnyEvent
@@ -6,7 +6,7 @@ from handeye.runs.snapshot import Checkpoint
 
 
 class Observer:
-    """Base class of the observers, which does nothing."""
+    """Base class of the observers. The base class does nothing."""
 
     def event(self, event: AnyEvent) -> None:
         """Called when an event has happened."""
@@ -16,7 +16,7 @@ class Observer:
 
     def undone(self, events: int) -> None:
         """Called when the run has gone back to an earlier state. The first `events` events of the run remain; all
-        later ones are undone.
+        later events are undone.
         """
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:

@@ -93,7 +93,7 @@ class UnwindOnce:
     """Lets the arm undo its steps back to the beginning of the stage with this index, once for each stage that
     fails.
 
-    Like `Retry`, it counts earlier attempts from the events of the run.
+    Like `Retry`, this operator counts earlier attempts from the events of the run.
     """
 
     stage: int | None = None  # None: the stage that failed

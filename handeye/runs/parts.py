@@ -29,8 +29,7 @@ VisionFunction = Callable[..., Any]  # see `handeye.begin`
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parts:
-    """Replacements for the parts that determine the course of a run. None means that handeye's own part is
-    used."""
+    """Replacements for the parts that determine the course of a run. If a field is None, handeye's own part is used."""
 
     search: SearchPattern | None = None  # the places that a search tries
     camera: RendererMaker | None = None  # maker of pictures

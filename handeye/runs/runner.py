@@ -141,7 +141,7 @@ class Runner:
 
     @property
     def trouble(self) -> str | None:
-        """The reason why the run cannot continue even if the operator answers; None if it can."""
+        """The reason why the run cannot continue even if the operator answers; None if the run can continue."""
         return self._broken or self.system.trouble
 
     @property
@@ -173,7 +173,7 @@ class Runner:
 
     @property
     def cell(self) -> SnapshotCell:
-        """The simulated cell. Raises Refused if the run's system has none."""
+        """The simulated cell. Raises Refused if the run's system has no work cell."""
         if self.system.cell is None:
             raise Refused(f"the system {self.setup.system} has no work cell")
         return self.system.cell
@@ -358,7 +358,7 @@ class Runner:
 
     def control(self, by: str, controller: Controller, most: int) -> int:
         """Let a controller, called `by`, command the arm for at most `most` servo periods. Returns the number of
-        periods that it commanded. After an exception, `rollback` reverts them.
+        periods that it commanded. After an exception, `rollback` reverts these periods.
 
         Raises:
             InvalidInput: the run's system does not execute plans of motions.

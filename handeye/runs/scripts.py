@@ -77,14 +77,15 @@ def taught_beside(file: Path) -> Taught:
 
 
 def in_cell(known: Taught, work: Task) -> Taught:
-    """Add the fixtures of the task's cell to taught positions. A fixture in the taught file replaces one of the
-    same name."""
+    """Add the fixtures of the task's cell to taught positions. A fixture in the taught file replaces a fixture of the
+    cell with the same name.
+    """
     return replace(known, fixtures={**work.fixtures(), **known.fixtures})
 
 
 def plan_script(file: Path, known: Taught | None = None, work: Task | None = None) -> "PlannedScript":
-    """Compile and plan a script. By default, the taught file beside the script and the script's own task are
-    used. Raises InvalidInput.
+    """Compile and plan a script. By default, the function uses the script's own task, and the taught file in the
+    script's folder. Raises InvalidInput.
     """
     entry, _ = entry_of_file(file.name)
     if entry is not None:

@@ -1,8 +1,8 @@
 """The states in which stages of a program begin. The program is executed up to a stage once per world, and the state
 is then kept.
 
-A start is a checkpoint. It depends on the plan, the world, the renderer, the versions and the kind of processor. The
-name of its file is a digest of all of these, so a file made under other conditions is never used.
+A start is a checkpoint. A start depends on the plan, the world, the renderer, the versions and the kind of processor.
+The name of its file is a digest of all these conditions, so a file made under other conditions is never used.
 """
 
 import hashlib
@@ -72,8 +72,8 @@ class StartStates:
         self._task, self._camera, self._folder = task, camera, folder or starts_folder()
 
     def before(self, stage: int, world: WorldSpec) -> Checkpoint | None:
-        """Return the state in which the program begins a stage, numbered from 0, in a world; None if the program
-        stops before that stage in this world.
+        """Return the state in which the program begins a stage in a world; None if the program stops before that stage
+        in this world. Stages are numbered from 0.
         """
         setup = Setup(plan=own_plan(self._task), world=world, camera=self._camera)
         kept = self._read(setup, stage)
@@ -121,8 +121,8 @@ class StartStates:
 
 
 def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
-    """Return a start with one more fault in its world. The fault begins with a stage; until then the two worlds are
-    equal.
+    """Return a start with one more fault in its world. The fault begins with a stage; before that stage, the worlds
+    with and without the fault are equal.
     """
     setup, snapshot = start.setup, start.snapshot
     assert snapshot is not None

@@ -65,7 +65,7 @@ class StepFacts(Protocol):
 
     @property
     def macro(self) -> str:
-        """Name of the macro whose call produced the step; empty if there is none."""
+        """Name of the macro whose call produced the step; empty if no macro produced the step."""
 
     @property
     def needs(self) -> Device | None:
@@ -121,7 +121,9 @@ class Listing(Protocol):
 
     @property
     def numbered(self) -> Mapping[int, str]:
-        """Lines of the text, by the numbers that the text itself gives them. Empty if lines are counted from 1."""
+        """Lines of the text, by the numbers that the text itself gives them. The mapping is empty if lines are counted
+        from 1.
+        """
 
     @property
     def stages(self) -> tuple[str, ...]:
@@ -186,7 +188,7 @@ class RunningSystem(Protocol):
     @property
     def switched_on(self) -> float:
         """The reading of the clock (s) when this object began to simulate. The clock reads 0 at the end of the
-        preparation, so the reading is negative, unless an earlier run stored the preparation: it is then 0.
+        preparation. This reading is therefore negative, or 0 if an earlier run stored the preparation.
         """
         return 0.0
 
@@ -210,7 +212,9 @@ class RunningSystem(Protocol):
 
     @property
     def executed(self) -> Sequence[ExecutedStep]:
-        """The executed steps that the arm has not undone, in order. Empty for a system that cannot undo steps."""
+        """The executed steps that the arm has not undone, in order. The sequence is empty for a system that cannot
+        undo steps.
+        """
         return ()
 
     def reverse(self, undoing: ReversalOrder) -> None:
@@ -247,8 +251,8 @@ class RunningSystem(Protocol):
         return "", ()
 
     def built(self) -> Findings:
-        """Return the referee's findings on the finished work before the arm undid it. Empty if the work was not
-        undone, or was not judged.
+        """Return the findings that the referee made on the finished work before the arm undid it. The result is empty
+        if the work was not undone, or was not judged.
         """
         return {}
 
@@ -268,7 +272,7 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state; the cell must already be in its state of the same moment. Raises
+        """Continue from a copy of a state. The cell must already be in the state that it had at the same moment. Raises
         InvalidInput if the state does not fit the plan.
         """
 
@@ -299,7 +303,7 @@ class RunningSystem(Protocol):
 
     @property
     def live(self) -> LiveNews | None:
-        """What only this system shows in the page of a live run; None if nothing."""
+        """What only this system shows in the page of a live run; None if there is nothing to show."""
         return None
 
     def settables(self) -> Mapping[str, Settable]:
@@ -395,8 +399,9 @@ class System(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
-        """Build the running system before its first step. Raises InvalidInput if it cannot be built on this
-        computer."""
+        """Build the running system before its first step. Raises InvalidInput if the system cannot be built on this
+        computer.
+        """
 
     def machine(self, plan: Any) -> tuple[str, str]:
         """Return the name and digest of the machine for which a plan is made; both are empty if there is no
@@ -409,7 +414,7 @@ class System(ABC):
             raise BadFile(f"this is not a plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
-        """Return the default plan for a task. Raises InvalidInput if there is none."""
+        """Return the default plan for a task. Raises InvalidInput if the task has no such plan."""
         raise refusal(self.name, "plans")
 
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:

@@ -10,7 +10,7 @@ from handeye.runs.system import Listing, System
 
 
 def system_named(name: str) -> System:
-    """Return the system called `name`. Raises InvalidInput if there is none."""
+    """Return the system called `name`. Raises InvalidInput if there is no such system."""
     found: System = loaded(entry_named(name).system)
     return found
 

@@ -1,4 +1,4 @@
-"""What all legs share that move the arm as a machine of tool axes (`handeye/execution/tool_axes.py`)."""
+"""The part common to all legs that move the arm as a machine of tool axes (`handeye/execution/tool_axes.py`)."""
 
 from collections.abc import Sequence
 from typing import Any, Final
@@ -29,7 +29,7 @@ _SIZE: Final = 7  # axes of the tool
 
 
 class ToolMemory(MutableRecord, kw_only=True):
-    """The state of the arm between two steps of a program that moves it by tool axes."""
+    """The state of the arm between two steps of a program that moves the arm by tool axes."""
 
     drive: DriveState
     goal: tuple[float, ...] = ()  # set-points x, y, z (m), O, A, T (rad); empty: the arm was not taken over
@@ -37,8 +37,8 @@ class ToolMemory(MutableRecord, kw_only=True):
 
 
 class ToolArm:
-    """The arm of a cell, for a program that moves its tool axes. Between the legs of the program, others may move
-    the arm.
+    """The arm of a cell, for a program that moves its tool axes. Between the legs of the program, other programs may
+    move the arm.
     """
 
     def __init__(self, cell: SimulatedCell, arm: ArmModel, around: RunCallbacks) -> None:
@@ -50,12 +50,12 @@ class ToolArm:
 
     @property
     def time(self) -> float:
-        """Time on the clock of the cell (s), rounded to its period."""
+        """Time on the clock of the cell (s), rounded to the period of this clock."""
         period = self.arm.servo.period
         return round(round(self.drive.sensed.time / period) * period, 6)
 
     def take_over(self, record: HandOver, station: StationMemory) -> None:
-        """Hold the arm where it stands, and hold the part that the record names, if it names one."""
+        """Hold the arm where it stands, and hold the part that the record names, if the record names a part."""
         memory, drive = self.memory, self.memory.drive
         drive.friction, drive.links, drive.weights = station.friction, station.links, station.weights
         drive.hold_anew(self.cell.devices.sense(), self.arm)
@@ -72,7 +72,7 @@ class ToolArm:
         self.memory.goal = tuple(map(float, self.axes.goal))
 
     def resume(self) -> None:
-        """Go on from a restored memory. Raises BadFile if it does not fit."""
+        """Go on from a restored memory. Raises BadFile if the memory does not fit the arm."""
         goal = self.memory.goal
         if len(goal) not in (0, _SIZE - 1) or not np.isfinite(goal).all():
             raise BadFile("the state of the run does not fit this arm")
@@ -88,8 +88,8 @@ class ToolArm:
 
     @property
     def station(self) -> StationMemory:
-        """What the station knows of itself. It stays as it was taken over, because only the program of 1973 improves
-        the weights and uses the camera.
+        """What the station knows of itself. This knowledge stays as the program received it, because only the program
+        of 1973 improves the weights and uses the camera.
         """
         return self.memory.station
 

@@ -75,7 +75,7 @@ def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None
 def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> Checkpoint:
     """Repeat the steps since the checkpoint, and return a checkpoint of the run after its last finished step.
 
-    A repeated run takes the same course, byte for byte. Raises BadFile if this run takes a different course.
+    A repeated run takes the same course, byte for byte. Raises BadFile if the repeated run takes a different course.
     """
     if not done_since(checkpoint, events):
         return checkpoint

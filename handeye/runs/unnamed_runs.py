@@ -1,5 +1,5 @@
 """Keeps the ten newest unnamed runs, to which the user gave no name, in the folder `runs` of the current folder.
-Each is named after its start time.
+Each folder is named after the start time of its run.
 
 The environment variable HANDEYE_RUNS names another folder; if it is empty, no run is kept without `--out`.
 """
@@ -69,14 +69,14 @@ class UnnamedRun:
 
 
 def newest_run() -> Path | None:
-    """Return the newest run in the folder for runs, whether the user named it or not; None if there is none."""
+    """Return the newest run in the folder for runs, whether the user named it or not; None if there is no run."""
     home = runs_folder()
     return None if home is None else next(_newest_first(_runs(home)), None)
 
 
 def newest_runs(number: int) -> list[Path]:
     """Return the newest runs in the folder for runs, the newest first, whether the user named them or not.
-    Raises BadFile if there are fewer than `number`.
+    Raises BadFile if there are fewer than `number` runs.
     """
     home = runs_folder()
     if home is None:

@@ -47,7 +47,7 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 def difference(trace: Trace, folder: Path) -> str | None:
     """Repeat a run as `repetition` does, and return the first difference as a sentence, even if it is only in
-    the last digits. Returns None if there is none."""
+    the last digits. Returns None if there is no difference."""
     found = repetition(trace, folder)
     return found.rounded or found.parts
 

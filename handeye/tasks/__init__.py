@@ -1,7 +1,8 @@
 """Finds the tasks of all systems by name. No other module lists them.
 
-A task is one of handeye's own, or comes from the entry-point group `handeye.tasks` of an installed package,
-from `--task MODULE:NAME`, or from a Python program that calls `register`. Its module is imported on first use.
+A task is one of handeye's own, or comes from the entry-point group `handeye.tasks` of an installed package, from
+`--task MODULE:NAME`, or from a Python program that calls `register`. A task's module is imported when the task is
+first used.
 """
 
 import os
@@ -85,7 +86,7 @@ def option(name: str) -> tuple[str, ...]:
 
 
 def any_task(name: str) -> AnyTask:
-    """Return the task called `name`, of any system. Raises InvalidInput if there is none."""
+    """Return the task called `name`, of any system. Raises InvalidInput if there is no such task."""
     if not isinstance(name, str):
         raise BadArgument(f"give a task by its name, not by {name!r}")
     found = known_any(name)
@@ -97,12 +98,14 @@ def any_task(name: str) -> AnyTask:
 
 
 def task(name: str = DEFAULT) -> Task:
-    """Return the task called `name`. Raises InvalidInput if there is none, or if it runs no planned programs."""
+    """Return the task called `name`. Raises InvalidInput if there is no such task, or if the task runs no planned
+    programs.
+    """
     return planned(any_task(name))
 
 
 def planned(task: AnyTask) -> Task:
-    """Return `task` unchanged if it runs planned programs. Raises InvalidInput if it does not."""
+    """Return `task` unchanged if it runs planned programs. Raises InvalidInput if the task runs no planned programs."""
     if not isinstance(task, Task):
         system = next((entry.name for entry in entries().values() if task.name in entry.tasks), None)
         if system is not None:
@@ -133,8 +136,9 @@ def known_any(name: str) -> AnyTask | None:
 
 
 def known(name: str) -> Task | None:
-    """Return the task called `name` if it runs planned programs; None if it does not, or if this process does
-    not know it."""
+    """Return the task called `name` if that task runs planned programs. Returns None if the task runs no planned
+    programs, or if this process knows no such task.
+    """
     found = known_any(name)
     return found if isinstance(found, Task) else None
 
@@ -152,7 +156,7 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """For each of handeye's own tasks and each task of its systems, return where it is imported from."""
+    """Return the MODULE:NAME from which each of handeye's own tasks, and each task of its systems, is imported."""
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 
 
@@ -162,7 +166,7 @@ def _entry_points() -> dict[str, str]:
 
 
 def _loaded(words: str) -> AnyTask:
-    """Import the task MODULE:NAME; raises InvalidInput if there is none, or if the import fails."""
+    """Import the task MODULE:NAME. Raises InvalidInput if there is no such task, or if the import fails."""
     module, _, name = words.partition(":")
     if not all(part.isidentifier() for part in (*module.split("."), name)):
         raise BadArgument(f"name a task as MODULE:NAME, such as my_task:TASK, not {quoted(words)}")

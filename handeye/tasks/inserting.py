@@ -35,14 +35,14 @@ class InsertionTruth:
 
 
 class InsertionTask(Task):
-    """A task with one hole. The first stage of each of its programs fetches the pin."""
+    """A task with one hole. In each program of such a task, the first stage fetches the pin."""
 
     programs: Mapping[str, str]  # script files among the plans, by the name of their search
 
     @abstractmethod
     def judge_on_face(self, truth: Truth) -> Findings:
-        """Judge whether the end of the pin stands on the face of the plate. This is the referee of an exercise
-        (docs/course.md).
+        """Judge whether the end of the pin stands on the face of the plate. An exercise of the course uses this
+        function as its referee (docs/course.md).
         """
 
     @abstractmethod

@@ -80,7 +80,7 @@ class Words(Record, frozen=True, kw_only=True):
 
 
 class AnyTask(ABC):
-    """A task for any kind of system. It provides worlds, a scene and a referee."""
+    """A task for any kind of system, which provides worlds, a scene and a referee."""
 
     name: str
     words: Words
@@ -127,14 +127,14 @@ class AnyTask(ABC):
         """
 
     def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
-        """Return the scene of a recorded run, whose plan may determine which objects lie in the cell. Raises the
+        """Return the scene of a recorded run. The run's plan may determine which objects lie in the cell. Raises the
         same errors as `scene`.
         """
         return self.scene(spec)
 
     def shown(self, spec: WorldSpec, plan: bytes | None = None) -> mujoco.MjModel:
-        """Return the scene of a world or, with a plan, of a recorded run. Raises InvalidInput if the scene
-        lacks a camera that the task names, or if no shape in it is visible.
+        """Return the scene of a world. If `plan` is given, return the scene of the run that executed that plan. Raises
+        InvalidInput if the scene lacks a camera that the task names, or if no shape in it is visible.
         """
         scene = self.scene(spec) if plan is None else self.recorded_scene(spec, plan)
         _check_scene(self, scene)
@@ -215,7 +215,7 @@ class Task(AnyTask):
         """Build the cell of a world and switch it on.
 
         Args:
-            camera: the renderer: `auto`, `gl` or `ray`, or a function that makes one.
+            camera: the renderer: `auto`, `gl` or `ray`, or a function that makes a renderer.
 
         Raises:
             InvalidInput: the world does not fit this task, or this renderer does not work on this computer.

@@ -57,6 +57,7 @@ class Trial(ABC, Generic[A]):
         """Count the outcomes of one or more attempts."""
 
     def outcome(self, attempt: A) -> Literal["right", "missed", "wrong"]:
-        """Return the outcome of an attempt. By default it is `wrong` if the attempt accepted a wrong result,
-        and `right` if not."""
+        """Return the outcome of an attempt. By default, the outcome is `wrong` if the attempt accepted a wrong result,
+        and `right` if not.
+        """
         return "wrong" if self.count([attempt]).wrong else "right"

@@ -69,7 +69,7 @@ def json_line(answer: Answer) -> str:
 
 
 def text(answer: Answer) -> str:
-    """Return the answer as text, without a final newline. Empty if there is nothing to report."""
+    """Return the answer as text, without a final newline. The text is empty if there is nothing to report."""
     said = answer.said
     lines = [render(diagnostic, answer.source) for diagnostic in answer.diagnostics]
     lines += [] if said.did is UNSET else summary_lines(said.did)
@@ -82,7 +82,7 @@ def text(answer: Answer) -> str:
 
 
 def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
-    """Plan a text and, if there are no errors, execute it. With `alone`, the text is only a part of the work,
+    """Plan a text and, if there are no errors, execute it. If `alone` is True, the text is only a part of the work,
     and need not be complete.
 
     Raises InvalidInput if the text takes pictures and the camera was not set up.
@@ -131,11 +131,12 @@ def converse(
     json: bool = False,
     strict: bool = False,
 ) -> Answer | None:
-    """Execute lines until the last one, or until the listener accepts no more. With `strict`, stop at the first
+    """Execute lines until the last one, or until the listener accepts no more. If `strict` is True, stop at the first
     line that fails.
 
-    Returns the answer to a line that was refused or whose execution stopped, or None if there was none. `write`
-    gets lines of text without a final newline or, with `json`, one object on one line.
+    Returns the answer to a line that was refused or whose execution stopped, or None if there was no such line.
+    `write` gets each answer, without a final newline: as lines of text, or as one object on one line if `json` is
+    True.
     """
     failed = None
     while not listener.over:

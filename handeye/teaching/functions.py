@@ -43,7 +43,7 @@ def planned(
     """Plan a text for an arm whose joint positions are `start` (rad or m, shape (n,)). `saved` are the names of
     saved differences.
 
-    With `alone`, the text is only a part of the work and need not be complete.
+    If `alone` is True, the text is only a part of the work and need not be complete.
     """
     made = plan_source(source, taught, arm, AL, task=task, start=start)
     told = [
@@ -66,8 +66,9 @@ def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
 
 
 def lasting(lines: Sequence[str]) -> list[str]:
-    """Return the definitions in lines: macros, positions and vectors. They remain valid for instructions that
-    are executed alone."""
+    """Return the definitions in lines: macros, positions and vectors. These definitions remain valid for instructions
+    that are executed alone.
+    """
     script, _ = parse("\n".join(lines))
     written = [lines[s.line - 1] for s in script.statements if s.word is not None and s.word.text in _LASTING]
     for macro in script.macros.values():  # the text of the macro, and the blank line that ends it

@@ -1,5 +1,6 @@
-"""The arm program of 1973: it collects typed instructions, and `DO` executes them. Its commands are defined in
-a table."""
+"""The arm program of 1973, which collects typed instructions. `DO` executes them. A table defines the commands of the
+arm program.
+"""
 
 import re
 from collections.abc import Callable

@@ -66,19 +66,19 @@ class Teacher:
         return given
 
     def joint(self, index: int, goal: float) -> None:
-        """Move one joint to a position (rad or m), and hold all others. Raises Refused if that is impossible."""
+        """Move one joint to a position (rad or m), and hold all others. Raises Refused if the motion is impossible."""
         self._follow(jog(self.workplace.run.arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
-        """Move the hand straight by a displacement (m, table coordinates) without turning it. Raises Refused if
-        that is impossible.
+        """Move the hand straight by a displacement (m, table coordinates) without turning it. Raises Refused if the
+        motion is impossible.
         """
         change = Change(displacement=displacement)
         self._follow(change_samples(self.workplace.run.arm, self.workplace.q, change))
 
     def turn(self, turn: Vector3) -> None:
-        """Turn the hand about its tool point by a rotation vector (rad, table coordinates). Raises Refused if that
-        is impossible.
+        """Turn the hand about its tool point by a rotation vector (rad, table coordinates). Raises Refused if the
+        motion is impossible.
         """
         self._follow(pivot(self.workplace.run.arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
@@ -131,8 +131,8 @@ class Teacher:
     # -- naming ---------------------------------------------------------------------------------------
 
     def name(self, name: str, part: str | None, *, again: bool = False) -> Position:
-        """Store the present hand position under a name, relative to the table or a part. Raises InvalidInput if
-        the name, the part or the file does not allow it.
+        """Store the present hand position under a name, relative to the table or a part. Raises InvalidInput if the
+        name, the part or the file does not allow the position to be stored.
         """
         taught = self.workplace.taught
         if part is not None and part not in taught.parts:

@@ -56,8 +56,8 @@ class Workplace:
         halt: Callable[[], bool],
         observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> None:
-        """Build the cell of a world. With `look`, its camera is set up so that plans can take pictures. With
-        `calibrate`, the camera is calibrated even if a calibration is stored.
+        """Build the cell of a world. If `look` is True, the cell's camera is set up so that plans can take pictures.
+        If `calibrate` is True, the camera is calibrated even if a calibration is stored.
 
         `halt` is the panic button, polled in every servo period. `observers` returns the observers for the
         runner of each plan. Raises InvalidInput if the camera cannot work as requested, and Halted if the panic
@@ -116,7 +116,7 @@ class Workplace:
         return self.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
-        """Plan a text from the present state. `alone` has the same meaning as for `planned`."""
+        """Plan a text from the present state. `alone` has the same meaning as in `planned`."""
         task, saved = self.runner.setup.task, self.run.state.saved
         return planned(source, self.known, self.run.arm, self.q, task=task, saved=saved, alone=alone)
 
@@ -179,7 +179,7 @@ class Workplace:
 
 
 def _onward(state: ExecutionState, plan: Plan) -> ExecutionState:
-    """Return a state for the next plan. It keeps everything but the last plan's place and pictures."""
+    """Return a state for the next plan. The new state keeps everything except the last plan's place and pictures."""
     program, kept = plan.program, copied(state)
     fresh = ExecutionState(drive=kept.drive, world=kept.world)
     for name in _FORGOTTEN:

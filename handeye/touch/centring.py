@@ -53,8 +53,8 @@ class Centring:
     _left: float | None = field(default=None, init=False)
 
     def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:
-        """Return the changes of set-points in the next period (s). `touch` holds the switches, that of the +y
-        finger first; `gap` is in m.
+        """Return the changes of set-points in the next period (s). `touch` holds the states of the two switches, first
+        the switch of the +y finger; `gap` is in m.
         """
         left = gap + OVERDRIVE if self._left is None else self._left
         if all(touch):

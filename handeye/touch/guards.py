@@ -52,13 +52,13 @@ class Monitor(Protocol):
         ...
 
     def check(self, reading: Reading) -> Trip | None:
-        """Return the guard that has tripped, or None. Called once in each servo period."""
+        """Return the guard that has tripped, or None. Call this method once in each servo period."""
         ...
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class VectorMonitor:
-    """Trips when the force (N) that the hand exerts along `vector`, or the moment (N m) about it, exceeds the
+    """Trips when the force (N) that the hand exerts along `vector`, or the moment (N m) about `vector`, exceeds the
     length of `vector`, shape (3,), in world axes.
     """
 
@@ -118,8 +118,8 @@ class TorqueMonitor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TouchMonitor:
-    """Trips when a finger touches. `mask` selects the watched switches of `Sensed.touch`: 1 the first, 2 the
-    second, 3 both (either switch trips the monitor).
+    """Trips when a finger touches. `mask` selects the watched switches of `Sensed.touch`: 1 selects the first, 2 the
+    second, and 3 both. If both are watched, either switch trips the monitor.
     """
 
     mask: int

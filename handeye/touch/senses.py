@@ -1,7 +1,7 @@
 """Limits of plausible sensor readings, and models of the gap between closed fingers.
 
-The limits allow for twice the stated errors of the devices (see the variation tables of the tasks), as in worlds of
-the high level.
+The limits allow for twice the stated errors of the devices (see the variation tables of the tasks). Worlds of the high
+level have such errors.
 """
 
 from typing import Final
@@ -80,7 +80,9 @@ def followed(gap: float, goal: float) -> bool:
 
 
 def leapt(change: float, reach: float) -> bool:
-    """Return True if the gap changed by more (m) than the motor can drive the fingers in that time."""
+    """Return True if the gap changed by more than `reach` (m), the distance that the motor can drive the fingers in
+    that time.
+    """
     return abs(change) > reach + GAP_NOISE
 
 
@@ -92,14 +94,14 @@ def thick(gap: float, thickness: float) -> bool:
 
 
 def kept_apart(gap: float, goal: float) -> bool:
-    """Return True if an object keeps the fingers apart at a gap (m) while they are driven together, even if the
-    grip is too light to close a switch.
+    """Return True if an object keeps the fingers apart at a gap (m) while the motor drives the fingers together. The
+    grip may be too light to close a switch.
     """
     return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 
 
 def stood_still(change: float, driven: float) -> bool:
-    """Return True if the gap has not changed although the fingers were driven together by more than the error of
+    """Return True if the gap has not changed although the motor drove the fingers together by more than the error of
     the gap (all in m).
     """
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
@@ -154,7 +156,7 @@ def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold, which means that the
-    object does not lie in the middle.
+    """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold. The object then does not
+    lie in the middle.
     """
     return gap - kept > 2 * OFF_MIDDLE

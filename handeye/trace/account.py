@@ -17,8 +17,8 @@ _BENEATH: Final = " " * 20  # indents the outcome of a step
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """Return the account of a run as lines of text. It lists the stages, gives the time, line, text and outcome of
-    each step, and says how the run ended.
+    """Return the account of a run as lines of text. The account lists the stages, gives the time, line, text and
+    outcome of each step, and says how the run ended.
     """
     teller = _Teller()
     for event in events:
@@ -114,8 +114,9 @@ class _Teller:
         self._tested = None
 
     def _ended(self, event: happened.StepFinished) -> None:
-        """Report where a motion ended, unless it ended at its goal, or missed the goal by the same offset as
-        the motion before it."""
+        """Report where a motion ended. Nothing is reported if the motion ended at its goal, or missed the goal by the
+        same offset as the previous motion.
+        """
         if event.planned is None or event.hand is None:
             return
         off = np.subtract(event.hand, event.planned)

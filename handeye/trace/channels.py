@@ -55,7 +55,7 @@ class Channel:
 
 
 def _typed(topic: str, kind: type[Message]) -> Channel:
-    """Define a channel of protobuf messages, whose schema describes all types that the messages use."""
+    """Define a channel of protobuf messages. The schema describes all types that the messages use."""
     files: dict[str, Any] = {}
 
     def add(file: Any) -> None:

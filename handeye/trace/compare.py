@@ -15,8 +15,8 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Repetition:
-    """The first differences between two traces, each described in a sentence. If both are None, the traces are
-    identical, byte for byte.
+    """The first differences between two traces, each described in a sentence. If both sentences are None, the traces
+    are identical, byte for byte.
     """
 
     parts: str | None = None  # the first difference that is more than rounding
@@ -92,8 +92,9 @@ def _difference(
     *,
     rounded: bool = False,
 ) -> str:
-    """Describe the difference in a sentence. With `rounded`, describe the first quantity that differs by more
-    than its last digits."""
+    """Describe the difference in a sentence. If `rounded` is True, describe the first quantity that differs by more
+    than its last digits.
+    """
     events = so_far.events
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"

@@ -14,9 +14,9 @@ from handeye.program.events import AnyEvent, RunStarted, WentBack, to_line
 
 
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
-    """Return the events in a file, including those that were undone later when the run went back.
+    """Return the events in a file, including the events that were undone later because the run went back.
 
-    Raises BadFile if a line is not an event, if the last line is incomplete (unless `growing`), or if the run
+    Raises BadFile if a line is not an event, if the last line is incomplete and `growing` is False, or if the run
     does not begin at time 0.
     """
     text = read_whole(path)
@@ -38,7 +38,7 @@ def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
 
 
 def effective(events: Iterable[AnyEvent]) -> list[AnyEvent]:
-    """Return the events without those that were undone when the run went back."""
+    """Return the events, without the events that were undone because the run went back."""
     left: list[AnyEvent] = []
     for event in events:
         if isinstance(event, WentBack):
@@ -80,7 +80,7 @@ class Journal:
         self._write(event)
 
     def undone(self, events: int, time: float, why: Literal["back", "resumed"]) -> None:
-        """Record that only the first `events` events count. If the disk is full now, this is recorded later,
+        """Record that only the first `events` events count. If the disk is full now, the record is written later,
         before the next event.
         """
         self.append(WentBack(time=time, events=events, why=why))

@@ -38,7 +38,7 @@ def scene(truth: Truth, time: int) -> bytes:
 
 
 def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
-    """Add a shape to its body's entity. The lamp is left out; it is the only ball."""
+    """Add a shape to its body's entity. A ball is left out, because the only ball is the lamp."""
     model = truth.model
     material = model.geom_matid[shape]
     r, g, b, a = _short(truth.drawn.mat_rgba[material] if material >= 0 else model.geom_rgba[shape])
@@ -93,7 +93,7 @@ class Frames:
         return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
 
     def there(self) -> Mask:
-        """Return a mask of the bodies that exist now, including bodies that are put away, shape (n,)."""
+        """Return a mask, shape (n,), of the bodies that exist now. Bodies that are put away are included."""
         there: Mask = self._truth.model.geom_group[self._looks] != LATENT
         return there
 

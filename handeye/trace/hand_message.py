@@ -1,5 +1,5 @@
-"""Encodes servo periods as JSON messages. They contain what no typed message covers: force, finger gap and
-guards of the hand, and the channels of machines.
+"""Encodes servo periods as JSON messages. The JSON messages contain what no typed message covers: force, finger gap
+and guards of the hand, and the channels of machines.
 """
 
 from typing import Annotated, Any, Final
@@ -83,7 +83,9 @@ def hand_schema() -> bytes:
 
 
 def in_one_piece(kind: type[Record]) -> bytes:
-    """Return the JSON schema of a record without internal references, because some tools do not follow them."""
+    """Return the JSON schema of a record without internal references, because some tools do not follow such
+    references.
+    """
     whole = msgspec.json.schema(kind)
     return msgspec.json.encode(_in_place(whole, whole["$defs"]), order="sorted")
 

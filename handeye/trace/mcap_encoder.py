@@ -42,8 +42,8 @@ _CRC: Final = struct.Struct("<I")
 
 
 class McapEncoder:
-    """Encodes an MCAP file in pieces, which form the file when they are written one after another. The results of
-    `part` do not belong to the finished file: the whole chunk replaces them.
+    """Encodes an MCAP file in pieces. Together, the pieces form the file if they are written one after another. The
+    results of `part` do not belong to the finished file: the whole chunk replaces them.
     """
 
     def __init__(self) -> None:
@@ -102,7 +102,9 @@ class McapEncoder:
         self._records += head + data
 
     def part(self) -> bytes:
-        """Encode the messages of the chunk in progress that no part of it contains yet; empty if there are none."""
+        """Encode those messages of the chunk in progress that no earlier part contains. Returns no bytes if there are
+        no such messages.
+        """
         chunk = self._chunk(self._partly)
         if chunk is None:
             return b""
@@ -112,7 +114,7 @@ class McapEncoder:
         return bytes(out.end())
 
     def chunk(self) -> bytes:
-        """End the chunk in progress, and encode it; empty if it contains no message."""
+        """End the chunk in progress, and encode it. Returns no bytes if the chunk contains no message."""
         chunk = self._chunk(0)
         if chunk is None:
             return b""
@@ -174,7 +176,9 @@ class McapEncoder:
         return b"".join([data.end(), checked, _CRC.pack(zlib.crc32(checked)), MCAP0_MAGIC])
 
     def _chunk(self, start: int) -> Chunk | None:
-        """Return the chunk in progress from a place on; None if it contains no message there."""
+        """Return the rest of the chunk in progress, from the byte `start` on. Returns None if the rest contains no
+        message.
+        """
         times = [time for index in self._index.values() for time, place in index if place >= start]
         if not times:
             return None

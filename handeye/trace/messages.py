@@ -64,14 +64,16 @@ class JointMessage:
 
 
 class FramesMessage:
-    """Poses of frames in W. Like `JointMessage`, one object is reused for all messages about the same frames."""
+    """Poses of frames in W. One object is reused for all messages about the same frames, as in `JointMessage`."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self._names = names
         self._message = lru_cache(maxsize=_SETS)(self._empty)
 
     def filled(self, time: int, which: list[int], poses: list[list[float]]) -> bytes:
-        """Encode the poses of the frames with the numbers `which`, seven figures each as in `Poses`."""
+        """Encode the poses of the frames with the numbers `which`. Each pose has seven numbers, in the order of
+        `Poses`.
+        """
         seconds, nanos = divmod(time, SECOND)
         message, frames = self._message(tuple(which))
         for (when, place, turn), pose in zip(frames, poses, strict=True):
@@ -82,7 +84,7 @@ class FramesMessage:
     def _empty(
         self, which: tuple[int, ...]
     ) -> tuple[FrameTransforms, list[tuple[Timestamp, Vector3, Quaternion]]]:
-        """Return a message about some frames, and what is to be filled in for each."""
+        """Return a message about some frames, and for each frame the objects that must be filled in."""
         names = (self._names[number] for number in which)
         frames = [FrameTransform(parent_frame_id=WORLD, child_frame_id=name) for name in names]
         message = FrameTransforms(transforms=frames)
@@ -90,7 +92,7 @@ class FramesMessage:
 
 
 def picture(time: int, levels: Picture) -> bytes:
-    """Encode a picture. Its grey levels 0 to 15 are scaled to the range of a byte."""
+    """Encode a picture. The grey levels of the picture, 0 to 15, are scaled to the range of a byte."""
     height, width = levels.shape
     grey = (levels * np.uint8(LEVEL)).tobytes()
     return RawImage(
@@ -127,8 +129,8 @@ def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
 
 
 def read_annotations(data: bytes) -> tuple[int, tuple[Mark, ...]]:
-    """Decode marks. Returns the time at which their picture was taken (ns), and the marks. Raises DecodeError
-    if the data are not marks.
+    """Decode marks. Returns the time (ns) at which a picture was taken, and the marks on that picture.
+    Raises DecodeError if the data are not marks.
     """
     message = ImageAnnotations.FromString(data)
     return message.timestamp.seconds * SECOND + message.timestamp.nanos, tuple(_marks(message))

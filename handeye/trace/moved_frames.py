@@ -24,16 +24,16 @@ class MovedFrames:
         self.written: Poses = np.full((n, 7), np.nan, dtype=np.float32)  # NaN: never
 
     def to_write(self, poses: Poses, there: Mask, *, anew: bool = False) -> list[tuple[list[int], Figures]]:
-        """Return the numbers and poses of the frames to write at each of `m` times; with `anew`, of all frames. The
-        shape of `poses`, which is changed, is (m, n, 7), and that of `there` is (m, n).
+        """Return the numbers and poses of the frames to write at each of `m` times. If `anew` is True, all frames are
+        written. `poses`, shape (m, n, 7), is changed in place; `there` has shape (m, n).
 
-        Bodies that are put away are written only with `anew`, because their poses do not matter. A body that
-        has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
+        Bodies that are put away are written only if `anew` is True, because the poses of such bodies do not matter. A
+        body that has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
 
-        Each pose is compared with the last one written, which depends on the comparisons before it. The first round
-        assumes that nothing was written. Each further round starts from the rows that the round before it chose to
-        write. The rounds end when nothing changes. Each round settles at least one of the `m` times. Frames that rest,
-        or that move all the time, need at most three rounds.
+        Each pose is compared with the last pose that was written. Earlier comparisons determine which pose that is.
+        The first round assumes that nothing was written. Each further round starts from the rows that the round before
+        it chose to write. The rounds end when nothing changes. Each round settles at least one of the `m` times.
+        Frames that rest, or that move all the time, need at most three rounds.
         """
         poses[~there, 2] = 2 * PUT_AWAY
         rows = np.concatenate([self.written[None], poses])

@@ -67,8 +67,8 @@ _MARKED: Final[Mapping[str, type[AnyEvent]]] = {
 
 
 def plot(trace: Trace, stage: str | None = None) -> Plot:
-    """Make the plot of a trace, or of one stage. `stage` is its number among the executed stages, its name, or
-    a part of its name.
+    """Make the plot of a trace, or of one stage. `stage` is the stage's number among the executed stages, the stage's
+    name, or a part of that name.
     """
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)

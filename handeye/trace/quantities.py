@@ -42,11 +42,11 @@ class QuantityDifference(Record, frozen=True, kw_only=True):
 def differing(
     a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None, *, rounded: bool = False
 ) -> QuantityDifference | None:
-    """Return the first quantity, except times, in which two messages on a channel differ, or None if there is
-    none.
+    """Return the first quantity, except times, in which two messages on a channel differ, or None if no quantity
+    differs.
 
-    A message is None if its run has no message at this point. `arm` is the arm whose joints the messages
-    describe; without it, units are unknown. With `rounded`, differences in the last digits do not count.
+    A message is None if its run has no message at this point. `arm` is the arm whose joints the messages describe;
+    without `arm`, units are unknown. If `rounded` is True, differences in the last digits do not count.
     """
     message = a or b
     tell = None if message is None else _TELLERS.get(message.topic)
@@ -67,8 +67,9 @@ def has_quantities(message: RawMessage) -> bool:
 
 
 def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
-    """Return the first quantity, except times, in which two events of the same kind differ, or None if there is
-    none."""
+    """Return the first quantity, except times, in which two events of the same kind differ, or None if no quantity
+    differs.
+    """
     plain = msgspec.to_builtins(a)
     found = next(_differing(_event(plain), _event(msgspec.to_builtins(b))), None)
     if found is None:
@@ -263,8 +264,8 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
 
 
 def values_text(found: QuantityDifference, measures: Measures = INCHES) -> tuple[str, str]:
-    """Return both values as text, with enough decimals to distinguish them, in the units of `measures`; by
-    default, in those of 1973.
+    """Return both values as text, with enough decimals to distinguish them, in the units of `measures`. By default,
+    these are the units of 1973.
     """
     numbers = [value for value in (found.a, found.b) if _is_number(value)]
     told = iter(_numbers(numbers, found.unit, measures))

@@ -29,8 +29,8 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
-    """Read a trace from a file. Raises BadFile if the trace is incomplete (unless `lenient`), is invalid, or
-    does not fit its plan.
+    """Read a trace from a file. Raises BadFile if the trace is invalid, does not fit its plan, or is incomplete and
+    `lenient` is False.
     """
     return read_trace_as(Trace, path, lenient=lenient)
 

@@ -35,7 +35,7 @@ def part(path: Path) -> Path:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSource:
-    """Provides a program's picture, and the marks on it, when an event concerns a picture."""
+    """Provides a program's picture, and the marks on the picture, when an event concerns that picture."""
 
     picture: Callable[[str], Picture]  # the latest picture with this name
     found: Callable[[], tuple[str, Sequence[Mark]]]  # picture and marks that the present step found
@@ -60,8 +60,8 @@ class Recorder:
     ) -> None:
         """Begin a trace. An unfinished trace of another run at this path is replaced.
 
-        `plan` is the content of `plan.json`. To resume a trace, `old` is its content, which may be incomplete, and
-        `prefix` are the events with which it begins.
+        `plan` is the content of `plan.json`. To resume a trace, `old` is the content of that trace, which may be
+        incomplete, and `prefix` are the events with which the trace begins.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []

@@ -1,7 +1,7 @@
 """Reads the records of an MCAP file, and checks that the file is complete and undamaged.
 
-The MCAP library verifies only some of a file's checksums. This module verifies all of them, so that it detects
-every changed bit.
+The MCAP library verifies only some of a file's checksums. This module verifies all checksums, and so detects every
+changed bit.
 """
 
 import struct
@@ -66,7 +66,8 @@ def is_ended(data: bytes) -> bool:
 def check(data: bytes) -> None:
     """Raise DamagedTrace unless an MCAP file is complete and every bit is as written.
 
-    Two checksums cover the whole file: one covers the records up to the end of the data, and one the summary.
+    Two checksums cover the whole file: one covers the records up to the end of the data, and the other covers the
+    summary.
     """
     if not is_ended(data):
         raise DamagedTrace("is cut short")
@@ -110,8 +111,8 @@ def _unpacked(data: bytes) -> bytes:
 
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
-    """Yield the messages in the complete chunks of a file. A damaged chunk raises DamagedTrace or, with
-    `lenient`, ends the messages.
+    """Yield the messages in the complete chunks of a file. A damaged chunk raises DamagedTrace. If `lenient` is True,
+    a damaged chunk ends the messages instead.
     """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):
@@ -131,7 +132,7 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
 
 
 def _modest(chunk: Chunk) -> Chunk:
-    """Return a chunk unchanged. Raises DamagedTrace if it would be larger than `LARGEST` when decompressed."""
+    """Return a chunk unchanged. Raises DamagedTrace if the decompressed chunk would be larger than `LARGEST`."""
     packed = chunk.compression == "zstd"
     size = max(chunk.uncompressed_size, frame_content_size(chunk.data) if packed else len(chunk.data))
     if size > LARGEST or not (packed or chunk.compression == ""):
@@ -177,7 +178,7 @@ def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMes
 
 
 def known(data: bytes, events: Sequence[Event]) -> int:
-    """Return how many of these events, counted from the first, a trace contains unchanged."""
+    """Return the number of leading events in `events` that a trace contains unchanged."""
     written = (message.data for message in read_messages(data, lenient=True) if message.topic == EVENTS)
     count = 0
     for event, there in zip(events, written, strict=False):

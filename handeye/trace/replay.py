@@ -30,7 +30,9 @@ class TakenPicture(Brief):
 
 
 def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
-    """Yield the pictures in messages, in the order of the messages. The event that follows a picture gives its name."""
+    """Yield the pictures in messages, in the order of the messages. The event that follows a picture gives the
+    picture's name.
+    """
     picture: Picture | None = None
     reader = EventReader()
     for message in messages:

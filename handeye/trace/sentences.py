@@ -92,8 +92,8 @@ def renderer_name(renderer: Renderer) -> str:
 
 
 def sentence(event: Event, measures: Measures = INCHES) -> str:
-    """Describe an event in a sentence, without the time. `measures` are the units for the end of a step and for
-    events of the run's system.
+    """Describe an event in a sentence, without the time. The sentence uses the units of `measures` if the event is the
+    end of a step or an event of the run's system.
     """
     match event:
         case happened.RunStarted():

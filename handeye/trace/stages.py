@@ -32,8 +32,9 @@ class Span:
     end: float
 
     def rows(self, times: Array) -> slice:
-        """Return the servo periods within the span, as a slice of `times`, shape (n,). `times` are the ends of
-        the periods."""
+        """Return the servo periods within the span, as a slice of `times`. The array `times`, shape (n,), has the time
+        at the end of each period.
+        """
         first, last = np.searchsorted(times, [self.begin + CLOCKS, self.end + CLOCKS]).tolist()
         return slice(first, last)
 

@@ -47,7 +47,7 @@ class Figures(msgspec.Struct, kw_only=True):
 
 
 class StageFigures(Figures, kw_only=True):
-    """Statistics of a stage. The figures of repetitions are added up."""
+    """Statistics of a stage. If the stage was repeated, the figures of all its executions are added up."""
 
     stage: str
     status: str = BROKEN_OFF  # how its last execution ended: done, stopped, skipped, or interrupted
@@ -124,8 +124,8 @@ def _table(figures: Statistics) -> Table:
 
 
 def _lines(figures: Statistics) -> Group:
-    """Return the statistics as one paragraph per stage and one for the total. Narrow terminals need this,
-    because a table would break words.
+    """Return the statistics as one paragraph per stage and one for the total. A narrow terminal shows these
+    paragraphs, because a table would break words there.
     """
     rows = [*((_name(stage), _cells(stage)) for stage in figures.stages), ("all", _cells(figures.total))]
     told = (

@@ -207,8 +207,8 @@ EXPORT: Final = FolderKind(
 def export_tables(
     path: Path, trace: Callable[[], Trace], kind: Format, *, overwrite: bool
 ) -> tuple[Table, ...]:
-    """Write the tables of a trace to a folder, and return them. `trace` reads the trace. It is called only after the
-    folder has been checked.
+    """Write the tables of a trace to a folder, and return them. The function `trace` reads the trace. It is called
+    only after the folder has been checked.
     """
     check_folder(path, EXPORT, overwrite=overwrite)
     made = tables(trace())

@@ -1,5 +1,5 @@
-"""Thins traces: keeps only the servo periods that are needed to show the run. The others can be interpolated
-linearly from them.
+"""Thins traces: keeps only the servo periods that are needed to show the run. The omitted periods can be interpolated
+linearly from the periods that are kept.
 """
 
 from collections.abc import Iterator
@@ -86,11 +86,11 @@ eighth of a millimetre; for rotations, it is at most .014 degrees.
 
 
 def write_thinned(trace: Trace, path: Path) -> int:
-    """Write a thinned trace of a run. Returns the number of servo periods that it keeps.
+    """Write a thinned trace of a run. Returns the number of servo periods in the thinned trace.
 
-    The thinned trace lacks the joints, hand and frames of all other periods, and the shapes of the bodies,
-    which only other programs use. Frames are rounded. Everything else is unchanged, byte for byte. Raises
-    Refused if the trace is already thinned or contains no motion.
+    The thinned trace lacks the joints, hand and frames of all other periods. It also lacks the shapes of the bodies,
+    because only other programs use these shapes. Frames are rounded. Everything else is unchanged, byte for byte.
+    Raises Refused if the trace is already thinned or contains no motion.
     """
     if trace.thinned:
         raise Refused(f"{trace.name} is already thinned")

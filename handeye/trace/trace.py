@@ -92,8 +92,9 @@ class Trace:
 
     @property
     def efforts(self) -> Array:
-        """Commanded joint torques (N m), or forces (N) for prismatic joints; shape (n, m). Zero while the
-        brakes are on."""
+        """Commanded joint torques (N m), or forces (N) for prismatic joints; shape (n, m). The efforts are zero while
+        the brakes are on.
+        """
         return self.motion.efforts
 
     @property
@@ -137,8 +138,9 @@ class Trace:
         return self._forces.within(spans)
 
     def _line_below(self, place: str) -> str:
-        """Return a hint that names the next executed line. If `place` is the line of a `STOP`, that is the line
-        of its motion."""
+        """Return a hint that names the next executed line. If `place` is the line of a `STOP`, the hint names the line
+        of the motion to which the `STOP` belongs.
+        """
         file, _, number = place.rpartition(":")
         started = [step.started for step in done_steps(self.events) if step.started.file == file]
         below = [step for step in started if number.isdecimal() and step.line > int(number)]
@@ -250,9 +252,9 @@ class Trace:
 
     @cached_property
     def unseen(self) -> int:
-        """Number of events at the beginning of the trace without messages between them. Usually, these are the events
-        that start the run and its first stage. A run resumed from a checkpoint has more, because its earlier events
-        are copied without the messages between them. 0 for a system that moves no arm.
+        """Number of events that precede the first recorded servo period. Usually, these are the events that start the
+        run and its first stage. In a run that was resumed from a checkpoint, the number is larger, because the earlier
+        events are copied without the messages between them. For a system that moves no arm, the number is 0.
         """
         if not self.head.arm:
             return 0
@@ -265,8 +267,9 @@ class Trace:
 
     @property
     def begins(self) -> float:
-        """Time at which the recording of motions begins (s). It is 0, unless the run was resumed from a
-        checkpoint."""
+        """Time at which the recording of motions begins (s). The time is 0, unless the run was resumed from a
+        checkpoint.
+        """
         return self.events[max(self.unseen - 1, 0)].time
 
     @property

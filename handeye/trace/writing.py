@@ -79,7 +79,7 @@ class TraceWriter:
         self.events += 1
 
     def picture(self, event: PictureTaken, picture: Picture) -> None:
-        """Write a picture, still without marks. The event of the picture follows."""
+        """Write a picture, still without marks. After this message, the caller writes the event of the picture."""
         time = nanoseconds(event.time)
         self.file.write(PICTURE, time, messages.picture(time, picture))
         self.file.write(
@@ -87,7 +87,9 @@ class TraceWriter:
         )  # without this, the marks of the previous picture would stay
 
     def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
-        """Write the marks for what vision found in a picture. The event of the finding follows."""
+        """Write the marks for what vision found in a picture. After this message, the caller writes the event of the
+        finding.
+        """
         self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))
 
     def periods(self, waiting: Sequence[tuple[ServoPeriod, Poses, Mask]]) -> None:

@@ -15,7 +15,7 @@ Key = tuple[str, int, int]  # Condition, seed, and index of the trial in that wo
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """The difference between two batches in a measured value, over the pairs of trials that both succeeded."""
+    """The difference between two batches in a measured value, over the pairs in which both trials succeeded."""
 
     pairs: int
     more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch
@@ -76,7 +76,7 @@ def _trials(head: Head, rows: Sequence[TrialRow]) -> dict[Key, PairedTrial]:
 
 
 def beside(name: str, first: Mapping[Key, PairedTrial], other: Mapping[Key, PairedTrial]) -> PairedBatch:
-    """Compare a batch with another. Raises InvalidInput if they have no trials in common."""
+    """Compare a batch with another. Raises InvalidInput if the batches have no trials in common."""
     pairs = [(first[key], this) for key, this in other.items() if key in first]
     if not pairs:
         raise Refused(

@@ -1,5 +1,5 @@
-"""Runs trials on dask workers: on processes of this computer, or on the workers of a cluster, which is given by
-the address of its scheduler.
+"""Runs trials on dask workers. The workers are processes of this computer, or belong to a cluster that is given by the
+address of its scheduler.
 """
 
 from collections.abc import Generator, Iterator, Sequence

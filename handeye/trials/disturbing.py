@@ -1,5 +1,6 @@
-"""Trials in which the cell is disturbed before the arm undoes its work. They show whether a guard stops the arm
-before it does harm."""
+"""Trials in which the cell is disturbed before the arm undoes its work. The trials show whether a guard stops the arm
+before the arm does harm.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -43,7 +44,7 @@ class DisturbanceResult(Record, frozen=True, kw_only=True):
 
     @property
     def harmless(self) -> bool:
-        """True if the arm was stopped before it did harm."""
+        """True if the arm was stopped before the arm did harm."""
         return self.stopped and self.moved <= MOVED and self.felt <= FORCE
 
 
@@ -124,8 +125,8 @@ def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
 
 
 def _moved(runner: Runner) -> tuple[float, str]:
-    """Execute a step. Of the parts that the hand holds neither before nor after the step, finds the one that moved
-    farthest: returns its displacement (mm) and its name.
+    """Execute a step. Of the parts that the hand holds neither before nor after the step, find the part that moved
+    farthest. Returns the displacement (mm) and the name of this part.
     """
     work = task(runner.setup.task)
     before = work.bystanders(runner.cell.truth)

@@ -1,4 +1,4 @@
-"""Executes runs with one fault each. They show whether the fault is noticed, in which stage, and whether the
+"""Executes runs with one fault each. The runs show whether the fault is noticed, in which stage, and whether the
 message names it correctly."""
 
 from collections import Counter
@@ -217,7 +217,7 @@ def _named(expected: ExpectedDetection, result: Result) -> bool:
 
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:
-    """Return True if the errors and messages expected for the fault are right in the stage in which the run stopped."""
+    """Return True if the run stopped in a stage for which the errors and messages expected for the fault are right."""
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 
 

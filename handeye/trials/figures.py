@@ -46,8 +46,8 @@ def rate(successes: int, trials: int) -> Rate:
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
-    """Return the two-sided p-value of McNemar's exact test: the probability that the differing pairs divide at
-    least this unequally if neither batch is better.
+    """Return the two-sided p-value of McNemar's exact test: if neither batch is better, the probability that the pairs
+    with different outcomes divide between the batches at least as unequally as here.
     """
     from scipy.stats import binomtest
 
@@ -100,7 +100,7 @@ class Failure(Record, frozen=True, kw_only=True):
 
 
 class Cause(Record, frozen=True, kw_only=True):
-    """The failures that happened in one stage and have one cause."""
+    """The failures that happened in the same stage for the same cause."""
 
     stage: str
     cause: str
@@ -131,8 +131,8 @@ class Figures(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """Exit code of the command: 3 if the program reported a failure as a success, 1 if no trial finished, and 0
-        in all other cases.
+        """Exit code of the command: 3 if the program reported a failure as a success in any trial, 1 if no trial
+        finished, and 0 in all other cases.
         """
         return 3 if self.silent_failures else int(0 < self.failed == self.n)
 

@@ -134,7 +134,7 @@ class BatchFolder(Generic[R]):
 
     @property
     def unlocked(self) -> str:
-        """The reason why the folder cannot be locked against writing by other commands; empty if it is locked."""
+        """The reason why no lock keeps other commands from writing to the folder; empty if a lock does."""
         return self._file.unlocked
 
     def append(self, row: R) -> None:

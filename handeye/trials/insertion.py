@@ -1,7 +1,8 @@
 """The insertion bench: inserts one pin into one hole, in many worlds and with many position errors of the hole.
 
 A trial begins when the hand holds the pin above the hole. The trial consists of search, insertion and check. The pin
-is fetched once per world. Several trials start from this state, each with a different position error of the hole.
+is fetched once per world. Several trials start from the state in which the hand holds this pin, each with a different
+position error of the hole.
 """
 
 import math
@@ -70,14 +71,14 @@ class Condition(Record, frozen=True, kw_only=True):
 
     @property
     def step(self) -> float:
-        """Distance between neighbouring search places (in). The distance is chosen so that the pin still enters
+        """Distance between neighbouring search places (inches). The distance is chosen so that the pin still enters
         the hole from the worst point between four places."""
         caught = bench().caught(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
         return max(1, math.floor(_STEP_SHARE * math.sqrt(2) * caught / INCH / _PLACE)) * _PLACE
 
     @property
     def hole(self) -> dict[str, float]:
-        """The quantities of a world with the hole of this condition, at the hole's taught position."""
+        """The quantities of a world in which the hole of this condition is at its taught position."""
         return bench().hole(self.clearance * MILLIMETRE, self.chamfer * MILLIMETRE)
 
     @property
@@ -207,8 +208,9 @@ def trials_in_world(condition: Condition, last: InsertionTrial) -> list[Insertio
 
 
 def fetched(plan: Plan, seed: int) -> Runner:
-    """Execute a run in the world of a seed until its second stage begins, with the pin in the hand, or until
-    the run stops earlier."""
+    """Execute a run in the world of a seed until its second stage begins. The hand then holds the pin. If the run
+    stops earlier, execute it until it stops.
+    """
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
     setup = Setup(plan=plan, world=world, camera="ray")
     runner = Runner(Checkpoint(setup=setup))
@@ -277,7 +279,7 @@ def _told(runner: Runner) -> str:
 
 @cache
 def _plan(search: Search, step: float) -> Plan:
-    """Return the plan of a program of the bench with a given search step (in)."""
+    """Return the plan of a program of the bench with a given search step (inches)."""
     file = plans() / bench().programs[search]
     written = read_source(file)
     source = Source(name=written.name, text=written.text.replace(_WRITTEN_STEP, f"SEARCH  {step:g}"))

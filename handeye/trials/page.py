@@ -18,7 +18,7 @@ _WIDE, _HIGH = 240.0, 16.0  # plot in a table row, drawing units
 
 
 def sweep_page(title: str, sweep: Sweep[R], rows: Sequence[R], found: Figures) -> bytes:
-    """Return the page of a sweep. It loads no external files."""
+    """Return the page of a sweep. The page loads no external files."""
     body = element(
         "body",
         element(

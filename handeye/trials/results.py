@@ -31,7 +31,7 @@ _TOLD: Final = 2  # Greatest number of findings in a row
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Results(Sequence[Result]):
-    """Results in the order of their worlds. `print` and notebooks display them as a table."""
+    """Results in the order of their worlds. `print` and notebooks display the results as a table."""
 
     each: tuple[Result, ...]
 
@@ -105,8 +105,8 @@ def assemble_each(
         camera: renderer of the TV camera: `auto`, `gl` or `ray`.
         search: search pattern, as for `handeye.begin`.
         referee: referee or limits, as for `handeye.begin`.
-        jobs: number of parallel processes. If there is more than one, the calling program must be guarded by
-            `if __name__ == "__main__":`, `search` cannot be Python code, and `referee` can only be limits.
+        jobs: number of parallel processes. If there is more than one process, the calling program must be guarded by
+            `if __name__ == "__main__":`, `search` cannot be Python code, and `referee` can only be a set of limits.
 
     Returns:
         a table of results in the order of the worlds.
@@ -138,8 +138,8 @@ def _result(record: Plan, camera: str, limits: Limits | None, world: WorldSpec) 
 
 
 def why(result: Result) -> str:
-    """Return the reason why a result is not right; if several findings failed, the first of them. Empty if the
-    result is right.
+    """Return the reason why a result is not right. If several findings failed, the reason is the first of these
+    findings. The text is empty if the result is right.
     """
     if not result.completed:
         return f"{result.stopped_at or ''}: {result.message}"

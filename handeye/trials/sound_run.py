@@ -38,8 +38,9 @@ class SoundRun:
     stages: tuple[int, ...]  # Stage, numbered from 1, in which each of these lies
 
     def at(self, position: int) -> Checkpoint:
-        """Return the last stored state with at most `position` steps done. Raises InvalidInput if there is
-        none."""
+        """Return the last stored state with at most `position` steps done. Raises InvalidInput if there is no such
+        state.
+        """
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
@@ -48,8 +49,8 @@ class SoundRun:
         return found
 
     def before(self, stage: int) -> Checkpoint:
-        """Return the stored state before the first step of a stage, whose number counts from 1. Raises
-        InvalidInput if there is none.
+        """Return the stored state before the first step of a stage, whose number counts from 1. Raises InvalidInput if
+        there is no such state.
         """
         begun = [start for start, number in zip(self.starts, self.stages, strict=True) if number == stage]
         if not begun:
@@ -65,7 +66,7 @@ def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) 
 
 
 def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
-    """Return the fault-free run of a world. It is executed now, unless the folder contains it. Raises
+    """Return the fault-free run of a world. If the folder does not contain this run, the run is executed now. Raises
     InvalidInput if the folder belongs to another setup.
     """
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")

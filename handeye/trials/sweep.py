@@ -1,7 +1,7 @@
 """Executes a sweep: trials of one kind in many worlds. Each trial is saved when it ends, and statistics are
 computed over all of them.
 
-A kind is a value of type `Sweep`. It defines the record of a trial, the class of each outcome, and the tables
+A kind is a value of type `Sweep`. A kind defines the record of a trial, the class of each outcome, and the tables
 made from many trials. Everything else is common to all kinds: the folder, from which an interrupted sweep can
 continue (`folder`), statistics with their confidence intervals (`figures`), the output on the terminal
 (`text`), the page (`page`), tables (`tables`), and the comparison of batches (`comparing`).
@@ -57,7 +57,7 @@ class Case(Record, frozen=True, kw_only=True):
     condition: str = ""  # Condition under which the trials run; empty: there is only one condition
 
     def __post_init__(self) -> None:
-        """Check the seed. Raises BadArgument if it is out of range."""
+        """Check the seed. Raises BadArgument if the seed is out of range."""
         checked_seed(self.seed)
 
 
@@ -134,7 +134,7 @@ R = TypeVar("R", bound=TrialRow)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Details:
-    """A table that a kind of sweep adds to its statistics. It appears on the terminal, on the page, as CSV and
+    """A table that a kind of sweep adds to its statistics. The table appears on the terminal, on the page, as CSV and
     in the JSON output."""
 
     name: str  # Name of the table and of its key in the JSON
@@ -202,7 +202,7 @@ class Sweep(Generic[R]):
     """True if several trials share a world, so that the seed of a trial does not follow from its number."""
 
     def standing(self, row: R) -> Standing:
-        """Say how a trial's outcome counts: as a success, a failure, or a silent failure, or not at all."""
+        """Say how a trial's outcome counts: as a success, as a failure, as a silent failure, or not at all."""
         return "wrong" if row.broken_off else self.outcomes[row.outcome]
 
 

@@ -18,8 +18,9 @@ NARROWEST: Final = 80
 
 
 class PlainTable(Table):
-    """A table of words and figures. Its contents may come from an untrusted file, so control characters are
-    made visible."""
+    """A table of words and figures. The contents of the table may come from an untrusted file, so control characters
+    are made visible.
+    """
 
     def __init__(self, words: tuple[str, ...], *figures: str) -> None:
         super().__init__(box=None, pad_edge=False, collapse_padding=True, header_style="bold")
@@ -87,7 +88,7 @@ def _measures(figures: "Sequence[ConditionFigures | Figures]") -> PlainTable:
 
 
 def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, str]:
-    """Return the confidence interval and the lower confidence bound of a rate as text. Both are empty if there
+    """Return the confidence interval and the lower confidence bound of a rate as text. Both texts are empty if there
     were no trials.
     """
     return ("", "") if wilson95 is None or p_s is None else (percent(*wilson95), percent(p_s))

@@ -51,7 +51,7 @@ class Worker:
     """A process that executes one trial after another."""
 
     def __init__(self, trial: Callable[[Any], Any], limit_s: float | None = None) -> None:
-        """Start the process. It ignores Ctrl-C at the terminal; the parent process handles it."""
+        """Start the process. The process ignores Ctrl-C at the terminal; the parent process handles it."""
         self.here, there = get_context("spawn").Pipe()
         self.process = get_context("spawn").Process(target=_serve, args=(there, limit_s), daemon=True)
         with deaf_to_interrupts():
@@ -140,8 +140,8 @@ def deaf_to_interrupts() -> Iterator[None]:
     handles Ctrl-C, and ends these processes silently.
 
     Threads that are started in this context, and processes that these threads start, ignore Ctrl-C permanently. An
-    interrupt of the parent is delayed until all processes have started, because the parent cannot yet end a partly
-    started process, which would print an error.
+    interrupt of the parent is delayed until all processes have started, because the parent cannot end a partly started
+    process. Such a process would print an error at Ctrl-C.
     """
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield

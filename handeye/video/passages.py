@@ -1,4 +1,4 @@
-"""Selects the parts of a run that a video shows, and how long each is shown."""
+"""Selects the parts of a run that a video shows, and determines how long the video shows each part."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
 
 
 def _pictures(trace: Trace) -> dict[float, SeenPicture]:
-    """Return the pictures. The keys are the times at which they were taken (s)."""
+    """Return the pictures. The keys are the times (s) at which the pictures were taken."""
     return {picture.time: picture for picture in seen_pictures(RecordedRun(trace=trace))}
 
 

@@ -16,7 +16,7 @@ FOLLOW: Final = "follow"  # a view close to the hand's work, stage by stage
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VideoRequest:
-    """The options of a video. Raises BadArgument if they are impossible."""
+    """The options of a video. Raises BadArgument if the options are impossible."""
 
     camera: str = ORBIT  # a camera of the scene, `orbit` or `follow`
     width: int = 480

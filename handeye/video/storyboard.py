@@ -62,7 +62,7 @@ def _orbit(scene: Any, side: str, frames: int) -> list[View]:
 
 
 def _follow(trace: Trace, side: str, stages: Sequence[int], rate: float) -> list[View]:
-    """Return views close to the work of each stage, which glide from one stage to the next."""
+    """Return views close to the work of each stage. The views glide from one stage to the next."""
     at = _smooth(np.array(_targets(trace))[np.maximum(stages, 0)], round(_GLIDE * rate))
     return [Near(camera=side, place=(x, y, z), distance=distance) for x, y, z, distance in at.tolist()]
 
@@ -71,7 +71,7 @@ def _targets(trace: Trace) -> list[Array]:
     """Return, for each stage, the point at which the camera looks (m) and the distance of the camera from it
     (m), shape (n, 4).
 
-    A stage in which the hand hardly moves gets the values of the next stage, or of the previous one.
+    A stage in which the hand hardly moves gets the values of the next stage or of the previous stage.
     """
     found = [_target(np.array(_hands(trace, stage))) for stage in trace.stages_both_ways]
     return [_nearest(found, number, trace) for number in range(max(len(found), 1))]
@@ -188,7 +188,7 @@ def _span(trace: Trace, wanted: VideoRequest) -> Span:
 
 
 def _recorded(trace: Trace, name: str) -> list[Stage]:
-    """Return all recorded executions of a stage. Raises BadArgument if there are none."""
+    """Return all recorded executions of a stage. Raises BadArgument if there are no such executions."""
     stages = [stage for stage in trace.stages if stage.end > trace.begins]
     found = [stage for stage in stages if stage.name == name]
     if not found:

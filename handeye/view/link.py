@@ -10,7 +10,9 @@ MAX_WAITING_LINES: Final = 100  # a run that moves fetches them in less than a s
 
 
 class Link:
-    """Passes lines and the panic button to a run. Any thread may send them; the run fetches them when it can."""
+    """Passes lines and the panic button to a run. Any thread may send a line or press the button. The run fetches
+    lines and button presses when it can.
+    """
 
     def __init__(self) -> None:
         self.tell: Callable[[str], None] = lambda _: None
@@ -30,7 +32,7 @@ class Link:
         return True
 
     def press(self) -> bool:
-        """Press the panic button. Returns False if nothing is moving that the button could stop."""
+        """Press the panic button. Returns False if nothing moves, so that the button has nothing to stop."""
         with self._lock:
             self._panic = self._goes
             return self._goes

@@ -37,7 +37,7 @@ class Television:
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
         """The time and the name of the picture, and what vision found in it. Two pictures with the same values
-        count as the same. None if there is no picture.
+        count as the same. The value is None if there is no picture.
         """
         return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
 
@@ -113,7 +113,9 @@ class Moment:
 
 
 class Newest(Observer):
-    """Keeps the newest state and the newest picture of a run for display. Other threads may read both."""
+    """Keeps the newest state and the newest picture of a run for display. Other threads may read the state and the
+    picture.
+    """
 
     def __init__(self, runner: Runner) -> None:
         self.follow(runner)

@@ -90,12 +90,12 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
 
 
 def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
-    """Yield buttons. Each is given by the line that it sends, and by its label."""
+    """Yield buttons. Each button is given by the line that it sends, and by its label."""
     return (element("button", shown, type="button", value=line, class_="say") for line, shown in said)
 
 
 def source_region(label: str, *content: Markup, id: str | None = None) -> Markup:
-    """Return a scrolling region beside the cell, which contains a script or a taught file."""
+    """Return a scrolling region with a script or a taught file, to be shown beside the cell."""
     return region(*content, label=label, id=id, class_="source")
 
 

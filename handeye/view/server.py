@@ -1,7 +1,7 @@
 """The server: a thread, parallel to the run, that delivers the page and sends messages to the viewers.
 
-It sends the newest state of the run `MOMENTS_PER_S` times per second and drops all others. A viewer that falls
-too far behind is disconnected, so that no viewer can slow the run down.
+The server sends the newest state of the run `MOMENTS_PER_S` times per second, and drops all states in between. A
+viewer that falls too far behind is disconnected, so that no viewer can slow the run down.
 """
 
 import asyncio
@@ -39,7 +39,7 @@ class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True)
 
 
 class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=True):
-    """A viewer's request to press the panic button. Every viewer may do this."""
+    """A viewer's request to press the panic button. Every viewer may send this request."""
 
 
 class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=True):
@@ -59,8 +59,8 @@ class Viewer:
 
 
 class Server:
-    """Serves one run while its context is entered. It takes its port when it is created, so that a port in use is
-    reported immediately.
+    """Serves one run while its context is entered. The server takes its port when it is created, so that a port in use
+    is reported immediately.
     """
 
     def __init__(self, link: Link, port: int = 0) -> None:
@@ -127,8 +127,9 @@ class Server:
         server.close()
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Return the page, or the reason why the request is refused. None permits the browser to open the
-        socket."""
+        """Return the page, or the reason why the request is refused. The result None permits the browser to open the
+        socket.
+        """
         headers = request.headers
         refusal = self.access.refusal(request.path, headers.get_all("Host"), headers.get_all("Origin"))
         if refusal is not None:

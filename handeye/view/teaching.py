@@ -109,7 +109,7 @@ def _naming(parts: Iterable[str]) -> Markup:
 
 
 class Watch:
-    """The observers of a workplace. They stay the same, although each plan has its own runner."""
+    """The observers of a workplace. The observers stay the same when a new plan brings a new runner."""
 
     def __init__(self, link: Link, pace: Pace) -> None:
         self.newest: Newest | None = None  # None: no cell was built yet
@@ -126,7 +126,7 @@ class Watch:
 
 
 def teach(session: TeachSession, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> None:
-    """Execute lines until the user leaves. The context `aside` is entered while waiting for a line."""
+    """Execute lines until the user leaves. The context `aside` is entered while the function waits for a line."""
     link.tell(_told(session, None))
     for line in filter(str.strip, link.lines(aside)):
         link.tell(msgspec.json.encode({"begun": line.strip()}).decode())

@@ -39,8 +39,8 @@ def shift(first: Picture, second: Picture, where: Points | None = None) -> Array
     rows), shape (2,).
 
     The function first finds the shift, in whole points, at which most points agree. It then computes the remaining
-    fraction of a point from the slopes where the pictures agree. Only those points of the first picture count that
-    are in the mask `where`; by default, all count.
+    fraction of a point from the slopes where the pictures agree. A point of the first picture counts only if it is in
+    the mask `where`; without a mask, all points count.
     """
     a, b = smooth(first), smooth(second)
     counts = np.ones(first.shape, dtype=np.bool_) if where is None else where
@@ -64,7 +64,7 @@ def smooth(picture: Picture | Levels) -> Levels:
 
 def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float:
     """Return the mean difference of two pictures, capped at each point, with the second picture shifted back by (u,
-    v). Every other point is enough, because the pictures are smoothed.
+    v). Only every second point is compared, because the pictures are smoothed.
     """
     rows, columns = a.shape
     here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
@@ -103,8 +103,8 @@ RADIUS: Final = 10  # points; the centre is computed within this radius, that of
 
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:
-    """Find the bright spot that the lit picture has and the dark picture lacks. Returns its centre (u, v), or None
-    unless there is exactly one such spot.
+    """Find the bright spot that the lit picture has and the dark picture lacks. Returns the centre (u, v) of the spot,
+    or None if there is no such spot, or more than one.
     """
     difference = lit_picture.astype(np.float32) - aligned(dark_picture, to=lit_picture)
     smooth = cv2.blur(difference, (3, 3))

@@ -2,8 +2,8 @@
 its holes.
 
 The part stands upright in a given region, on a darker background, turned by at most 50 degrees from its planned
-orientation. Its height is known, so one picture is enough: rays through the holes are intersected with the plane of
-the upper face.
+orientation. The height of the part is known, so one picture is enough: rays through the holes are intersected with the
+plane of the upper face.
 """
 
 import math
@@ -69,8 +69,8 @@ def window(view: View, part: Part, shrink: float = 0.0) -> Array:
 
 
 def _rotated(outline: Rectangle, yaws: Array) -> Array:
-    """Turn an outline about the reference point by `yaws` (rad), shape (n,). Returns its corners (in metres, shape
-    (n, 4, 2)).
+    """Turn an outline about the reference point by `yaws` (rad), shape (n,). Returns the corners of the turned
+    outlines (in metres, shape (n, 4, 2)).
     """
     x0, y0, x1, y1 = outline
     corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
@@ -102,7 +102,7 @@ SCREW_HOLES: Final = 2 / 3  # fraction that must be visible at the places given 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failure:
-    """A part could not be located, with the cause."""
+    """The reason why a part could not be located."""
 
     cause: SightCause
 
@@ -209,8 +209,8 @@ def locate_specific(
 def _found(
     finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
 ) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
-    """Yield candidates for the holes: first near the expected holes, then anywhere in the box with each search, and
-    last in shadow.
+    """Yield candidates for the holes: first near the expected places, then anywhere in the box with each finder, and
+    last near the expected places again, in case a shadow covers the hole.
     """
     yield finders[0], finders[0].expected(place)
     for finder in finders:
@@ -219,7 +219,7 @@ def _found(
 
 
 def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
-    """Return the box of a general location as this view shows it, or None if the box is not in the picture."""
+    """Return the box of a general location as this view shows it, or None if the picture shows too little of it."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))
     right, bottom = (int(n) for n in np.ceil(uv.max(axis=0)))

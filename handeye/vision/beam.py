@@ -64,7 +64,7 @@ def beams(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edges:
-    """Find edges as `door.beams` does. The arguments must already be known to be valid."""
+    """Find edges as `door.beams` does. The caller must have checked the arguments."""
     starts, directions = np.rint(starts), np.asarray(directions, dtype=float)
     scan.beams += len(starts)
     back, ahead = scan.runs(starts, directions)

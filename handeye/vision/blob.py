@@ -35,7 +35,7 @@ class BoundingBox(NamedTuple):
     def with_piece(self, other: "BoundingBox") -> "BoundingBox | None":
         """Return the box around this box and another. Returns None if the two cannot be pieces of one blob.
 
-        A face in the shade may divide a lit blob into pieces. The pieces are then beside each other, separated by
+        A face in the shade may divide a lit blob into pieces. Two such pieces lie side by side. They are separated by
         no more than the length of the smaller piece, and the larger piece is most of the blob.
         """
         around = BoundingBox(

@@ -46,7 +46,7 @@ MIN_SIGHTINGS: Final = 6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sighting:
-    """A picture of the lamp at a known place, in which it appears at (u, v)."""
+    """A picture of the lamp at a known place. The lamp appears at (u, v) in the picture."""
 
     lens: float  # focal length, m
     pan: float  # potentiometer reading, rad, as tilt
@@ -66,8 +66,8 @@ class Calibration:
 
 
 def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibration:
-    """Fit the camera model to the sightings, starting from the values of the design. A lens without sightings
-    keeps these values.
+    """Fit the camera model to the sightings, starting from the values of the design. A lens without sightings keeps
+    the values of the design.
     """
     from scipy.optimize import least_squares
 

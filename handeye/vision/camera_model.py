@@ -43,7 +43,7 @@ class LensModel:
     """
 
     def __post_init__(self) -> None:
-        """Raise ValueError if the focal length is outside the possible range, in which case rendering would take
+        """Raise ValueError if the focal length is outside the possible range, because rendering would then take
         forever.
         """
         if not MIN_FOCAL_LENGTH <= self.focal_length * self.scale <= MAX_FOCAL_LENGTH:
@@ -52,10 +52,11 @@ class LensModel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraModel:
-    """Position and geometry of the camera. Together with two potentiometer readings they determine its view.
+    """Position and geometry of the camera. Position, geometry and two potentiometer readings together determine the
+    view of the camera.
 
     The parameters (mount, two zero errors, roll, focal scale and offset of each lens) are those of the research on
-    this cell. Unlike a 3x4 collineation matrix, they stay valid for other aims and lenses.
+    this cell. Unlike a 3x4 collineation matrix, these parameters stay valid for other aims and lenses.
     """
 
     mount: tuple[float, float, float]  # crossing of pan and tilt axes in W, m
@@ -65,7 +66,9 @@ class CameraModel:
     lenses: tuple[LensModel, ...]
 
     def lens(self, focal_length: float) -> LensModel:
-        """Return the lens with the engraved focal length `focal_length` (m). Raises NoSuchName if there is none."""
+        """Return the lens with the engraved focal length `focal_length` (m). Raises NoSuchName if there is no such
+        lens.
+        """
         for lens in self.lenses:
             if math.isclose(lens.focal_length, focal_length, rel_tol=1e-6):
                 return lens
@@ -91,7 +94,9 @@ class CameraModel:
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """The view of the camera at one setting. It projects points of the world into the picture, and back."""
+    """The view of the camera at one setting. The view projects points of the world into the picture, and points of the
+    picture back into the world.
+    """
 
     model: CameraModel
     lens: LensModel

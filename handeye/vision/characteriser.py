@@ -1,8 +1,8 @@
 """The convex blob characteriser: finds the centre, width and height of a convex blob with beams that bounce inside
 it.
 
-`fit_circle` is our addition to the primitives of 1973 and uses the same beams. The bouncing beams use four points
-of the border, the fit up to 24.
+`fit_circle` is our addition to the primitives of 1973 and uses the same beams. The bouncing beams use four points of
+the border, and the fit uses up to 24 points.
 """
 
 import math
@@ -28,8 +28,8 @@ def walk(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Edge | None:
-    """Find the first edge along a picture line or column, or return None if there is none. The arguments are those
-    of `beams`; for a single beam this is faster.
+    """Find the first edge along a picture line or column, or return None if there is no edge. The arguments are those
+    of `beams`; for a single beam, `walk` is faster than `beams`.
     """
     scan.beams += 1
     u, v, (du, dv) = round(start[0]), round(start[1]), direction
@@ -107,7 +107,7 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Characterise a blob as `door.characterise` does. The arguments must already be known to be valid."""
+    """Characterise a blob as `door.characterise` does. The caller must have checked the arguments."""
     u, v = seed
     for bounce in range(1, BOUNCES + 1):
         level = _chord(scan, (u, v), (1, 0), polarity, step, reach, wide, beyond)
@@ -193,8 +193,8 @@ def _spokes(rays: int) -> Array:
 def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[float, float] | None:
     """Fit a circle of known diameter (m) at height `z` (m) to its border points, shape (n, 2).
 
-    Points are dropped that are NaN, or that disagree with the others because of shadows or noise. Returns the
-    centre (x and y, in metres), or None if fewer than `RAYS` / 2 points remain.
+    Points that are NaN are dropped, and so are points that disagree with the others because of shadows or noise.
+    Returns the centre (x and y, in metres), or None if fewer than `RAYS` / 2 points remain.
     """
     met = points[~np.isnan(points[:, 0])]
     if len(met) < RAYS // 2:
@@ -217,7 +217,7 @@ def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[fl
 
 
 def _median(values: Array) -> float:
-    """Return the median. For such short arrays, `np.median` takes thirty times as long."""
+    """Return the median of a short array. For such an array, `np.median` takes thirty times as long."""
     ordered, half = sorted(values.tolist()), len(values) // 2
     return float(ordered[half] + ordered[-1 - half]) / 2
 

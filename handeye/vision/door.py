@@ -39,7 +39,7 @@ def beams(
         directions: unit vectors (du, dv), shape (n, 2).
         polarity: BRIGHTER finds edges from dark to bright, DARKER from bright to dark.
         step: least difference of mean intensity between the 3 points ahead of the edge and the 3 points behind it.
-        reach: greatest length of the beams, points; one number for all, or one for each, shape (n,).
+        reach: greatest length of the beams, points; one number for all beams, or one number for each beam, shape (n,).
         wide: average over three points across the beam, to reduce noise.
         beyond: least intensity beyond the edge; edges to lower intensities are ignored.
 
@@ -74,18 +74,18 @@ def localise(
     fits: Callable[[BoundingBox], bool] = lambda box: True,
     tries: int = 12,
 ) -> BoundingBox | None:
-    """Find the box around the first blob that lies completely within a window and that `fits` accepts. Returns None
-    if there is none.
+    """Find the box around the first blob that lies completely within a window and that `fits` accepts. Returns None if
+    there is no such blob.
 
-    Beams go inwards from the four sides of the window until one meets a brighter area larger than a speck. A box grows
-    from this area until all its sides are in the background. A blob that reaches the border of the window or of the
-    picture is ignored. The window applies to this call only.
+    Beams go inwards from the four sides of the window until one beam meets a brighter area larger than a speck. A box
+    grows from this area until all its sides are in the background. A blob that reaches the border of the window or of
+    the picture is ignored. The window applies to this call only.
 
     Args:
         window: a convex quadrilateral, as its corners (u, v) in order, shape (4, 2), points; its border must lie on
             background.
         step: least difference of intensity between blob and background.
-        fits: a function that decides whether a box is the wanted one; a rejected box is not tried again.
+        fits: a function that returns True if a box is the wanted box; a rejected box is not tried again.
         tries: greatest number of boxes to grow.
 
     Raises:
@@ -117,8 +117,8 @@ def characterise(
     None if a beam finds no edge.
 
     The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
-    sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help, and so does a
-    second seed, whose result should agree.
+    sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help against this. A second
+    seed is a check: its result should agree with that of the first.
 
     Args:
         seed: a position (u, v) inside the blob, points.

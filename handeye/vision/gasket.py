@@ -1,9 +1,10 @@
 """Inspects a gasket by comparing pictures taken before and after the gasket was laid on.
 
-In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference
-wherever the base or the gasket has a hole, so a displaced gasket shows the *union* of the two holes. The centre of
-the union moves by only half the displacement, but its border moves on one side by all of the displacement.
-Therefore both the centre and the rim are tested. If the gasket is in its place, `gasket_sheet` checks that it is whole.
+In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference wherever
+the base or the gasket has a hole. A displaced gasket therefore shows the *union* of each of its holes and the hole of
+the base below. The centre of the union moves by only half the displacement, but its border moves on one side by all of
+the displacement. Therefore both the centre and the rim are tested. If the gasket is in its place, `gasket_sheet`
+checks that the gasket is whole.
 """
 
 import math
@@ -140,10 +141,11 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
     """Return the positions of the base's holes (in metres, shape (2, 3)), corrected by the position error of the
-    largest hole in the picture taken before.
+    largest hole in the picture without the gasket.
 
-    The aim of the mount may differ from its potentiometers by more than the width of a hole's border, while the arm
-    knows the position of the base more precisely. If the hole is not found, the positions are not corrected.
+    The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border,
+    while the arm knows the position of the base more precisely. If the hole is not found, the positions are not
+    corrected.
     """
     for _ in range(ROUNDS):
         steps = _base_steps(old, view, places[0], part.holes[0])
@@ -155,14 +157,14 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
 
 
 class _BaseSteps(NamedTuple):
-    """Thresholds for the picture taken before: the least step across a border, and the intensity of the face."""
+    """Thresholds for the picture without the gasket: the least step across a border, and the intensity of the face."""
 
     before: float
     face: float
 
 
 class _Steps(NamedTuple):
-    """Thresholds: the least steps across a border in the difference and in the picture taken before, and the
+    """Thresholds: the least steps across a border in the difference and in the picture without the gasket, and the
     intensity of the face.
     """
 
@@ -202,7 +204,7 @@ def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole
 
 
 def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
-    """Return the thresholds for one hole in the picture taken before."""
+    """Return the thresholds for one hole in the picture without the gasket."""
     face = float(np.percentile(_around(old, view, place, hole), 25))
     u, v = view.project(place)[0]
     inside = float(np.median(old.patches(np.array([[u, v]]), 3)))
@@ -210,7 +212,7 @@ def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
 
 
 def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
-    """Return the intensities on a ring around a hole, shape (24,). The ring shows almost only the face or the
+    """Return the intensities on a ring around a hole, shape (24,). Almost all of the ring lies on the face or on the
     gasket.
     """
     return np.asarray(scan.patches(_ring(view, place, hole), 1).mean(axis=(1, 2)))
@@ -228,8 +230,8 @@ def _centre(
 ) -> tuple[float, float] | None:
     """Find the centre (x and y, in metres) of the hole that is expected at `place` (in metres, shape (3,)).
 
-    The characteriser finds the hole, as for the base, and a circle is fitted around the result. If an aligning pin
-    blocks one of the characteriser's four beams, the circle is fitted around the expected place.
+    The characteriser finds the hole, as it does when the base is located, and a circle is fitted around the result. If
+    an aligning pin blocks one of the characteriser's four beams, the circle is fitted around the expected place.
     """
     seed, reach = _seen(view, place, hole)
     blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
@@ -239,7 +241,9 @@ def _centre(
 
 
 def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
-    """Return a place as a picture point, and the greatest distance from there to its hole's border (points)."""
+    """Return the picture point of the place of a hole, and the greatest distance (points) from this point to the
+    border of the hole.
+    """
     u, v = view.project(place)[0].tolist()
     return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 
@@ -248,9 +252,9 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     """Measure the bulge (m) of the border in the difference, around the base's hole at `centre` (in metres, shape
     (3,)).
 
-    The bulge is measured from the median radius of the border, because half of the border of a union of two discs
-    is nearly undisturbed. A ray counts only if the border of the base is visible on it in the picture taken before,
-    because an aligning pin may hide the border.
+    The bulge is measured from the median radius of the border, because half of the border of a union of two discs is
+    nearly undisturbed. A ray counts only if the border of the base's hole is visible on it in the picture without the
+    gasket, because an aligning pin may hide the border.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

@@ -2,8 +2,7 @@
 
 A gasket changes the intensity of the face that it covers, in light and in shadow. Where a piece of the gasket is
 missing, the face looks the same in both pictures. A pin also looks the same, but its intensity usually differs from
-that of the face, so only those points count that, in the picture taken before, look like the face that the gasket then
-covers.
+that of the face, so a point counts only if it looks like the face in the picture without the gasket.
 """
 
 from typing import Final
@@ -39,7 +38,8 @@ _CIRCLE: Final = np.column_stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(64)])
 def bare(before: Picture, after: Picture, view: View, part: Part, large: list[Array]) -> float:
     """Return the greatest area (m2) that the gasket leaves bare within a square with the side WINDOW.
 
-    `large` are the centres of the two large holes of the base in the picture taken before (in metres, shape (3,)).
+    `large` are the centres (in metres, each of shape (3,)) of the two large holes of the base, as found in the picture
+    without the gasket.
     """
     old = smooth(before)
     change = np.abs(smooth(aligned(after, to=before)) - old)
@@ -72,8 +72,8 @@ def _sheet(shape: tuple[int, ...], view: View, part: Part, large: list[Array]) -
 
 
 def _screw_holes(part: Part, large: list[Array]) -> list[Array]:
-    """Return the centres of the screw holes (in metres, shape (3,)). Their positions and their scale follow from the
-    large holes in the picture, because the scale of the camera may be off.
+    """Return the centres of the screw holes (in metres, shape (3,)). The positions and the scale of the screw holes
+    are computed from the large holes in the picture, because the scale of the camera may be off.
     """
     first, second = (complex(*place[:2]) for place in large)
     drawn, other = (complex(hole.x, hole.y) for hole in part.holes[:2])

@@ -210,8 +210,8 @@ class HoleFinder:
         return found
 
     def _circle(self, middle: Array) -> Candidate | None:
-        """Find the largest hole by fitting a circle to the border around a point (u, v), and again around the
-        fitted centre.
+        """Find the largest hole by fitting a circle to the border around a point (u, v), and then a second circle to
+        the border around the fitted centre.
         """
         diameter = self._part.holes[0].diameter
         width, height = diameter * self._across, diameter * self._down
@@ -269,7 +269,7 @@ class HoleFinder:
         return np.array([starts[n] + k * ahead[n] for n, k in steps]).reshape(-1, 2)
 
     def _tried(self, seed: Array) -> Candidate | None:
-        """Characterise the blob around a seed. Returns None if it cannot be a hole of the part."""
+        """Characterise the blob around a seed. Returns None if the blob cannot be a hole of the part."""
         reach = 1.35 * self._part.holes[0].diameter * self._across
         at, wide, beyond = (float(seed[0]), float(seed[1])), self._search.wide, 0.9 * self._bright
         blob = characterise(self._scan, at, self._step, reach, wide=wide, beyond=beyond)

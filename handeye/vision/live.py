@@ -29,8 +29,8 @@ def repeated(picture: Picture, earlier: Picture) -> bool:
 
 
 def noise(picture: Picture) -> float:
-    """Estimate the noise of a picture, as a standard deviation in intensity levels, from how far points deviate
-    from the mean of their neighbours on the line.
+    """Estimate the noise of a picture, as a standard deviation in intensity levels, from how far points deviate from
+    the mean of their neighbours on the same picture line.
 
     The median is used, because edges are few. Completely black and white points show no noise and do not count.
     """

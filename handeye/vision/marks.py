@@ -1,9 +1,10 @@
 """Marks in picture points that show the findings in a picture.
 
-The box of general location is white; holes have a red cross and a yellow box, with a line between their centres.
-The line of the first grasp is blue; picture 10 of the paper shows these two lines. The expected centres of a
-gasket's holes are red crosses. The centres found are discs, which are green if the gasket is right. If a part is
-checked again, its outline is green if the part stands as before, and red if not.
+The box of general location is white. Each hole has a red cross and a yellow box, and a red line joins the centres of
+the two holes. The line of the first grasp is blue. Picture 10 of the paper shows the line between the holes and the
+line of the grasp. The expected centres of a gasket's holes are red crosses. The centres found are discs, which are
+green if the gasket is in place, and red if not. If a part is checked again, its outline is green if the part stands as
+before, and red if not.
 """
 
 from dataclasses import dataclass

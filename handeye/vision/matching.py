@@ -1,8 +1,9 @@
 """Decides whether a part stands in a picture as it stood in an earlier picture.
 
-Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each
-picture slightly, so the part is compared with its surroundings. Its shift relative to them is measured in fractions
-of a point, and other differences appear as changed points. This comparison is our addition to the vision of 1973.
+Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each picture
+slightly, so the part is compared with its surroundings. The shift of the part relative to its surroundings is measured
+in fractions of a point, and other differences appear as changed points. This comparison is our addition to the vision
+of 1973.
 """
 
 from typing import Final

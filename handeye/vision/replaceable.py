@@ -1,4 +1,4 @@
-"""The vision functions that a calling program can replace, and wrappers for its own functions.
+"""The vision functions that a calling program can replace with its own functions, and wrappers for those.
 
 A wrapper checks the result of the caller's function. The wrapper also computes where the part would appear in the
 picture if it were at the place that the function returned. Reports mark this place.
@@ -48,7 +48,7 @@ BUILT_IN: Final = VisionFunctions()
 
 
 def with_functions(functions: Mapping[str, Callable[..., Any]]) -> VisionFunctions:
-    """Return the vision functions, with other ones behind the instructions that `functions` names."""
+    """Return the vision functions, with the given functions behind the instructions that `functions` names."""
     return VisionFunctions(**{word.lower(): function for word, function in functions.items()})
 
 
@@ -93,8 +93,8 @@ def specific_by(name: str, function: Callable[..., Any]) -> Specific:
 
 
 def inspect_by(name: str, function: Callable[..., Any]) -> Inspect:
-    """Wrap a function that takes the pictures before and after a gasket was laid, the view, the part under the gasket
-    and the pose x, y (m), yaw (rad) of the part, and returns True if the gasket is in place.
+    """Wrap a function that returns True if a gasket is in place. The function takes the picture before the gasket was
+    laid, the picture after that, the view, the part under the gasket, and the pose x, y (m), yaw (rad) of this part.
     """
 
     def inspected(before: Picture, after: Picture, view: View, part: Part, pose: Pose2D) -> GasketInspection:
@@ -127,7 +127,7 @@ def _outline(view: View, part: Part, place: tuple[float, float]) -> Array:
 
 
 def _holes(view: View, part: Part, pose: Pose2D) -> tuple[SeenHole, SeenHole]:
-    """Return the two largest holes of a part at a pose, as they would appear."""
+    """Return the two largest holes of a part at a pose, as they would appear in the picture."""
     if len(part.holes) < 2:
         raise BadArgument("two holes are needed to locate a part, but the program gives fewer")
     seen = []

@@ -17,8 +17,8 @@ MARGIN: Final = 1  # border points that no beam enters, so that a beam can be th
 
 
 def numbers(given: object, said: str) -> Array:
-    """Convert an argument to an array of finite numbers. If that is impossible, raises BadArgument with a message
-    that begins with `said`.
+    """Convert an argument to an array of finite numbers. If the argument cannot be converted, raises BadArgument with
+    a message that begins with `said`.
     """
     try:
         found = np.asarray(given)
@@ -41,8 +41,8 @@ def places(given: object, said: str) -> Array:
 
 
 def quadrilateral(given: object) -> Array:
-    """Convert an argument to the corners (u, v) of a convex quadrilateral, shape (4, 2). Raises BadArgument if it
-    is not one.
+    """Convert an argument to the corners (u, v) of a convex quadrilateral, shape (4, 2). Raises BadArgument if the
+    argument is no such quadrilateral.
     """
     said = "a window must have four corners (u, v) in order, shape (4, 2)"
     found = places(given, said)
@@ -79,12 +79,12 @@ def _intensities(picture: object) -> NDArray[np.float32]:
 
 
 class Scan:
-    """A picture in which beams (straight rays) search for edges, within a window. It counts the beams, and the points
-    that they read, for timing and display.
+    """A picture in which beams (straight rays) search for edges, within a window. The scan counts its beams, and the
+    points that these beams read, for timing and display.
     """
 
     def __init__(self, picture: NDArray[np.generic]) -> None:
-        """`picture` holds intensities, shape (rows, columns). Raises BadArgument if it does not."""
+        """`picture` holds intensities, shape (rows, columns). Raises BadArgument if `picture` is anything else."""
         self.image: NDArray[np.float32] = _intensities(picture)
         self.rows, self.columns = self.image.shape
         self._levels = memoryview(self.image.ravel().data)
@@ -102,7 +102,9 @@ class Scan:
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
-        """Remove the window. Beams may then go everywhere except on the margin, which is the outermost points."""
+        """Remove the window. After this call, beams may go everywhere in the picture except on its margin, the
+        outermost points.
+        """
         low, high = MARGIN - 0.5, MARGIN + 0.5
         self._look_within(
             np.array(
@@ -112,8 +114,8 @@ class Scan:
         )
 
     def limit(self, corners: ArrayLike) -> None:
-        """Set the window, a convex quadrilateral that limits all beams. It replaces the previous window. Raises
-        BadArgument if `corners` form no such quadrilateral.
+        """Set the window, a convex quadrilateral that limits all beams. The new window replaces the previous window.
+        Raises BadArgument if `corners` form no such quadrilateral.
 
         `corners` are (u, v), points, in order around the window, shape (4, 2).
         """
@@ -166,8 +168,8 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """Return the lengths (points) of one ray within the window, backwards and forwards, or (0, -1) if its start
-        is outside.
+        """Return the lengths (points) of one ray within the window, backwards and forwards, or (0, -1) if the start of
+        the ray is outside the window.
         """
         back = ahead = math.inf
         for a, b, c in self._lines:

@@ -1,7 +1,7 @@
 """Checks of control flow, made on the graph of steps.
 
-A statement of a macro becomes several steps, one for each call of the macro. The statement is reported only if it
-is wrong in all calls that give it the same operands.
+A statement of a macro becomes several steps, one for each call of the macro. The statement is reported only if the
+statement is wrong in all calls that give it the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -40,7 +40,9 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after an operation of another kind; if `later` is True, only before one."""
+    """An operation that makes sense only after an operation of another kind or, if `later` is True, only before an
+    operation of that kind.
+    """
 
     code: str
     of: type[Operation]

@@ -164,7 +164,9 @@ def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagn
 
 
 def _in_comments(source: Source, refers: tuple[Refers, ...]) -> dict[str, int]:
-    """Find the instructions that are commented out. Returns their lines, by their first operands."""
+    """Find the instructions that are commented out. Returns the line of each of these instructions, by the
+    instruction's first operand.
+    """
     words = {i.op for i in INSTRUCTIONS.values() if i.operands and i.operands[0].refers in refers}
     found: dict[str, int] = {}
     for comment in _COMMENTED_OUT.finditer(source.text):

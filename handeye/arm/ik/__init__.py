@@ -41,7 +41,8 @@ _SOLVERS: Final[Mapping[Structure, Solver]] = {
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find joint positions for the hand at `X_WT`: within the joint limits, the branch nearest to `near`.
+    """Find joint positions that bring the hand to `X_WT`. Of the branches within the joint limits, the result is the
+    one nearest to `near`.
 
     The distance between configurations is the sum of the travel times of the joints. Joints that do not affect the
     pose stay as in `near`, and held joints stay at their fixed positions. If a pose is out of reach only because
@@ -59,10 +60,10 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Arr
     """Return all closed-form solutions for hand poses of shape (..., 4, 4), whether or not they are within the
     joint limits.
 
-    The first result is joint positions, shape (..., k, n), with revolute joints in (-pi, pi]. The second is a mask
-    of the branches that exist, shape (..., k). Free joints, which do not affect the pose, and held joints stay as
-    in `start`, the configuration in which a motion along the poses begins. Without `start`, free joints are 0 and
-    held joints are at their fixed positions.
+    The first result is joint positions, shape (..., k, n), with revolute joints in (-pi, pi]. The second result is a
+    mask of the branches that exist, shape (..., k). Free joints, which do not affect the pose, and held joints stay as
+    in `start`, the configuration in which a motion along the poses begins. Without `start`, free joints are 0 and held
+    joints are at their fixed positions.
     """
     return _SOLVERS[arm.structure].branches(arm, X_WT, start)
 

@@ -47,7 +47,9 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the only branch. It exists if the slides alone can bring the hand to the pose, without turning it."""
+    """Return the only branch. The branch exists if the slides alone can bring the hand to the pose, without turning
+    the hand.
+    """
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q, off = _nearest_position(arm, b, X, b.held_at if start is None else start[b.held])
     exists = (np.linalg.norm(off, axis=-1) <= WRITTEN[0]) & (_turn_angle(b, X) <= WRITTEN[1])
@@ -55,8 +57,8 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> tuple[Array, Array]:
-    """Find joint positions that bring the hand nearest to poses. Returns the positions, shape (..., n), and the
-    remaining displacement, shape (..., 3), in m.
+    """Find the joint positions that bring the hand nearest to each of some poses. Returns the positions, shape (...,
+    n), and the remaining displacement, shape (..., 3), in m.
     """
     q = np.zeros((*X_WT.shape[:-2], len(arm.joints)))
     q[..., b.held] = held_at
@@ -66,13 +68,13 @@ def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> t
 
 
 def _turn_angle(b: _Build, X_WT: Pose) -> Array:
-    """Return the angle (rad) between the fixed orientation of the hand and the orientation of poses."""
+    """Return the angle (rad) between the fixed orientation of the hand and the orientation of each pose."""
     chord = np.linalg.norm(X_WT[..., :3, :3] - b.R_WT, axis=(-2, -1)) / (2 * math.sqrt(2))
     return np.asarray(2 * np.arcsin(np.minimum(chord, 1.0)))
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find the solution, or else the turn, direction or joint limit that prevents one."""
+    """Find the solution. If there is none, find the turn, the direction or the joint limit that prevents a solution."""
     b = _build(arm)
     angle = float(_turn_angle(b, X_WT))
     if angle > WRITTEN[1]:

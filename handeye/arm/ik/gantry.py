@@ -60,7 +60,7 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Return two branches: wrist not flipped, then flipped. Both always exist."""
+    """Return two branches: wrist not flipped, then flipped. Both branches always exist."""
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q = np.zeros((*X.shape[:-2], 2, len(arm.joints)))
     q[..., b.held] = b.held_at if start is None else start[b.held]
@@ -89,7 +89,7 @@ def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Arra
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find the best branch, or else the failure of the joint that is farthest beyond its limits."""
+    """Find the best branch. If there is none, find the failure of the joint that is farthest beyond its limits."""
     b, start = _build(arm), near.copy()
     start[b.held] = b.held_at
     here = near.tolist()
@@ -102,8 +102,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
-    """Return the given configuration. If both roll axes are in line, return all ways within the limits to share
-    their common turn.
+    """Return the given configuration. If both roll axes are in line, return all configurations within the limits that
+    divide the common turn between the two joints.
     """
     if abs(math.sin(q[-2])) >= _COLLINEAR:
         return [q]

@@ -24,11 +24,12 @@ _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to join
 
 
 def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
-    """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if
-    there are none.
+    """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if there
+    are no such positions.
 
-    The search begins at the solutions `starts`, and then again slightly beside them: from a configuration in which
-    joint axes are in line, some poses nearby cannot be approached by any first step.
+    The search begins at the solutions `starts`, and then again slightly beside each solution. The second search is
+    needed for a solution in which joint axes are in line: from there, no first step leads towards some of the nearby
+    poses.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]
@@ -65,8 +66,8 @@ def _miss(X_WT: Pose, X: Pose) -> Array:
 
 
 def _stepped(arm: ArmModel, q: Array, miss: Array) -> Array:
-    """Return the configuration after the step that comes nearest to the pose. A joint that would pass its limit
-    stops at the limit, and the other joints compensate.
+    """Return the configuration after the step that comes nearest to the pose. If a joint would pass its limit, it
+    stops at the limit, and the other joints compensate for that.
     """
     J = jacobian(arm, q) / np.repeat(WRITTEN, 3)[:, None]
     free: NDArray[np.bool_] = np.array([joint.name not in arm.held for joint in arm.joints])

@@ -29,8 +29,8 @@ class IKResult:
         return "" if self.reason is None else reach_sentence(arm, self.reason)
 
     def cause(self, arm: ArmModel, goal: str = "") -> BeyondArm:
-        """Return the failure as the cause of an error. `goal` is the name of the goal position, or "" if it has
-        none.
+        """Return the failure as the cause of an error. `goal` is the name of the goal position, or "" if the goal has
+        no name.
         """
         # solvers compute with the numbers of arrays, which do not go to disk
         plain = msgspec.to_builtins(self.reason, enc_hook=np.generic.item)
@@ -47,8 +47,8 @@ than the greatest distance.
 
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
-    """Choose the solution within the limits that the arm reaches soonest from `near`. If there is none, return the
-    failure of the solution that is least beyond its limits.
+    """Choose the solution within the limits that the arm reaches soonest from `near`. If no solution is within the
+    limits, return the failure of the solution that is least beyond the limits.
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
@@ -85,8 +85,8 @@ def _inside(joint: Joint, x: float) -> bool:
 
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
-    """Return the failure of the joint farthest beyond its limit, and the travel time of that joint from the limit.
-    Prismatic joints come first, because no other branch avoids their failures.
+    """Return the failure of the joint that is farthest beyond its limit, and the time in which this joint would travel
+    from there to its limit. Prismatic joints come first, because no other branch avoids their failures.
     """
     outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
     excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]
@@ -102,8 +102,8 @@ def beyond(joint: Joint, index: int, x: float) -> OutOfReach | JointLimit:
 
 
 def nearest_turn(joint: Joint, x: float, near: float) -> float:
-    """Add whole turns to `x`: return the value within the limits that is nearest to `near`, or if there is none,
-    the value nearest to the limits.
+    """Add whole turns to `x`, and return the value within the limits that is nearest to `near`. If no value is within
+    the limits, return the value nearest to the limits.
     """
     if joint.kind == "prismatic":
         return x

@@ -11,7 +11,7 @@ _ROBOTS: Final = {STANFORD.name: STANFORD}
 
 
 def robot(name: str) -> ArmModel | None:
-    """Return the arm called `name`, or None if there is none."""
+    """Return the arm called `name`, or None if there is no such arm."""
     return _ROBOTS.get(name)
 
 

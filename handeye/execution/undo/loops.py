@@ -1,10 +1,10 @@
-"""Finds executed steps that changed only the memory of the program. One lift of the hand reverses all of them.
+"""Finds executed steps that changed only the memory of the program. One lift of the hand reverses all these steps.
 
-Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is taken
-to be in the state in which it was after that step, under these conditions: since then no stage began and the
-operator was not called; the hand holds the same object; every object was put down at the place where it was taken
-up, or taken up at the place where it was put down; and every screw driven in was backed out. Rounds that carry
-objects to another place do not meet the conditions and are reversed step by step.
+The steps that changed only the memory are rounds of a loop, and touches. When a program has jumped back to an earlier
+step, the cell is assumed to be in the state in which it was after that step, if these conditions hold: since then no
+stage began and the operator was not called; the hand holds the same object; every object was put down at the place
+where it was taken up, or taken up at the place where it was put down; and every screw driven in was backed out. Rounds
+that carry objects to another place do not meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a
 touch were reversed step by step, the hand would touch the object a second time. If the object has been pushed since
@@ -31,13 +31,13 @@ def loop_entry(
     done: Sequence[ExecutedStep], hand: Callable[[int], Array | None], *, grasping: bool | None = None
 ) -> int | None:
     """Return the index of the step to which the last jump back returned, if the cell is in the state in which that
-    step left it. Returns None if there is no such step.
+    step left the cell. Returns None if there is no such step.
 
     The jump counts only if all motions since that step were in free air. If a MOVE to the next place of a search were
     reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes the index
     of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the hand had not
-    moved yet. `grasping` is True if, at the end of the last step, the fingers have closed and not opened since; it is
-    None if the last step did not change this.
+    moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if the fingers have
+    closed, and have not opened after that. It is None if the last step did not change this state.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -70,7 +70,7 @@ def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
     """Return the index of the step before a touch of the empty hand, if the last step moved the hand off the
     touched object. Returns -1 if the touch was the first step, and None if the last step did not follow a touch.
 
-    `grasping` is True if the fingers have closed and not opened since.
+    `grasping` is True if the fingers have closed, and have not opened after that.
     """
     last = len(done) - 1
     if grasping or last < 1 or not _goes_empty(done[last]):

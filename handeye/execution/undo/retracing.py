@@ -2,8 +2,8 @@
 path.
 
 The arm is stopped by force that has built up in any direction since the reversal began, and by early contact of
-closing fingers. Fingers close on the middle of the hand. An object beside the middle is touched by one finger
-first, while the gap is still too wide. If the fingers closed on it, they would push the object to the middle, or
+closing fingers. Fingers close on the middle of the hand. An object beside the middle is touched by one finger first,
+while the gap is still too wide. If the fingers closed on such an object, they would push the object to the middle, or
 push the arm, and the final gap would look right.
 """
 
@@ -103,7 +103,7 @@ def retracing(
     is at most as fast as guarded motions.
 
     If `feeling` is True, the fingers close at most at the speed of centring. Faster fingers would push a loose
-    object ahead, and their switches would be open at most readings.
+    object ahead, and the switches of the fingers would usually be read as open.
     """
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)
@@ -152,7 +152,7 @@ def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedS
 
 
 def where_the_hand_is(run: ExecutionContext, way: RecordedPath) -> RecordedPath:
-    """Shift the path of a grasp to the present position of the arm, which may be higher."""
+    """Shift the path of a grasp to the present position of the arm. The arm may now be higher than the path."""
     return RecordedPath(q=way.q + (run.drive.state.q - way.q[-1]), gap=way.gap)
 
 

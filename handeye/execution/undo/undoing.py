@@ -75,7 +75,7 @@ def order(state: ExecutionState, undoing: ReversalOrder) -> None:
 
 
 def end(state: ExecutionState) -> None:
-    """End a reversal. The magnet is switched on again, because it is always on while a program runs."""
+    """End a reversal. The magnet is switched on again, because the magnet is always on while a program runs."""
     state.undoing, state.drive.magnet = None, True
 
 
@@ -83,7 +83,8 @@ def undo_last(run: ExecutionContext) -> UndoFailure | None:
     """Reverse the last executed step, or all the steps that one lift reverses, and remove them from the list of
     executed steps.
 
-    Returns None, or the reason why the reversal stopped. If it stopped, the last step is only partly reversed.
+    Returns None, or the reason why the reversal stopped. If the reversal stopped, the last step is only partly
+    reversed.
     """
     state = run.state
     first = _first_of_lift(run)
@@ -126,7 +127,8 @@ def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> 
     """Restore the memory from before the step at index `first`. Removes this step and all later steps from the
     executed steps, and returns them.
 
-    `remembered` holds, for each of these steps, the memory before the step as far as the step changed it.
+    `remembered` holds, for each of these steps, the part of the memory that the step changed, as it was before the
+    step.
     """
     state, undone = run.state, run.state.done[first:]
     for memory in reversed(remembered):
@@ -197,12 +199,13 @@ def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 
 
 def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a grasp: open the fingers to the earlier gap. If they held an object before the step, they grip it
-    again as firmly as before.
+    """Reverse a grasp: open the fingers to the earlier gap. If the fingers held an object before the step, they grip
+    this object again as firmly as before.
 
-    Before opening, the fingers must hold the object that they grasped: the gap must be the same as in the grasp, or
-    as in a later grasp during the reversal. A carried object may straighten between the fingers; in the world of
-    seed 1, one base changed the gap by 1.1 mm. A change of more than twice that means another object, or no object.
+    Before opening, the fingers must hold the object that they grasped: the gap must be the same as in the grasp, or as
+    in a later grasp during the reversal. A carried object may straighten between the fingers: in the world of seed 1,
+    a base that straightened changed the gap by 1.1 mm. A change of more than twice this amount means another object,
+    or no object.
     """
     kept = done.gap[1]
     held = kept if run.state.held is None else run.state.held
@@ -276,7 +279,9 @@ def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 def _off_hold(
     run: ExecutionContext, kept: float, closer: float, wider: float, *, holding: bool = True
 ) -> UndoFailure | None:
-    """Check that the gap is that of the executed step, at most `closer` less and at most `wider` more (m)."""
+    """Check that the gap is that of the executed step. The gap may be smaller by at most `closer` (m), or larger by at
+    most `wider` (m).
+    """
     gap = run.drive.sensed.gap
     if as_before(gap, kept, closer, wider):
         return None
@@ -337,7 +342,7 @@ def _lift(run: ExecutionContext, entry: int) -> UndoFailure | None:
 
 
 def _met(run: ExecutionContext, outcome: Outcome, meeting: EarlyContact | None = None) -> UndoFailure | None:
-    """Return the failure if a motion ends the reversal, or None if it does not."""
+    """Return the failure if a motion ends the reversal, or None if the reversal goes on."""
     if outcome.error is not None:
         return UndoFailure(error=outcome.error, cause=outcome.cause)
     if outcome.trip is None:

@@ -32,7 +32,7 @@ def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
 
 
 def cause_sentence(cause: Cause) -> str:
-    """Write the sentence for a cause. The sentence is empty if the meaning of the error says it all."""
+    """Write the sentence for a cause. The sentence is empty if the meaning of the error already says everything."""
     if isinstance(cause, SenseCause):
         return doubt_sentence(cause)
     match cause:

@@ -29,7 +29,9 @@ class ArmNames(Record, frozen=True, kw_only=True):
 
 
 class BeyondArm(CauseRecord, frozen=True, kw_only=True):
-    """The arm cannot reach a pose, or cannot move there. `goal` is the name of the position, if it has one."""
+    """The arm cannot reach a pose, or cannot move to that pose. `goal` is the name of the position, if the position
+    has a name.
+    """
 
     goal: str = ""
     reason: ReachFailure
@@ -42,9 +44,8 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):
-    """A joint did not follow its set-point. `swings` is True if it was far off on both sides during the motion.
-
-    `of` is the part at whose place the motion should end, if any.
+    """A joint did not follow its set-point. `swings` is True if the joint was far off on both sides during the motion.
+    If the motion should end at the place of a part, `of` is that part.
     """
 
     joint: str
@@ -55,8 +56,8 @@ class JointBehind(CauseRecord, frozen=True, kw_only=True):
 class HandAstray(CauseRecord, frozen=True, kw_only=True):
     """The hand is off its set-point by `distance` (m) at the end of a motion.
 
-    `joint` is the joint with the largest following error relative to its limit. `swings` is True if it was far off
-    on both sides during the motion. `of` is the part at whose place the motion should end, if any.
+    `joint` is the joint with the largest following error relative to its limit. `swings` is True if this joint was far
+    off on both sides during the motion. If the motion should end at the place of a part, `of` is that part.
     """
 
     distance: float
@@ -106,8 +107,8 @@ class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapTooSmall(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) of the closed fingers is below the minimum. `of` is the part at whose place the fingers closed,
-    if any.
+    """The gap (m) of the closed fingers is below the minimum. If the fingers closed at the place of a part, `of` is
+    that part.
     """
 
     gap: float
@@ -193,7 +194,7 @@ class GasketHoleOff(HoleFault, frozen=True, kw_only=True):
 
 
 class GasketTorn(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
-    """The gasket leaves a patch of the base's face bare, of the area `bare` (m2)."""
+    """The gasket leaves a patch of the base's face bare. The patch has the area `bare` (m2)."""
 
     bare: float
 
@@ -208,7 +209,9 @@ class GasketWrong(CauseRecord, frozen=True, kw_only=True):
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of it looks different."""
+    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of the part looks
+    different.
+    """
 
     off: float
     unlike: float
@@ -222,8 +225,8 @@ class NoSearch(CauseRecord, frozen=True, kw_only=True):
 
 
 class PlacesTried(CauseRecord, frozen=True, kw_only=True):
-    """The search has tried all its places. `around` is the name of the position at which it started, if that has a
-    name.
+    """The search has tried all its places. `around` is the name of the position at which the search started, if this
+    position has a name.
     """
 
     places: int
@@ -255,7 +258,7 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
 
 
 class MetEarly(CauseRecord, frozen=True, kw_only=True):
-    """Closing fingers touched at a wider gap (m) than `kept` (m), the gap at the time of the step."""
+    """While closing, the fingers touched at a wider gap (m) than `kept` (m), the gap at the time of the step."""
 
     fingers: tuple[bool, bool]
     gap: float
@@ -271,7 +274,7 @@ class ScrewFast(CauseRecord, frozen=True, kw_only=True):
 
 
 class ScrewLost(CauseRecord, frozen=True, kw_only=True):
-    """A screw was lost on the way: the hand descended by `way` (m) and did not sense `force` (N)."""
+    """A screw was lost on the way: the hand descended by `way` (m) without sensing the force `force` (N)."""
 
     way: float
     force: float

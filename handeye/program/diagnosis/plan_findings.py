@@ -74,7 +74,9 @@ class TooHeavy(Record, frozen=True, kw_only=True):
 
 
 class TooWeak(Record, frozen=True, kw_only=True):
-    """The arm cannot exert a force or moment. The joint `joint` (from 0) limits it to `most` (N or N m)."""
+    """The arm cannot exert a force or moment. The joint `joint` (from 0) limits the force or moment to `most` (N or N
+    m).
+    """
 
     step: int
     exerted: HandLoad

@@ -60,7 +60,7 @@ class InnerCylinder(ReachFailureRecord, frozen=True):
 
     @property
     def excess(self) -> float:
-        """How much too near to the axis the wrist would be (m)."""
+        """By how much the wrist would be too near to the axis (m)."""
         return self.least - self.radius
 
 
@@ -71,7 +71,7 @@ class FixedOrientation(ReachFailureRecord, frozen=True):
 
 
 class FixedDirection(ReachFailureRecord, frozen=True):
-    """The hand would be `off` (m) from the line or plane in which the prismatic joints move it."""
+    """The hand would be `off` (m) from the line or plane in which the prismatic joints move the hand."""
 
     joints: tuple[int, ...]
     off: float
@@ -93,7 +93,7 @@ class HeldJoint(ReachFailureRecord, frozen=True):
 
 
 class InLine(ReachFailureRecord, frozen=True):
-    """Two joint axes would line up on the way. Where they line up, the orientation of the hand cannot be kept."""
+    """Two joint axes would line up on the way. Where the axes line up, the orientation of the hand cannot be kept."""
 
     joints: tuple[int, int]
 

@@ -5,7 +5,7 @@ from handeye.program.diagnosis.cause_record import CauseRecord, JointName
 
 
 class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
-    """The switches of `fingers` are closed although the fingers have been opened. The order is that of
+    """The switches of `fingers` are closed although the fingers have been opened. The fingers are in the order of
     `Sensed.touch`.
     """
 
@@ -85,8 +85,8 @@ class ForceInAir(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
-    """The two sensors of a joint disagree on its displacement in a motion. If `braked` is True, they disagree while
-    the brakes are set, and the brakes may have slipped.
+    """The two sensors of a joint disagree on its displacement in a motion. If `braked` is True, the sensors disagree
+    while the brakes are set, and the brakes may have slipped.
     """
 
     joint: JointName
@@ -96,8 +96,8 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
 
 
 class RateScatters(CauseRecord, frozen=True, kw_only=True):
-    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound tachometer scatters by
-    at most `limit`. Both are median deviations from the median, rad/s or m/s.
+    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound tachometer scatters by at
+    most `limit`. `scatter` and `limit` are median deviations from the median, in rad/s or m/s.
     """
 
     joint: JointName
@@ -107,8 +107,8 @@ class RateScatters(CauseRecord, frozen=True, kw_only=True):
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint needs a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
-    that was measured at the start; None if the joint does not move at all. `one_way` is True if the joint moved in
-    only one direction, so that a weight would have the same effect.
+    that was measured at the start; `friction` is None if the joint does not move at all. `one_way` is True if the
+    joint moved in only one direction, so that a weight would have the same effect.
     """
 
     joint: JointName
@@ -118,7 +118,7 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
 
 
 class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The drives of these joints give these multiples of the commanded torque, or an external force acts on the
+    """Either the drives of these joints give these multiples of the commanded torque, or an external force acts on the
     hand.
     """
 
@@ -136,8 +136,8 @@ class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
 
 
 class CurrentShort(CauseRecord, frozen=True, kw_only=True):
-    """The motor was held fast. For a second it showed the torque `torque` (N m), which is less than the requested
-    torque `asked` (N m).
+    """The motor was held fast. For a second, the motor showed the torque `torque` (N m), which is less than the
+    requested torque `asked` (N m).
     """
 
     torque: float
@@ -157,7 +157,9 @@ class MotorFast(CauseRecord, frozen=True, kw_only=True):
 
 
 class ScrewHard(CauseRecord, frozen=True, kw_only=True):
-    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw needs at most `limit`."""
+    """While a screw advanced, the motor showed the torque `torque` (N m). A sound screw needs at most the torque
+    `limit` (N m).
+    """
 
     torque: float
     limit: float

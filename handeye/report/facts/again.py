@@ -16,8 +16,8 @@ _TYPED: Final = 20  # with more settings of the world, the command reads them fr
 
 
 def command(run: RecordedRun) -> str | None:
-    """Return the command that repeats a run. Returns None if the run uses code or a task of the caller, which a
-    command line cannot contain.
+    """Return the command that repeats a run. Returns None if the run uses code or a task of the caller, because a
+    command line cannot contain these.
     """
     head = run.trace.head
     if known(head.task) is None or head.own_parts:
@@ -48,7 +48,7 @@ def is_shipped(digest: str) -> bool:
 
 
 def sense_words(senses: Sequence[str]) -> list[str]:
-    """Return the command-line options that switch these senses off."""
+    """Return the command-line options that switch off the given senses."""
     return [word for sense in senses for word in ("--without", sense)]
 
 
@@ -68,8 +68,9 @@ def world_words(world: WorldSpec, of: str) -> list[str]:
 
 
 def written(quantity: Quantity | None, value: float) -> str:
-    """Return a value (SI) as users type it. It is written in the unit of its quantity or, if that would lose
-    precision, in the SI unit."""
+    """Return a value (SI) as users type it. The value is in the unit of its quantity or, if that unit would lose
+    precision, in the SI unit.
+    """
     if quantity is None:
         return repr(value)
     for unit in (quantity.measure, _si(quantity.measure)):

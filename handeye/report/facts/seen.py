@@ -57,7 +57,7 @@ def _seen(run: RecordedRun) -> Iterator[SeenPicture]:
 
 def _marks(run: RecordedRun) -> dict[int, tuple[Mark, ...]]:
     """Return the last marks on each picture. The keys are the times at which the pictures were taken (ns). Each set of
-    marks includes the earlier ones.
+    marks includes the earlier marks on that picture.
     """
     try:
         return dict(

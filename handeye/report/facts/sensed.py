@@ -33,7 +33,7 @@ class SensedForce:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TriedPlaces:
-    """When the hand was at each place of a search."""
+    """The times at which the hand was at each place of a search."""
 
     times: tuple[float, ...]  # s since the run began
     found: bool  # the last place was the right one
@@ -49,8 +49,8 @@ class HeldObject:
 
 
 def sensed_forces(run: RecordedRun) -> tuple[SensedForce, ...]:
-    """Return the forces of a run, the earliest first. They are empty if the trace has them in other axes than those of
-    the world.
+    """Return the forces of a run, the earliest first. Returns no forces if the trace contains no motion, or if its
+    forces are not in the axes of the world.
     """
     task = known_any(run.trace.head.task)
     if not len(run.trace.times) or (task is not None and task.force_axes != AnyTask.force_axes):
@@ -68,9 +68,9 @@ def _thinned(motion: Forces) -> SensedForce:
 
 
 def tried_places(searches: Sequence[Search], motions: Sequence[GuardedMotion]) -> tuple[TriedPlaces, ...]:
-    """For each search, return the times at which the hand was at its places. For every place but the last, this is the
-    end of the last guarded motion before the search went on. For the last place, it is the end of the first guarded
-    motion after that.
+    """For each search, return the times at which the hand was at the places of the search. For every place but the
+    last, the time is the end of the last guarded motion before the search went on. For the last place, the time is the
+    end of the first guarded motion after the search reached that place.
     """
     ends = np.array([motion.times[-1] for motion in motions])
     return tuple(_tried(search, ends) for search in searches if len(ends) and search.times)
@@ -83,7 +83,7 @@ def _tried(search: Search, ends: Array) -> TriedPlaces:
 
 
 def held_objects(run: RecordedRun) -> tuple[HeldObject, ...]:
-    """Return what the hand held and when, the earliest first. Empty if the task of the run is unknown."""
+    """Return what the hand held and when, the earliest first. Returns no objects if the task of the run is unknown."""
     return tuple(_held(run))
 
 

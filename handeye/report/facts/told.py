@@ -61,7 +61,7 @@ class Senses:
 
 
 def senses_at(run: RecordedRun, seconds: float) -> Senses | None:
-    """Return the sensor readings at a time since the run began (s), or None if none were recorded. Raises
+    """Return the sensor readings at a time since the run began (s), or None if no readings were recorded. Raises
     InvalidInput if the trace is damaged.
     """
     until = nanoseconds(seconds)

@@ -63,7 +63,7 @@ def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: b
 
 
 def _stage(stage: str, motions: Sequence[GuardedMotion], *, shown: bool) -> Markup:
-    """Return the plots of a stage, collapsed unless `shown`."""
+    """Return the plots of a stage. The plots are collapsed if `shown` is False."""
     met = sum(motion.trip is not None for motion in motions)
     said = f"{counted(len(motions), 'guarded motion')}, {met} stopped by a guard"
     summary = element("summary", element("h3", stage), " ", element("span", said))
@@ -128,7 +128,7 @@ def _short(kind: GuardKind, limit: float) -> str:
 
 
 def channels_section(trace: Trace) -> Markup:
-    """Return the section on machine channels. It is empty if no machine has channels."""
+    """Return the section on machine channels. The section is empty if no machine has channels."""
     if not trace.channels:
         return Markup("")
     moving = [channel for channel in trace.channels if np.ptp(channel.values)]

@@ -16,7 +16,7 @@ from handeye.trace.sentences import measures_of, sentence
 
 
 def moments(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) -> Markup:
-    """Return these data as an invisible HTML element."""
+    """Return the steps, stages and captions of a run, with their times, as an invisible HTML element."""
     files = ("", *run.program.required)
     steps = [event for event in run.trace.events if isinstance(event, StepStarted)]
     measures = measures_of(run.trace.head.task)

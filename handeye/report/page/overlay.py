@@ -1,4 +1,4 @@
-"""Prepares what the hand sensed as data for the 3D view, which draws it over the cell."""
+"""Prepares data on what the hand sensed. The 3D view draws these data over the cell."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from handeye.report.recorded import RecordedRun
 
 
 def overlay(run: RecordedRun, name: str = "sensed") -> Markup:
-    """Return these data as an invisible HTML element with the id `name`."""
+    """Return the data on what the hand sensed, as an invisible HTML element with the id `name`."""
     return element("script", json_markup(_sensed(run)), id=name, type="application/json")
 
 

@@ -156,7 +156,7 @@ _SPIRAL: Final = 220.0
 
 
 def searched(searches: Sequence[Search]) -> Iterator[Markup]:
-    """Yield drawings of the searches of a run. Each shows the path through the places that the search tried."""
+    """Yield drawings of the searches of a run. Each drawing shows the path through the places that the search tried."""
     yield element("h3", "Searches")
     if not searches:
         yield note("No search had to try a second place.")

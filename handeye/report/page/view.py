@@ -58,7 +58,7 @@ def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
 
 
 def _bar(run: RecordedRun) -> Markup:
-    """Return the stages as links, whose widths are proportional to the durations of the stages."""
+    """Return the stages as links. The width of a link is proportional to the duration of its stage."""
     links = (_stage(run, number, stage) for number, stage in enumerate(run.trace.stages, 1))
     return element(
         "nav",

@@ -73,7 +73,7 @@ def tracks_bytes(trace: Trace) -> bytes:
 
 
 def shown_poses(trace: Trace) -> dict[str, Poses]:
-    """Return the poses of the visible bodies in all servo periods. They come from the trace or, for bodies that
+    """Return the poses of the visible bodies in all servo periods. The poses come from the trace or, for bodies that
     no run moves, from the scene.
     """
     model, poses = trace.scene, trace.poses
@@ -83,8 +83,8 @@ def shown_poses(trace: Trace) -> dict[str, Poses]:
 
 
 def script() -> str:
-    """Return the script, `const createPlayer = ...;`. It contains all modules, so that a page can embed it and
-    state its hash.
+    """Return the script, `const createPlayer = ...;`. The script contains all modules, so that a page can embed the
+    script and state its hash.
     """
     parts = [_plain((SOURCES / f"{name}.js").read_text("utf-8")) for name in MODULES]
     return f'const createPlayer = (() => {{\n"use strict";\n{"".join(parts)}return createPlayer;\n}})();\n'

@@ -62,8 +62,8 @@ def quantised(values: NDArray[Any]) -> tuple[NDArray[np.uint16], list[float]]:
 
 
 def octahedral(normals: NDArray[Any]) -> NDArray[np.int8]:
-    """Convert unit vectors, shape (n, 3), to two 8-bit numbers each, shape (n, 2). These are coordinates on an
-    octahedron that is unfolded to a square.
+    """Convert unit vectors, shape (n, 3), to two 8-bit numbers each, shape (n, 2). The two numbers are coordinates on
+    an octahedron that is unfolded to a square.
     """
     flat = normals / np.abs(normals).sum(axis=1, keepdims=True)
     sign = np.where(flat[:, :2] >= 0, 1.0, -1.0)

@@ -55,7 +55,9 @@ class Palette:
         return len(self._grains)
 
     def picture(self) -> bytes:
-        """Return the grains as one grey WebP picture, one below the other. Empty if there are none."""
+        """Return one grey WebP picture that shows all grains, one below the other. The result is empty if there are no
+        grains.
+        """
         if not self._grains:
             return b""
         grey = np.vstack([cv2.cvtColor(_texture(self.model, n), cv2.COLOR_RGB2GRAY) for n in self._grains])
@@ -198,7 +200,7 @@ def seen(model: Any, body: int) -> list[int]:
 
 
 def lowest(model: Any) -> float:
-    """Return the height (m) of the lowest point of the world. Absent bodies are put below it."""
+    """Return the height (m) of the lowest point of the world. Absent bodies are put below this point."""
     found = [surface(model, shape) for shape in seen(model, 0)]
     return min((float(part.points[:, 2].min()) for part in found if part is not None), default=-np.inf)
 
@@ -237,7 +239,7 @@ left of the viewer.
 
 
 def views(model: Any) -> list[dict[str, Any]]:
-    """Return the views of a scene. Each has a name, the position `eye` of the viewer (m), the point `at` which
+    """Return the views of a scene. Each view has a name, the position `eye` of the viewer (m), the point `at` which
     the viewer looks (m), and a viewing angle (degrees).
 
     In a view with a `body`, `eye` and `at` are relative to the body's position, along the axes of the world.
@@ -251,7 +253,7 @@ def views(model: Any) -> list[dict[str, Any]]:
 
 
 def lamp(model: Any) -> dict[str, list[float]]:
-    """Return the positions of the lamp and of the point at which it is aimed (m)."""
+    """Return two positions (m): that of the lamp, and that of the point at which the lamp is aimed."""
     middle = np.array(model.stat.center)
     return {"eye": rounded(middle + model.stat.extent * _LAMP), "at": rounded(middle * [1, 1, 0])}
 

@@ -78,7 +78,7 @@ def rotation(quaternion: Array) -> Array:
 
 
 def creased(points: Array, triangles: NDArray[Any]) -> Surface:
-    """Make a surface from points and triangles. It is smooth where neighbouring faces nearly agree, and has
+    """Make a surface from points and triangles. The surface is smooth where neighbouring faces nearly agree, and has
     sharp edges elsewhere.
     """
     facets = points[triangles]

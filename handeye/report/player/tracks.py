@@ -19,7 +19,7 @@ _STILL: Final = 1e-6  # Changes too small to be movement: m, and components of a
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Track:
-    """Selected poses of a body. The poses between them are interpolated linearly."""
+    """Selected poses of a body. All other poses are interpolated linearly between the selected poses."""
 
     spans: tuple[tuple[int, int, int], ...]
     """Spans in which the body is present: first servo period, last one (exclusive), and the number of poses in the

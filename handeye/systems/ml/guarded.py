@@ -1,12 +1,13 @@
 """The guarded move of ML, as an executable specification.
 
-This module says what a program of SENSOR, motions, DELAY and BRANCH does if each motor is at its set-point when the
-next cycle begins. It is pure: a state and what the sensors read determine the next state. It shares no code with the
-machine; a property test drives both with the same programs and compares them after every statement.
+The specification covers programs that consist of SENSOR, motions, DELAY and BRANCH. It assumes that each motor is at
+its set-point when the next cycle begins. The specification is pure: the present state and the readings of the sensors
+determine the next state. The specification shares no code with the machine; a property test drives both with the same
+programs and compares them after every statement.
 
 1. A sensor is *in range* while its reading is strictly between its expected limits.
-2. The *flag* of a sensor comes on in the first cycle in which the sensor is out of range. It stays on until a SENSOR
-   statement clears it, even if the reading comes back into range (the latch).
+2. The *flag* of a sensor comes on in the first cycle in which the sensor is out of range. The flag stays on until a
+   SENSOR statement clears it, even if the reading comes back into range (the latch).
 3. In the cycle in which any flag comes on, every motor *freezes*: its goal becomes its present position.
 4. While any flag is on, every motion is *nullified*: it changes no goal and takes no time.
 5. A motion ends when all motors are at their goals, or when a flag comes on. Then the next statement is executed.
@@ -38,7 +39,9 @@ class Sensor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion:
-    """`MOVE` and `MOTOR`; if `relative`, `DMOVE` and `DMOTOR`, whose numbers are distances from the present goals."""
+    """`MOVE` and `MOTOR`; if `relative` is True, `DMOVE` and `DMOTOR`, whose numbers are distances from the present
+    goals.
+    """
 
     by_motor: Mapping[int, int]
     relative: bool = False
@@ -103,7 +106,9 @@ def arrived(state: State) -> bool:
 
 
 def one_cycle(state: State, senses: Senses, speeds: Mapping[int, int]) -> tuple[State, Ending]:
-    """Let a cycle pass. If a motion ends in it, also say how. `speeds` are in hundredths of a unit per cycle."""
+    """Let a cycle pass. If a motion ends in this cycle, also say how it ended. `speeds` are in hundredths of a unit
+    per cycle.
+    """
     new = crossed(state, senses(state.cycle, state.positions))
     ending: Ending = "force" if new else "goal" if arrived(state) else ""
     goals = state.positions if new else state.goals

@@ -1,14 +1,14 @@
 """Lets ML do legs of a relay: a program in ML moves the tool of the Stanford arm.
 
 The motors have the numbers of the rectilinear arm: 4 is X, 3 is Y, 2 is Z (down), 8 is the roll of a hand that points
-straight down, and 11 is the gap of the fingers. Slides are in .001 in, the roll is in .01 degree. All slides are at 0
-where the tool is at x = 20, y = 42 and z = 5 in; at roll 0, the finger line is along Y. Sensors 2 to 4 read the force
-on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 the switches of the fingers. A cycle takes a servo
-period of the arm, 1/60 s, instead of 10 ms.
+straight down, and 11 is the gap of the fingers. The unit of the slides is .001 inch, and the unit of the roll is .01
+degree. All slides are at 0 where the tool is at x = 20, y = 42 and z = 5 in; at roll 0, the finger line is along Y.
+Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 read the switches of the
+fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
 
-A remark `* NAME IS &n` puts the height NAME of the record into the variable n, as a position of motor 2. A remark
-`* &n IS NAME` hands the variable n over as the height NAME. A program has ended well only if
-it printed 0 last, because ML has no word with which a program can report a failure.
+A remark `* NAME IS &n` puts the height NAME of the record into the variable n, as a position of motor 2. A remark `*
+&n IS NAME` hands the variable n over as the height NAME. A program has ended well only if it printed 0 last, because
+ML has no word with which a program can report a failure.
 """
 
 import re
@@ -103,7 +103,7 @@ class MlLegState(MlState, kw_only=True):
 
 
 class SlideAxes(Axes):
-    """The tool of the arm as slides of the rectilinear arm."""
+    """Moves the tool of the arm as the slides of the rectilinear arm would move it."""
 
     name = "slides"
 

@@ -26,8 +26,8 @@ class Shape(NamedTuple):
 
 
 class View(Protocol):
-    """Contents of a table that another part of MOS keeps. Lines and words count from 1; callers ask only for existing
-    ones.
+    """Contents of a table that another part of MOS keeps. Lines and words count from 1; callers ask only for lines and
+    words that exist.
     """
 
     def read(self, line: int, word: int) -> int:
@@ -52,7 +52,7 @@ class Level(ABC):
     @property
     @abstractmethod
     def posted(self) -> Post:
-        """What ended the last motion; empty while a motion is under way."""
+        """What ended the last motion. The text is empty while a motion is under way."""
 
     @property
     @abstractmethod
@@ -82,7 +82,7 @@ class Level(ABC):
 
     @abstractmethod
     def view(self, table: str, contents: View) -> None:
-        """Make a table show contents that the background level keeps."""
+        """Make a table show contents that are stored in the background level."""
 
     # -- sensors --------------------------------------------------------------------------------------
 
@@ -97,8 +97,8 @@ class Level(ABC):
 
     @abstractmethod
     def open(self, sensor: int | None = None) -> None:
-        """Open the limits of a sensor, which may then read anything, and clear its flag. Without a number, do this for
-        all sensors. Raises MlError (M11).
+        """Open the limits of a sensor, which may then read anything, and clear its flag. If no number is given, do
+        this for all sensors. Raises MlError (M11).
         """
 
     @abstractmethod
@@ -107,8 +107,8 @@ class Level(ABC):
 
     @abstractmethod
     def calibrate(self, sensors: Sequence[int]) -> None:
-        """Take the mean of the last 8 readings of each sensor as its zero. Without numbers, do this for all analog
-        sensors. Raises MlError (M11).
+        """Take the mean of the last 8 readings of each sensor as its zero. If no numbers are given, do this for all
+        analog sensors. Raises MlError (M11).
         """
 
     @abstractmethod
@@ -133,7 +133,7 @@ class Level(ABC):
     @abstractmethod
     def start(self, goals: Mapping[int, int]) -> bool:
         """Give motors new strategic goals. Returns False, and changes nothing, if the flag of any sensor is on. If
-        MlError (M09, M10, M15) is raised, nothing has changed either.
+        MlError (M09, M10, M15) is raised, the motion has changed nothing.
         """
 
     # -- power and devices ----------------------------------------------------------------------------
@@ -166,7 +166,9 @@ class Level(ABC):
     @property
     @abstractmethod
     def stopped(self) -> str:
-        """The emergency that has stopped the program, as a sentence; empty if there was none since ENABLE."""
+        """The emergency that has stopped the program, as a sentence; the text is empty if there was no emergency since
+        ENABLE.
+        """
 
     @abstractmethod
     def analog_in(self, point: int) -> int:
@@ -174,9 +176,10 @@ class Level(ABC):
 
     @abstractmethod
     def analog_out(self, point: int, value: int) -> None:
-        """Set an analog output. Raises MlError (M11; M15 while the pump is on)."""
+        """Set an analog output. Raises MlError: M11 if there is no such output, M15 while the pump is on."""
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
-        """Set those bits of a digital output word that are 1 in a mask. Raises MlError (M11; M15 while the pump is
-        on)."""
+        """In a digital output word, replace each bit for which `mask` has a 1 by the same bit of `value`. Raises
+        MlError: M11 if there is no such word, M15 while the pump is on.
+        """

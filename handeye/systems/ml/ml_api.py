@@ -20,8 +20,8 @@ if TYPE_CHECKING:  # programs run on perfect motors without a simulator
 
 
 class Ml:
-    """A terminal of MOS, with the right arm enabled. Its motors are perfect: each is at its set-point after every
-    cycle of 10 ms.
+    """A terminal of MOS, with the right arm enabled. The arm's motors are perfect: each motor is at its set-point
+    after every cycle of 10 ms.
 
     >>> ml = handeye.Ml()
     >>> ml.do("MOTOR 3 2000"), ml.do("GETPOS 1 3"), ml.do("PRINT &1")
@@ -70,7 +70,7 @@ class Ml:
 
     @property
     def stopped(self) -> str:
-        """The error or emergency that has stopped the program; empty if there was none."""
+        """The error or emergency that has stopped the program; the text is empty if nothing has stopped the program."""
         return self._mos.memory.stopped
 
     @property
@@ -79,7 +79,9 @@ class Ml:
         return self._program.listing()
 
     def load(self, text: str) -> None:
-        """Store the numbered lines of a program, and execute the others. Raises MlError or BadArgument."""
+        """Store the numbered lines of a program, and execute the lines that have no number. Raises MlError or
+        BadArgument.
+        """
         for line in text.splitlines():
             self.do(line)
 
@@ -102,7 +104,9 @@ class Ml:
         return [event.text for event in self.events[first:] if isinstance(event, Printed)]
 
     def begin(self, first: int | None = None) -> None:
-        """Start the stored program at a statement, or at the first one, without executing any statement yet."""
+        """Start the stored program at a given statement, or at the first statement. `begin` executes no
+        statement yet.
+        """
         self._mos.run(first)
 
     def step(self, statements: int = 1) -> bool:
@@ -152,10 +156,9 @@ class Ml:
             phase: when in the period the contact occurs. 0 is just after a reading; a value near 1 is just before the
                 next.
 
-        Returns:
-            when the limit was noticed (`noticed`, ms after the contact), how far the slide went on (`way`, mm), the
-            greatest force of both fingers (`force`, N), the force on a finger at the start of the motion (`jolt`, N),
-            and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
+        Returns: when the limit was noticed (`noticed`, ms after the contact), how far the slide moved after the
+            contact (`way`, mm), the greatest force of both fingers (`force`, N), the force on a finger at the start of
+            the motion (`jolt`, N), and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
 
         Raises:
             BadArgument: a value is out of range.

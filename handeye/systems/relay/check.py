@@ -1,4 +1,6 @@
-"""Checks whether the legs of a relay fit together, and which operations the language of a leg has no words for."""
+"""Checks whether the legs of a relay fit together, and finds the operations for which the language of a leg has no
+words.
+"""
 
 from collections.abc import Iterator
 from functools import lru_cache
@@ -92,8 +94,8 @@ def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
 
 
 def demands(operation: Operation) -> set[str]:
-    """Return what a language needs words for: the operation, the use of saved differences in a motion (`Restore`), and
-    the control of the force in a motion (`Comply`).
+    """Return the concepts for which a language needs words: the operation, the use of saved differences in a motion
+    (`Restore`), and the control of the force in a motion (`Comply`).
     """
     found = {type(operation).__name__}
     if isinstance(operation, Move) and operation.restore:

@@ -21,7 +21,7 @@ class LegStep:
 
 
 def memories(plan: RelayPlan, state: RelayCore) -> dict[str, SystemState]:
-    """Return the memories of the programs, by file. Raises BadFile if one is missing."""
+    """Return the memories of the programs, by file. Raises BadFile if a memory is missing."""
     try:
         return {program.file: getattr(state, program.system)[program.file] for program in plan.programs}
     except KeyError as missing:
@@ -64,7 +64,9 @@ def own_legs(plan: RelayPlan, state: RelayCore) -> tuple[Leg, ...]:
 
 
 def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> None:
-    """Raise Refused if an order would undo steps of a leg that cannot be undone, or no steps at all."""
+    """Raise Refused if an order would undo no steps at all, or if it would undo a step of a leg whose steps cannot be
+    undone.
+    """
     passed = legs(plan)[: last_leg(state) + 1]
     done = executed(plan, state)
     fast = next((leg for leg in reversed(passed) if not leg.system.undoes), None)
@@ -77,8 +79,9 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
 
 
 def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
-    """Return the part of an order that the program with the arm can execute: to undo all or some of its steps since it
-    took the arm over. Steps have that program's own numbers. None if there are no such steps.
+    """Return the part of an order that the program with the arm can execute: to undo some or all of the steps that
+    this program has executed since it took the arm over. The order has this program's own step numbers. Returns None
+    if there are no such steps.
     """
     own, done = own_legs(plan, state), executed(plan, state)
     before = sum(each.step < own[0].first for each in done)

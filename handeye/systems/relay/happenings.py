@@ -11,7 +11,9 @@ from handeye.program.events import AnyEvent, SystemEvent
 
 
 class LegStarted(SystemEvent, frozen=True, kw_only=True):
-    """A leg takes the arm over. `gap` is the gap of the fingers (m), and `named` has the names in the record."""
+    """A leg takes the arm over. `gap` is the gap of the fingers (m), and `named` has the names of the values in the
+    hand-over record.
+    """
 
     stage: str
     system: str

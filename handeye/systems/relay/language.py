@@ -17,7 +17,7 @@ _CODES: Final = {
 
 
 class RelayLanguage(OwnLanguage):
-    """Checks the form of a relay. `handeye relay check` also checks its programs."""
+    """Checks the form of a relay. `handeye relay check` also checks the programs of the relay."""
 
     system = ENTRY.name
 

@@ -65,7 +65,7 @@ class Leg:
 
     @property
     def numbers(self) -> range:
-        """Its steps in the listing of the relay."""
+        """Numbers of the leg's steps in the listing of the relay."""
         return range(self.first, self.first + len(self.steps))
 
     def number(self, step: int | None) -> int | None:
@@ -109,7 +109,7 @@ class RelayListing:
 
 
 def made(source: Source, folder: Path) -> RelayPlan:
-    """Read the programs of a relay, whose files lie in `folder`. Raises InvalidInput if the relay or a program has
+    """Read the programs of a relay from their files in `folder`. Raises InvalidInput if the relay or a program has
     errors.
     """
     lines, found = parsed(source)

@@ -125,7 +125,7 @@ class RunningRelay(RunningSystem):
 
     @property
     def leg(self) -> Leg:
-        """The leg that has the arm, or had it last."""
+        """The leg that has the arm, or the last leg that had the arm."""
         return self._legs[self._state.leg]
 
     @property
@@ -195,8 +195,8 @@ class RunningRelay(RunningSystem):
         self._go_on()
 
     def _go_on(self, *, undoing: bool = False) -> None:
-        """Follow the program that has the arm. If its leg has ended, the arm is handed over. With `undoing`, the last
-        step has been an undo, which may have gone back into an earlier leg of the same program.
+        """Follow the program that has the arm. If its leg has ended, the arm is handed over. If `undoing` is True, the
+        last step was an undo, which may have gone back into an earlier leg of the same program.
         """
         self._mirror(undoing=undoing)
         if undoing or self._running.state.stopped is not None or self._running.state.stage is not None:
@@ -243,7 +243,7 @@ class RunningRelay(RunningSystem):
             state.stage = None
 
     def _enter(self, number: int) -> bool:
-        """Let the program of the leg take the arm over. Returns False if it has refused."""
+        """Let the program of the leg take the arm over. Returns False if the program has refused."""
         state = self._state
         assert state.record is not None
         assert state.station is not None
@@ -326,8 +326,8 @@ class RunningRelay(RunningSystem):
         self._go_back()
 
     def _go_back(self) -> None:
-        """Let the program that has the arm undo its steps. If it has none, give the arm back to earlier programs until
-        one has steps to undo.
+        """Let the program that has the arm undo its steps. If that program has no steps to undo, give the arm back to
+        earlier programs until one has such steps.
         """
         assert self._state.undoing is not None
         while (order := own_order(self._plan, self._state, self._state.undoing)) is None:
@@ -336,7 +336,7 @@ class RunningRelay(RunningSystem):
         self._mirror(undoing=True)
 
     def _take_back(self) -> None:
-        """Give the arm back to the program that had it before."""
+        """Give the arm back to the program that had the arm before."""
         state = self._state
         self._running.leave(state.record)
         station = self._running.station

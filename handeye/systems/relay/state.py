@@ -24,7 +24,7 @@ class RelayCore(SystemState, kw_only=True):
 
     @property
     def record(self) -> HandOver | None:
-        """The record from the leg before; None for the first leg."""
+        """The record that the previous leg handed over; None for the first leg."""
         return self.records[-1] if self.records else None
 
 

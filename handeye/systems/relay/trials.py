@@ -73,7 +73,7 @@ class RelayWork:
     """Runs a relay in a world."""
 
     def __init__(self, setup: Setup) -> None:
-        """`setup` is that of the first world."""
+        """`setup` is the setup of the run in the first world."""
         self.setup = setup
 
     def __call__(self, case: Case) -> list[RelayRow]:

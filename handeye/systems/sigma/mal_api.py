@@ -114,7 +114,7 @@ class Mal:
 
     @property
     def tasks(self) -> dict[str, str]:
-        """For each unfinished task, the line that it has reached, and what it waits for."""
+        """For each unfinished task, the line that the task has reached, and what the task waits for."""
         found = {}
         for name, task in self._vm.memory.tasks.items():
             waits = self._vm.waits_for(name)

@@ -52,7 +52,7 @@ class Microbus:
 
     @property
     def interrupt(self) -> bool:
-        """True if line A of any motor is high, which means that the last command of this motor was aborted."""
+        """True if line A of any motor is high. Line A of a motor is high if the motor's last command was aborted."""
         return self._bus.interrupt
 
     def command(
@@ -107,8 +107,9 @@ class Microbus:
         return self._bus.status(number_of(name)).name.lower()
 
     def wait(self, name: str | int, seconds: float = 60.0) -> str:
-        """Wait until a microcomputer is not busy, for at most `seconds`. Returns its state in the form that
-        `status` returns."""
+        """Wait until a microcomputer is not busy, for at most `seconds`. Returns the state of the microcomputer, as
+        `status` does.
+        """
         return self._bus.wait_free(number_of(name), _microseconds(seconds)).name.lower()
 
     def pause(self, seconds: float) -> None:

@@ -111,8 +111,9 @@ def number_of(name: str | int) -> int:
 
 
 def name_of(number: int, *, line: bool = False) -> str:
-    """Return the name of a microcomputer of SUPERSIGMA (with `line`, of the assembly line), or its number as text if it
-    has no name."""
+    """Return the name of a microcomputer of SUPERSIGMA, or of the assembly line if `line` is True. If the
+    microcomputer has no name, return its number as text.
+    """
     known = LINE_NUMBERS if line else NUMBERS
     return {number: name for name, number in known.items()}.get(number, str(number))
 
@@ -159,8 +160,8 @@ def set_position(axis: str | int, count: int) -> Command:
 
 
 def force(arm: int, component: str, *, peak: bool = False) -> Command:
-    """Make the question for a component of the force on a wrist: its present value or, with `peak`, the
-    greatest value since the last such question.
+    """Make the question for a component of the force on a wrist. The answer is the present value or, if `peak` is
+    True, the greatest value since the last such question.
     """
     op = Op.PEAK_FORCE if peak else Op.FORCE
     return Command(number=number_of(f"FORCE{arm}"), op=op, detail=COMPONENTS.index(component))
@@ -181,12 +182,14 @@ def actuate(arm: int, device: str, value: int) -> Command:
 
 
 def beam(arm: int) -> Command:
-    """Make the question whether the light beam between the fingers is interrupted."""
+    """Make the question that asks whether the light beam between the fingers is interrupted."""
     return Command(number=number_of(f"HAND{arm}"), op=Op.BEAM)
 
 
 def self_test(name: str | int) -> Command:
-    """Make the question that lets a microcomputer test itself. The answer 0 means that it has found no fault."""
+    """Make the question that lets a microcomputer test itself. The answer 0 means that the microcomputer has found no
+    fault.
+    """
     return Command(number=number_of(name), op=Op.SELF_TEST)
 
 
@@ -206,7 +209,7 @@ def signed(answer: Sequence[int]) -> int:
 
 
 def within(value: int, least: int, most: int, what: str) -> int:
-    """Return `value` if it is from `least` to `most`. Raises BadArgument if it is not."""
+    """Return `value`, which must be from `least` to `most`. Raises BadArgument if it is outside this range."""
     if not least <= value <= most:
         raise BadArgument(f"{what} must be between {least} and {most}, not {value}")
     return value

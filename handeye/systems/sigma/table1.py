@@ -1,7 +1,7 @@
 """Reproduces table 1 of the paper: how often four programs send commands, and how much they load the bus and
 the computer.
 
-Layer 1 repeats one move. The length of the move is chosen so that a command takes as long as in the paper. This layer
+Layer 1 repeats one move. The length of the move is chosen so that a command takes as long as in the paper. Layer 1
 checks the arithmetic of bus and motors. Layer 2 runs programs like those named in the paper; these programs are not
 fitted to the table.
 """

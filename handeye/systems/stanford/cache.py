@@ -26,10 +26,12 @@ def cache(
     Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the results,
     and uses them in later runs with the same world, the same kind of pictures and the same versions of the software.
     Such a run starts at once, and gives the same bytes as a run that measures. `--calibrate` measures again. One
-    calibration takes about 6 kB. All calibrations together take at most 16 MB; to keep this limit, the oldest are
-    removed. The environment variable HANDEYE_CACHE names another folder; if it is empty, nothing is kept.
+    calibration takes about 6 kB. All calibrations together take at most 16 MB; to keep this limit, handeye removes the
+    oldest calibrations. The environment variable HANDEYE_CACHE names another folder; if the variable is empty, nothing
+    is kept.
 
-    The environments for learned policies also keep the states in which their episodes start, at most 256 MB.
+    The environments for learned policies also keep the states in which their episodes start. These states take at most
+    256 MB.
     """
     from handeye.runs.starts import kept_starts, starts_folder
     from handeye.systems.stanford.kept_calibrations import KeptCalibrations

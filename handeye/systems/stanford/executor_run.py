@@ -1,4 +1,4 @@
-"""The hand-eye system of 1973 as a `System`. It executes plans of motions in the cell of a task."""
+"""The hand-eye system of 1973 as a `System`. The system executes plans of motions in the cell of a task."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -150,8 +150,8 @@ class RunningPlan(RunningSystem):
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: CameraSetup) -> float:
-        """Measure the joints and calibrate the camera, or restore a stored preparation. Returns the time in
-        which the joints were measured (s).
+        """Measure the joints and calibrate the camera, or restore a stored preparation. Returns the time that the
+        measurement of the joints took (s).
         """
         kept = KeptCalibrations.of_user()
         conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
@@ -170,7 +170,7 @@ class RunningPlan(RunningSystem):
         return seconds
 
     def _goes_on_from(self, earlier: Preparation) -> bool:
-        """Restore a stored preparation. If that is impossible, change nothing and return False."""
+        """Restore a stored preparation. If the preparation cannot be restored, change nothing and return False."""
         try:
             take_up(earlier, self.context, self._cell)
         except InvalidInput:
@@ -234,8 +234,9 @@ class RunningPlan(RunningSystem):
         self._take_calibration()
 
     def _measure_joints(self) -> float:
-        """Measure friction and link weights if the program uses force. Returns the simulated time that this
-        took (s)."""
+        """Measure friction and link weights if the program uses force. Returns the simulated time that the measurement
+        took (s).
+        """
         if not self.plan.program.feels:
             return 0.0
         before = self.time
@@ -259,7 +260,7 @@ class RunningPlan(RunningSystem):
             yield FrictionMeasured(time=self.time, joints=frictions, links=links, seconds=seconds)
 
     def _calibrate(self, eye: CameraSetup) -> None:
-        """Calibrate the camera. Afterwards, the arm holds the position that it has reached."""
+        """Calibrate the camera. After the calibration, the arm holds the position that it has reached."""
         cell, drive = self._cell.devices, self.state.drive
         assert self._cell.camera is not None
         try:
@@ -368,8 +369,8 @@ class PlanSystem(System):
         return plan.arm, plan.arm_digest
 
     def check(self, setup: Setup) -> None:
-        """Raise InvalidInput unless the plan was made for the task's arm, and the task has this world and these
-        faults.
+        """Raise InvalidInput if the plan was made for another arm, or if the task does not have the world and the
+        faults of the setup.
         """
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)

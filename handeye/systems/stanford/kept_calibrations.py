@@ -43,10 +43,10 @@ class KeptCalibration(Record, frozen=True, kw_only=True):
 
 
 class KeptCalibrations:
-    """The calibrations in a folder. Without a folder, none are stored or found."""
+    """The calibrations in a folder. Without a folder, no calibrations are stored or found."""
 
     def __init__(self, folder: Path | None, most: int = MOST) -> None:
-        """Use a folder. `most` is the greatest total size of its files (bytes)."""
+        """Use a folder. `most` is the greatest total size of the folder's files (bytes)."""
         self.folder, self.most = folder, most
 
     @classmethod
@@ -56,7 +56,9 @@ class KeptCalibrations:
         return cls(None if folder is None else folder / "calibrations")
 
     def find(self, wanted: Conditions) -> Preparation | None:
-        """Return the preparation stored for these conditions, or None if there is none or it cannot be used."""
+        """Return the preparation stored for these conditions, or None if there is no such preparation or its file
+        cannot be used.
+        """
         if self.folder is None:
             return None
         try:
@@ -127,7 +129,7 @@ def _place(folder: Path, conditions: Conditions) -> Path:
 
 
 def _decoded(data: bytes, wanted: Conditions) -> Preparation:
-    """Return the preparation in a file. Raises ValueError unless it was made under these conditions."""
+    """Return the preparation in a file. Raises ValueError if the preparation was made under other conditions."""
     line, _, rest = data.partition(b"\n")[2].partition(b"\n")
     if line != wanted.line or data != sealed(MAGIC, VERSION, line + b"\n" + rest):
         raise ValueError("it is damaged, or was made under different conditions")

@@ -97,7 +97,7 @@ class PlanLeg(RunningPlan, RunningLeg):
         )
 
     def _held(self) -> str:
-        """Return the name of the part in the hand, as far as the program knows it."""
+        """Return the name of the part that is in the hand according to the program."""
         if not self.state.grasping or self.context.drive.sensed.gap < EMPTY_GAP:
             return ""
         held = self.plan.program.held.items()
@@ -214,7 +214,7 @@ class PlanLegs(LegSystem):
 
 
 def _needed(step: Step) -> Iterator[tuple[str, Kind]]:
-    """Yield the saved values that a step reads. HEIGHT reads a height, and RESTORE a difference."""
+    """Yield the saved values that a step reads. HEIGHT reads a height, and RESTORE reads a difference."""
     kind: Kind = "height" if isinstance(step.operation, Height) else "difference"
     for use in step.operation.reads:
         if use.kind == "difference":

@@ -1,8 +1,9 @@
-"""Lets TRIG do legs of a relay. Its program moves the tool of the Stanford arm in place of the Purbrick arm.
+"""Lets TRIG do legs of a relay. A TRIG program moves the tool of the Stanford arm, which takes the place of the
+Purbrick arm.
 
-TRIG's platter is a part of the table: its centre is at 20 and 36.5 in. X, Y and Z are parallel to the axes of the
-table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its finger line along Y. The script of the leg
-teaches the program with an ideal arm. In the same way, the taught file of the arm language is written from the
+TRIG's platter is a part of the table: its centre is at x = 20 and y = 36.5 in. X, Y and Z are parallel to the axes of
+the table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its finger line along Y. The script of the
+leg teaches the program with an ideal arm. In the same way, the taught file of the arm language is written from the
 drawing.
 
 TRIG has no words for the end of a program that has failed. A leg therefore ends well only at the step FINISH.
@@ -100,7 +101,7 @@ class PlatterAxes(Axes):
         self._tool.put(self.told)
 
     def read(self) -> AxesReading:
-        """Return the sensed axes. The angles are those of the goal, corrected by the rotation from the goal to the
+        """Return the sensed axes. The angles are the goal's angles, corrected by the rotation from the goal to the
         hand. Near straight down, the angles of the hand itself are ambiguous.
         """
         read = self._tool.read()

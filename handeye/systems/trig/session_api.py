@@ -35,7 +35,7 @@ class TrigSession:
         """Start a session with an arm and an empty program.
 
         Args:
-            arm: `none`, an imaginary arm, or `purbrick`, the arm of the paper, with physics.
+            arm: `none` for an imaginary arm, or `purbrick` for the arm of the paper, with physics.
 
         Raises:
             InvalidInput: there is no such arm.
@@ -51,7 +51,7 @@ class TrigSession:
             the messages, one sentence each.
 
         Raises:
-            InvalidInput: a line cannot be executed. The lines before it have already been executed.
+            InvalidInput: a line cannot be executed. The lines before the refused line have been executed.
         """
         told: list[str] = []
         script = Script(text.splitlines(), told.append)

@@ -1,4 +1,4 @@
-"""Builds the insertion bench: an arm, a pin in a holder, a plate with one hole, and a witness, which records for
+"""Builds the insertion bench: an arm, a pin in a holder, a plate with one hole, and a witness. The witness records for
 the referee what really happened.
 """
 
@@ -74,7 +74,7 @@ def _add_room(shaper: Shaper) -> None:
 
 
 def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
-    """Add the plate with the hole. As on the pump's base, the pin's nose touches wedges around the hole, and its
+    """Add the plate with the hole. As on the pump's base, the pin's nose touches wedges around the hole, and the pin's
     shoulder touches a flat land.
     """
     d = dimensions()
@@ -159,7 +159,7 @@ class Witness(PhysicsStepper):
 
 
 class InsertionCell(SimulatedCell):
-    """A cell with a witness, which records the contacts of pin and plate."""
+    """A cell with a witness that records the contacts of pin and plate."""
 
     def __init__(self, world: InsertionWorld) -> None:
         """Build the cell of a world and switch it on."""

@@ -133,8 +133,8 @@ def base_top() -> float:
 
 
 def pin_seat(chamfer: float, radius: float) -> float:
-    """Return the height of a pin's shoulder above the mouth of its hole (m; negative if it is below), when the
-    shoulder rests in the hole's 45 degree chamfer. `chamfer` and `radius` are in m.
+    """Return the height (m) of a pin's shoulder above the mouth of its hole when the shoulder rests in the hole's 45
+    degree chamfer. The height is negative if the shoulder is below the mouth. `chamfer` and `radius` are in m.
     """
     return min(0.0, dimensions()("pin.body_radius") - radius - chamfer)
 
@@ -154,8 +154,9 @@ def dispenser_places(count: int = 6) -> tuple[Point, ...]:
 
 
 def web_centre() -> float:
-    """Return the distance along x from the centre of large hole 1 to the middle of the gasket's web, the strip
-    between the two large holes (m)."""
+    """Return the distance (m) along x from the centre of large hole 1 to the middle of the gasket's web. The web is
+    the strip between the two large holes.
+    """
     d = dimensions()
     edge_1 = d("base.large_hole_1.diameter") / 2
     edge_2 = d("base.large_hole_2.x") - d("base.large_hole_2.diameter") / 2

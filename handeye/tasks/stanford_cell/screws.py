@@ -86,7 +86,7 @@ _COLOURS: Final = {
 
 
 def add_styles(spec: mujoco.MjSpec) -> None:
-    """Add the default classes of shapes, which differ in what they touch, and the colours."""
+    """Add the colours, and the default classes of shapes. The classes differ in what their shapes touch."""
     for name, (contype, conaffinity) in _STYLES.items():
         style = spec.find_default(name) or spec.add_default(name, spec.default)
         geom = style.geom
@@ -194,7 +194,7 @@ def add_thread(shaper: Shaper, base: mujoco.MjsBody, number: int, at: Place, hei
 def _screw_shapes(
     shaper: Shaper, body: mujoco.MjsBody, head: str, shank: str, head_name: str, shank_name: str
 ) -> tuple[mujoco.MjsGeom, mujoco.MjsGeom]:
-    """Add head and shank of a screw, whose origin is its point, to a body."""
+    """Add head and shank of a screw to a body. The body's origin is the point of the screw."""
     top = LENGTH + HEAD_HEIGHT
     first = shaper.cylinder(
         body, head, HEAD * MM, (0, 0, LENGTH * MM), (0, 0, top * MM), "screw", name=head_name

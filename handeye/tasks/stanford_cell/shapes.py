@@ -80,7 +80,9 @@ class Shaper:
         return _named(geom, name, material)
 
     def convex(self, name: str, points: Array) -> str:
-        """Add a mesh asset for collisions, the convex hull of `points` (m, shape (n, 3)); returns its name."""
+        """Add a mesh asset for collisions, the convex hull of `points` (m, shape (n, 3)). Returns the name of the
+        asset.
+        """
         self.spec.add_mesh(name=name, uservert=points.ravel().tolist())
         return name
 

@@ -28,11 +28,11 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:
     """Build the cell of a world.
 
-    To save computing time, parts at rest sleep, and clamped parts are welded together. If `rest` is False, neither
-    is done: the physics is the same, but the simulation is slower.
+    To save computing time, parts at rest sleep, and clamped parts are welded together. If `rest` is False, parts
+    neither sleep nor are welded: the physics is the same, but the simulation is slower.
 
-    `camera` is the renderer: `auto`, `gl` or `ray`, or a function that makes one. Raises InvalidInput if this
-    renderer does not work here.
+    `camera` is the renderer: `auto`, `gl` or `ray`, or a function that makes a renderer. Raises InvalidInput if this
+    renderer does not work on this computer.
     """
     model = build(world)
     data = mujoco.MjData(model)

@@ -1,5 +1,5 @@
-"""Executes schedules, and checks invariants after each. If a schedule fails, elements of it are removed as long as
-it still fails.
+"""Executes schedules, and checks invariants after each. If a schedule fails, its elements are removed one by one, as
+long as the schedule still fails.
 """
 
 import tempfile
@@ -74,8 +74,8 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
-    """Return the findings that should hold after the first `done` stages of the program, but fail. All findings
-    must hold after the last stage; `holds_from` names those that must already hold after an earlier stage.
+    """Return the findings that should hold after the first `done` stages of the program, but do not hold. All findings
+    must hold after the last stage; `holds_from` names the findings that must already hold after an earlier stage.
     """
     return [
         f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
@@ -230,13 +230,13 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChaosWork:
-    """Executes schedules. Each starts from the fault-free run of its world, which is kept in a folder."""
+    """Executes schedules. Each schedule starts from the fault-free run of its world. A folder keeps these runs."""
 
     setup: Setup  # The setup of the runs without their worlds
     folder: Path
 
     def __call__(self, case: Case) -> list[ChaosRow]:
-        """Execute a schedule. If it fails, reduce it as far as possible while it still fails."""
+        """Execute a schedule. If the schedule fails, reduce it as far as possible while it still fails."""
         schedule = parse_schedule(case.condition)
         sound = sound_run(self.folder, self.setup, WorldSpec(seed=schedule.seed, level=schedule.level))
         drawn = try_schedule(schedule, sound)
@@ -249,8 +249,8 @@ class ChaosWork:
 
 
 def worlds(seed: int, count: int, *, levels: bool = True) -> list[WorldSpec]:
-    """Return the worlds for the schedules of a seed: those of this seed and of the seeds that follow. With
-    `levels`, successive worlds have different levels of error.
+    """Return the worlds for the schedules of a seed: the world of this seed and the worlds of the seeds that follow.
+    With `levels`, successive worlds have different levels of error.
     """
     chosen = LEVELS if levels else LEVELS[:1]
     return [WorldSpec(seed=seed + number, level=chosen[number % len(chosen)]) for number in range(count)]

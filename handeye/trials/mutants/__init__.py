@@ -1,1 +1,1 @@
-"""Mutants of a program: what happens if one of its checks is missing or weaker."""
+"""Mutants of a program: what happens if one check of the program is missing or weaker."""

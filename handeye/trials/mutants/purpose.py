@@ -1,4 +1,4 @@
-"""Finds the faults for which a check exists: those that its call or its error should name."""
+"""Finds the faults for which a check exists: the faults that the call or the error of the check should name."""
 
 import re
 from collections.abc import Sequence

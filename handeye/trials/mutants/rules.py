@@ -1,5 +1,5 @@
-"""Makes the mutants of a program by rule: at each line in turn, one check is taken away or weakened, or one guard
-loosened. Steps keep their numbers, so a mutant runs with the motions of the plan of the program.
+"""Makes the mutants of a program by rule: at each line in turn, one check is taken away or weakened, or one guard is
+loosened. Steps keep their numbers, so a mutant runs with the planned motions of the original program.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -83,7 +83,9 @@ def _wider(_: Program, step: Step) -> Step | None:
 
 
 def _ignored(program: Program, step: Step) -> Step | None:
-    """Make both branches of a test lead where the better one leads: not to the operator, and not to a repetition."""
+    """Make both branches of a test lead to the target of the better branch: the one that leads neither to the operator
+    nor to a repetition.
+    """
     operation = step.operation
     if not isinstance(operation, Test) or operation.raised == step.next:
         return None

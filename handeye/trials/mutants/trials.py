@@ -1,5 +1,5 @@
-"""Tries the mutants of a program. The proof comes first. If it does not refuse a mutant, the mutant is run with the
-faults that the missing check is meant to notice.
+"""Tries the mutants of a program. The proof comes first. If the proof does not refuse a mutant, the mutant is run with
+the faults that the missing check is meant to notice.
 """
 
 from collections import Counter

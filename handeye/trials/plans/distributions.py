@@ -134,7 +134,7 @@ def margin_details(rows: Sequence[Row]) -> Details:
 
 
 def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:
-    """Return the margins of all findings. Those most likely to fail come first."""
+    """Return the margins of all findings. The findings most likely to fail come first."""
     judged = [(row.seed, row.result.referee) for row in rows if row.result is not None and row.result.referee]
     names = dict.fromkeys(name for _, referee in judged for name in referee)
     found = [
@@ -145,8 +145,9 @@ def margins(rows: Sequence[Row]) -> tuple[Margin, ...]:
 
 
 def margin_of(check: Check) -> float:
-    """Return the margin between a finding and its limit, in the finding's unit. It is negative if the limit is
-    exceeded."""
+    """Return the margin between a finding and its limit, in the finding's unit. The margin is negative if the limit is
+    exceeded.
+    """
     return check.limit - check.value if check.relation == "at most" else check.value - check.limit
 
 

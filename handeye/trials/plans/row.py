@@ -105,7 +105,7 @@ class Row(TrialRow, frozen=True, kw_only=True):
     """Greatest force on the hand while the arm undid its work (N); None if nothing was undone."""
 
     def __post_init__(self) -> None:
-        """Check that the row has a result, or a reason for its absence. Raises ValueError if it has neither."""
+        """Check that the row has a result, or a reason for its absence. Raises ValueError if the row has neither."""
         if self.result is None and not self.broken_off:
             raise ValueError(f"a trial that counts as {self.ended!r} has no result")
 

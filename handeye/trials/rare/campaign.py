@@ -35,7 +35,7 @@ WORLDS: Final = "worlds"  # folder of the worlds in which the program fails
 
 
 class LimitingPart(Record, frozen=True, kw_only=True):
-    """What determined the margins at a level most often."""
+    """The part that most often determined the margins at a level."""
 
     part: str
     share: float  # of the runs of the level
@@ -81,7 +81,7 @@ class Campaign:
     _points: tuple[Point, ...] = ()
 
     def first(self) -> tuple[RareRow, ...]:
-        """Run the worlds of level 0: those of the seeds that follow the first."""
+        """Run the worlds of level 0: the worlds of the seeds that follow the first seed."""
         if not self._first:
             seeds = range(self.trial.world.seed, self.trial.world.seed + self.runs)
             self._points = tuple(map(self.space.seeded, seeds))
@@ -130,7 +130,9 @@ class Campaign:
         return rows
 
     def world(self, condition: str, point: Point) -> WorldSpec:
-        """Return the world of a point. At level 0, it is the world of a seed, as every command makes it."""
+        """Return the world of a point. At level 0, the world of a point is the world of a seed, as every command makes
+        it.
+        """
         if condition == FIRST:
             return replace(self.trial.world, seed=point.noise)
         return self.space.world(point)
@@ -191,7 +193,7 @@ class _Measured:
 
     @property
     def limiting(self) -> Iterator[LimitingPart]:
-        """What determined the margins of each level most often."""
+        """The part that most often determined the margins, for each level."""
         for parts in self._parts.values():
             part, count = parts.most_common(1)[0]
             yield LimitingPart(part=part, share=count / parts.total())

@@ -1,11 +1,11 @@
-"""Finds, of the worlds in which a program fails, those nearest to the middle of all quantities; and what pushes the
-program to fail.
+"""Of the worlds in which a program fails, finds the worlds nearest to the middle of all quantities. Also finds what
+pushes the program to fail.
 
-A world in which the program fails differs from the middle in every quantity, although few of them matter. So the
-quantities of a failing world return to the middle of their ranges, first in groups, then one by one, as long as the
-program still fails. This is delta debugging (A. Zeller and R. Hildebrandt, Simplifying and isolating failure-inducing
-input, IEEE Transactions on Software Engineering 28 (2002) 183-200). Then all remaining deviations become smaller
-together. The noise stays the same.
+A world in which the program fails differs from the middle in every quantity, although only a few quantities matter. So
+the quantities of a failing world return to the middle of their ranges, first in groups, then one by one, as long as
+the program still fails. This is delta debugging (A. Zeller and R. Hildebrandt, Simplifying and isolating
+failure-inducing input, IEEE Transactions on Software Engineering 28 (2002) 183-200). Then all remaining deviations
+become smaller together. The noise stays the same.
 """
 
 from collections import deque
@@ -38,7 +38,7 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """How one quantity pushes the program towards a failure, in standard deviations."""
+    """How far, in standard deviations, one quantity pushes the program towards a failure."""
 
     quantity: str
     worlds: int  # how many of the nearest worlds need it
@@ -79,8 +79,8 @@ def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> l
 
 
 def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> Generator[Array, bool, None]:
-    """Yield worlds that deviate less, at most `tries` of them. The caller answers each with True if the program still
-    fails in it.
+    """Yield at most `tries` worlds that deviate less from the middle. For each world, the caller answers True if the
+    program still fails in it.
     """
     kept = numbers.copy()
     parts = deque(list(group) for group in groups)
@@ -102,7 +102,9 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return how the quantities push the program to fail. Those that more of the nearest worlds need come first."""
+    """Return how the quantities push the program to fail. The quantities that more of the nearest worlds need come
+    first.
+    """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:
         return []

@@ -27,7 +27,7 @@ _TITLES: Final = {"stopped": "The program stops", "silent": "The program fails s
 
 
 def rare_page(title: str, heading: str, sections: Sequence[Markup]) -> bytes:
-    """Return a page with some sections. It loads no external files."""
+    """Return a page with the given sections. The page loads no external files."""
     body = element(
         "body",
         element("header", element("div", element("h1", heading), element("p", title, class_="name"))),
@@ -49,7 +49,7 @@ def estimates(found: Sequence[Estimated]) -> Iterator[Markup]:
 
 
 def worlds(failure: str, found: Sequence[NearWorld], pushing: Sequence[Push]) -> Iterator[Markup]:
-    """Yield the sections for the nearest failing worlds, and for the quantities that push."""
+    """Yield the sections for the nearest failing worlds, and for the quantities that push the program to fail."""
     title = f"{_TITLES[failure]}: nearest worlds"
     if not found:
         yield section(f"{failure}-worlds", title, element("p", no_worlds(failure)))

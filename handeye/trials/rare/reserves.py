@@ -17,10 +17,10 @@ _MM: Final = 1e3  # per metre
 
 
 class Reserves(Observer):
-    """Records the least that a program had left, by name: places of a search, rounds of a counted loop, and the
-    distance (mm) of each measurement from the limit at which the program would have called the operator.
+    """Records, by name, the smallest reserves that a program had left: places of a search, rounds of a counted loop,
+    and the distance (mm) of each measurement from the limit at which the program would have called the operator.
 
-    A check whose error the next step tests is left out: if it fails, the program goes on in another way.
+    A check is left out if the next step tests for its error: if such a check fails, the program goes on in another way.
     """
 
     def __init__(self, runner: Runner) -> None:

@@ -1,4 +1,4 @@
-"""One run in a sample of worlds, and its margin: how far it was from failing."""
+"""One run in a sample of worlds, and the margin of the run: how far it was from failing."""
 
 import hashlib
 from collections.abc import Mapping, Sequence
@@ -34,7 +34,7 @@ class RareCase(Case, frozen=True, kw_only=True):
 
 
 class RareRow(Row, frozen=True, kw_only=True):
-    """A run, with what the program had left."""
+    """A run, with the reserves that the program had left."""
 
     left: Mapping[str, float] = {}
     """For each search, each loop with a counter, and each check: the least reserve that the program had in the run;
@@ -50,7 +50,7 @@ class RareRow(Row, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Margin:
-    """The margin of a run, and the part that determines it."""
+    """The margin of a run, and the part that determines the margin."""
 
     value: float
     """A value of 1 means that the run had as much left as runs usually have. A value of 0 or less means that the run
@@ -61,7 +61,9 @@ class Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Usual:
-    """What runs usually have left: the medians over the first level. They make the parts of a margin comparable."""
+    """The reserves that runs usually have left: the medians over the first level. These medians make the parts of a
+    margin comparable.
+    """
 
     program: Mapping[str, float]
     referee: Mapping[str, float]
@@ -89,23 +91,25 @@ class Usual:
 
 
 def usual(rows: Sequence[RareRow]) -> Usual:
-    """Return what the runs of a first level usually have left. A part is omitted if at least half of the runs have
-    nothing left of it: such a part does not show how close a run was to failing.
+    """Return the reserves that the runs of a first level usually have left. A part is omitted if at least half of the
+    runs have nothing left of it: such a part does not show how close a run was to failing.
     """
     judged = [limits_left(row.result.referee) for row in rows if row.result is not None]
     return Usual(program=_medians([row.left for row in rows]), referee=_medians(judged))
 
 
 def limits_left(checks: Mapping[str, Check]) -> dict[str, float]:
-    """Return how far each finding is within its limit, in its unit. A finding that is exactly at its limit is a
-    count that is right, and is left out.
+    """Return how far each finding is within its limit, in the unit of the finding. A finding that is exactly at its
+    limit is left out, because it is a correct count.
     """
     found = {name: check_left(check) for name, check in checks.items() if not check.caution}
     return {name: left for name, left in found.items() if left or not checks[name].ok}
 
 
 def check_left(check: Check) -> float:
-    """Return how far a finding is within its limit, in its unit; negative if it is beyond the limit."""
+    """Return how far a finding is within its limit, in the unit of the finding; negative if the finding is beyond the
+    limit.
+    """
     left = check.limit - check.value
     return left if check.relation == "at most" else -left
 
@@ -124,7 +128,7 @@ def _least(left: Mapping[str, float], known: Mapping[str, float]) -> Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RareTrial(Trial):
-    """Runs a plan in the world of a case, and records what the program had left."""
+    """Runs a plan in the world of a case, and records the reserves that the program had left."""
 
     row: ClassVar[type[Row]] = RareRow
 

@@ -55,7 +55,9 @@ class Level(Record, frozen=True, kw_only=True):
 
 
 class Estimate(Record, frozen=True, kw_only=True):
-    """An estimate of the probability that a margin is at most the threshold of the last level. It is not a bound."""
+    """An estimate of the probability that a margin is at most the threshold of the last level. The estimate is not a
+    bound.
+    """
 
     probability: float
     variation: float  # coefficient of variation
@@ -81,7 +83,7 @@ def subset_simulation(
     """Yield one level after the other, until the failure is reached, no level is left, or `most` levels are done.
 
     Args:
-        first: worlds drawn independently; every level has as many.
+        first: worlds drawn independently; every level has the same number of worlds.
         stream: returns the random number generator of a level, given by its number.
     """
     chains = [[_State(*each)] for each in zip(first, margins(0, first), strict=True)]

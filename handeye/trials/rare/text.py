@@ -26,7 +26,7 @@ def levels_table(found: Estimated) -> PlainTable:
 
 
 def level_cells(found: Estimated) -> Iterator[tuple[str, ...]]:
-    """Yield the cells of the table of levels: what limits the runs, and figures."""
+    """Yield the cells of the table of levels: the part that limits the runs of a level, then its figures."""
     for level, limiting in zip(found.levels, found.limiting, strict=True):
         part = f"{limiting.part} ({100 * limiting.share:.0f} %)" if limiting.part else "nothing"
         yield (
@@ -36,7 +36,7 @@ def level_cells(found: Estimated) -> Iterator[tuple[str, ...]]:
 
 
 def sentence(found: Estimated) -> str:
-    """Say what was estimated, and how sure it is."""
+    """Say what was estimated, and how sure the estimate is."""
     guess = found.estimate
     figures = (
         f"{guess.probability:.2g} (coefficient of variation {guess.variation:.2f}, {guess.low:.2g} to "

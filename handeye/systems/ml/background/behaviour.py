@@ -1,4 +1,4 @@
-"""For the code of each command of ML, the function that executes the command."""
+"""The table of the functions that execute the commands of ML, by the code of the command."""
 
 from collections.abc import Callable
 from typing import Final

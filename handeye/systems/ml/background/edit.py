@@ -59,7 +59,7 @@ def show(name: str, mos: "Interpreter", line: int | None = None, word: int | Non
 
 
 def file(mos: "Interpreter", table: int, line: int, word: int, *values: int) -> None:
-    """Write consecutive words of a line. If the line is too short for all of them, nothing is written."""
+    """Write consecutive words of a line. If the line is too short for all the words, nothing is written."""
     name = table_name(table)
     mos.level.read(name, line, word + len(values) - 1)
     for at, value in enumerate(values, word):

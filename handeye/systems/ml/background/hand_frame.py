@@ -1,4 +1,4 @@
-"""Computes motions in the frame of the right arm's gripper. In MOS, this is work of the host.
+"""Computes motions in the frame of the right arm's gripper. In MOS, the host computes these motions.
 
 When all three angles are 0, the gripper's axes are parallel to those of the slides: x to the right (motor 4), y back
 (motor 3), and z down (motor 2), along the fingers. Roll (motor 8) turns about z, then yaw (9) about x, then pitch (10)
@@ -51,7 +51,7 @@ def _rotation(angles: Mapping[int, int]) -> Array:
 
 def _angles(frame: Array, near: Mapping[int, int]) -> dict[int, int]:
     """Return the angles of the motors (.01 deg) that give the gripper the orientation `frame`. Of the two solutions,
-    the one nearer to the angles `near` is returned.
+    the function returns the solution that is nearer to the angles `near`.
     """
     yaw = asin(min(max(float(frame[2, 1]), -1.0), 1.0))
     if hypot(frame[2, 0], frame[2, 2]) < 1e-9:  # roll and pitch turn about the same axis: keep the pitch

@@ -1,4 +1,4 @@
-"""The host, a larger computer behind a link, and the commands that need it. Without a host, MOS works alone."""
+"""The host, a larger computer behind a link, and the commands that need the host. Without a host, MOS works alone."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -35,11 +35,11 @@ class Host:
         return self.texts[name]
 
     def write(self, name: str, text: str) -> None:
-        """Store the text of a program. Raises InvalidInput if it cannot be stored."""
+        """Store the text of a program. Raises InvalidInput if the program cannot be stored."""
         self.texts[name] = text
 
     def interpreter(self) -> None:
-        """Start the interpreter of the arm language. Raises InvalidInput if it cannot be started."""
+        """Start the interpreter of the arm language. Raises InvalidInput if the interpreter cannot be started."""
         raise MlError("M16", "this host has no interpreter of the arm language")
 
 

@@ -1,5 +1,5 @@
-"""The interpreter of ML: it executes the statements of one arm, typed or stored. A statement that must wait records in
-the memory what it waits for; the caller then lets cycles pass until `ready` returns True.
+"""The interpreter of ML: it executes the typed and the stored statements of one arm. A statement that must wait
+records in the memory what it waits for; the caller then lets cycles pass until `ready` returns True.
 """
 
 from collections.abc import Callable, Mapping
@@ -74,7 +74,7 @@ class Interpreter:
     # -- execution ------------------------------------------------------------------------------------
 
     def run(self, first: int | None = None) -> None:
-        """Start the stored program at a statement, or at its first one. Raises MlError (M07, M14)."""
+        """Start the stored program at a statement, or at its first statement. Raises MlError (M07, M14)."""
         if why := self._emergency:
             raise MlError("M14", f"an emergency has stopped the arm: {why}; ENABLE the arm first")
         if first is None and not self.program.numbers:
@@ -93,7 +93,7 @@ class Interpreter:
 
     def conclude(self) -> None:
         """End the program. If a last look at the sensors and interlocks finds an emergency, the program counts as
-        stopped by it.
+        stopped by that emergency.
         """
         self.end()
         for level in (self._own, self.level):
@@ -101,7 +101,9 @@ class Interpreter:
         self.check()
 
     def check(self) -> bool:
-        """Stop the program if an emergency has stopped the arm. Returns True if it has been stopped."""
+        """Stop the program if an emergency has stopped the arm. Returns True if an emergency has stopped the
+        program.
+        """
         if not self.memory.stopped and (why := self._emergency):
             self._stop(why)
         return bool(self.memory.stopped)
@@ -122,7 +124,9 @@ class Interpreter:
         return True
 
     def statement(self) -> None:
-        """Execute the next stored statement. An error in it is an emergency, which stops the program."""
+        """Execute the next stored statement. If the statement causes an error, the error is an emergency, which stops
+        the program.
+        """
         memory = self.memory
         number = memory.at
         if not number:
@@ -224,7 +228,7 @@ class Interpreter:
         self._tell(Printed(time=self.time, text=text))
 
     def go(self, number: int) -> None:
-        """Continue at a statement. A typed branch starts the program there. Raises MlError (M07)."""
+        """Continue at a statement. A typed branch starts the program at that statement. Raises MlError (M07)."""
         self.program.statement(number)
         if self.memory.executing:
             self.memory.at = number

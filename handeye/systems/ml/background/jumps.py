@@ -39,7 +39,7 @@ def branch_and_link(mos: "Interpreter", variable: int, target: int) -> None:
 
 
 def gosub(mos: "Interpreter", target: int) -> None:
-    """Go to a subroutine. If a typed line has called it, its RETURN ends the program."""
+    """Go to a subroutine. If a typed line has called the subroutine, the subroutine's RETURN ends the program."""
     if mos.memory.executing and mos.register(*LINK):
         raise MlError("M13", "GOSUB is not allowed in a subroutine that GOSUB has called; use BAL")
     back = mos.memory.at if mos.memory.executing else 0
@@ -121,7 +121,9 @@ def _stored(mos: "Interpreter", code: str) -> None:
 
 
 def _after_end(mos: "Interpreter", code: str) -> int:
-    """Find the next NEXTI or NEXTJ (`code`), and return the number of the statement after it; 0 if none follows."""
+    """Find the next NEXTI or NEXTJ (`code`), and return the number of the statement after it; 0 if no statement
+    follows.
+    """
     number = mos.memory.at
     while number:
         if mos.program.statement(number).code == code:

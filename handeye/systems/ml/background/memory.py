@@ -15,7 +15,7 @@ KEPT: Final = 100  # lines of the trace and of the session
 
 
 class BackgroundMemory(MutableRecord, kw_only=True):
-    """Where the program is, and what it waits for. Its registers are in the table RG."""
+    """Where the program is, and what it waits for. The registers of the background level are in the table RG."""
 
     at: Number = 0  # the statement to be executed next; 0: no program runs
     executing: Number = 0  # the statement that is executed, or was executed last; 0: a typed line

@@ -88,8 +88,8 @@ def go_mean(mos: "Interpreter", one: int, other: int) -> None:
 
 
 def go_line(mos: "Interpreter", one: int, other: int) -> None:
-    """On the line through two POINTs, in the space of all motors, go to the place nearest to the present goals.
-    Half a unit is rounded up.
+    """Find the place nearest to the present goals on the straight line through two POINTs, in the space of all motors,
+    and move all motors there. Half a unit is rounded up.
     """
     level, a, b = mos.level, mos.program.point(one), mos.program.point(other)
     goals = [level.goal(motor) if motor in level.motors else 0 for motor in range(1, MOTORS + 1)]

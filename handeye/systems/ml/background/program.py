@@ -31,7 +31,7 @@ class StoredProgram:
         self._numbers: list[int] | None = None
 
     def remember(self, memory: MutableRecord) -> None:
-        """Continue from a copy of a state. Raises BadFile if the state is not one of a program in ML."""
+        """Continue from a copy of a state. Raises BadFile if the state is not the state of a program in ML."""
         if not isinstance(memory, ProgramMemory):
             raise BadFile("this is not the state of a program in ML")
         for number, text in memory.statements.items():
@@ -57,7 +57,7 @@ class StoredProgram:
         self._numbers = None
 
     def erase(self, first: int, last: int) -> None:
-        """Erase the statements in a range of numbers. Raises MlError (M07) if there are none."""
+        """Erase the statements in a range of numbers. Raises MlError (M07) if the range has no statements."""
         gone = self.between(first, last)
         if not gone:
             raise MlError("M07", none_stored(first, last))

@@ -1,5 +1,5 @@
-"""The tables that the background level keeps. In them, GET, QUERY and the dashboard see the program, its points, the
-trace and the host.
+"""The tables that the background level keeps. In these tables, GET, QUERY and the dashboard see the program, its
+points, the trace and the host.
 """
 
 from typing import TYPE_CHECKING, Final
@@ -46,9 +46,9 @@ class _ReadOnly:
 
 
 class TaskTable:
-    """The table TK: in each line, the number of a statement's command, its 15 parameters, and four words that say in
-    which form the parameters are written. The line of a POINT has the number of the command and the positions of 12
-    motors. A line without a statement has zeros.
+    """The table TK: each line has the number of a statement's command, the 15 parameters of the statement, and four
+    words that say in which form the parameters are written. The line of a POINT has the number of the command and the
+    positions of 12 motors. A line without a statement has zeros.
     """
 
     def __init__(self, program: StoredProgram) -> None:
@@ -145,7 +145,7 @@ class TraceBuffer(_ReadOnly):
 
 
 class SessionLog(_ReadOnly):
-    """The table LG: the lines that were typed, with the latest in line 1 and two characters in each word."""
+    """The table LG: the lines that were typed, with two characters in each word. The latest typed line is in line 1."""
 
     def __init__(self, mos: "Interpreter") -> None:
         self._mos = mos

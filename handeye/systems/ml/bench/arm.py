@@ -1,7 +1,8 @@
 """The rectilinear arm on a bench, with a wand, strain gauges, a range finder, switches, and inaccurate potentiometers.
 
-A slide does not stop at exactly the same place each time. This is simulated as an error of its potentiometer, which is
-drawn again for each motion: the reading agrees with the goal, but the slide stops elsewhere.
+A slide does not stop at exactly the same place each time. To simulate this, the slide's potentiometer has an error,
+which is drawn again for each motion. When the slide stops, the reading agrees with the goal, but the slide is
+elsewhere.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -28,7 +28,7 @@ def add_bar(
     """Put a bar into a scene, with its middle at `at` (m).
 
     Args:
-        soft: True if its contacts with other bars begin softly, so that it comes to rest in a pile.
+        soft: True if the bar's contacts with other bars begin softly, so that the bar comes to rest in a pile.
     """
     body = spec.worldbody.add_body(name=name, pos=at.tolist(), quat=quat.tolist())
     body.add_freejoint(name=name)
@@ -55,8 +55,9 @@ def after(one: Array, other: Array) -> Array:
 
 
 def off_attitude(R: Array, along: Array, up: Array) -> float:
-    """Return the angle (deg) by which a bar of orientation `R` differs from the required attitude. In this attitude,
-    the bar points along `along`, with either of its ends, and one of its four long sides faces in the direction `up`.
+    """Return the angle (deg) by which a bar of orientation `R` differs from the required attitude. In the required
+    attitude, one end of the bar (either of the two) points along `along`, and one of the four long sides faces in the
+    direction `up`.
     """
     length = acos(min(abs(float(R[:, 1] @ along)), 1.0))
     side = atan2(float(R[:, 0] @ up), float(R[:, 2] @ up)) % (pi / 2)

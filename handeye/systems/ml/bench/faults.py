@@ -45,8 +45,8 @@ def arm_fault(name: str, *calls: str, harmless: str = "") -> FaultKind:
     """Declare a fault of the arm.
 
     Args:
-        calls: the messages that name the fault. For a fault of a motor or a potentiometer, the message that the motor
-            does not reach its goal is added.
+        calls: the messages that name the fault. If the fault is in a motor or a potentiometer, this function adds the
+            message that the motor does not reach its goal.
         harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
     """
     kind, axis, what = [*name.split("."), "", ""][:3]
@@ -73,7 +73,7 @@ def planted(
     Args:
         calls: the messages that name the fault.
         harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
-        when: `before` if the fault is present from the start; `later` if it can also begin after a time.
+        when: `before` if the fault is present from the start; `later` if the fault can also begin after a time.
     """
     expected = ExpectedDetection(calls=calls, harmless=harmless)
     return FaultKind(name=name, meaning=meaning, size=size, when=when, expected=expected)

@@ -78,7 +78,7 @@ class ArmTask(StationTask):
         return StationHardware(Station(self._alone(errors, two=two), errors, left=two), tell)
 
     def _alone(self, world: ArmWorld, *, two: bool) -> mujoco.MjSpec:
-        """Return the scene of the arm over an empty table, or of both arms."""
+        """Return the scene of the arm over an empty table. If `two` is True, the scene also has the left arm."""
         spec = scene(world)
         if two:
             add_left_arm(spec)

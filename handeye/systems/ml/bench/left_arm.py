@@ -1,5 +1,5 @@
-"""The left arm: a Purbrick arm beside the rectilinear arm, with a platter of its own. The signs of its joints are those
-of the right arm: z points down, and y away from the base.
+"""The left arm: a Purbrick arm beside the rectilinear arm, with a platter of its own. The joints have the same signs
+as the joints of the right arm: z points down, and y away from the base.
 """
 
 from dataclasses import replace
@@ -32,7 +32,7 @@ AXES: Final = tuple(
 
 
 def add_left_arm(spec: mujoco.MjSpec) -> None:
-    """Add the arm and its table to the scene of the right arm, and move the camera back, so that it sees both."""
+    """Add the arm and its table to the scene of the right arm, and move the camera back, so that it sees both arms."""
     arm = PURBRICK.scene()
     for name in ("floor", "wall"):
         arm.delete(arm.geom(name))
@@ -64,7 +64,7 @@ def add_left_arm(spec: mujoco.MjSpec) -> None:
 
 
 class LeftState(Record, frozen=True, kw_only=True):
-    """The state of the arm, without that of its servos."""
+    """The state of the arm, without the state of its servos."""
 
     signalled: tuple[str, ...] = ()  # interlocks that are on
 

@@ -1,5 +1,5 @@
-"""Programs that end by printing two numbers. The first is 0 if all went well, or else the number of a trouble; the
-second is a count.
+"""Programs that end by printing two numbers. The first number is 0 if all went well, or else the number of a trouble.
+The second number is a count.
 """
 
 from __future__ import annotations

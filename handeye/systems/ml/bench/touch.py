@@ -61,16 +61,16 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def bound(self) -> float:
-        """How far (mm) the slide can move on after the contact, to within a few per cent. It moves on until the force
-        on the fingers reaches the limit, then for one period, and then for the time by which the servo lags behind its
-        set-point.
+        """How far (mm) the slide can move on after the contact, to within a few per cent. The slide moves on until the
+        force on the fingers reaches the limit, then for one period, and then for the time by which the servo lags
+        behind its set-point.
         """
         lag = 2 * _DAMPING / (2 * pi * self.bandwidth)
         return self.limit * GRAM_FORCE / STIFFNESS / MILLIMETRE + self.speed * (self.period * _MS + lag)
 
     @property
     def trips(self) -> bool:
-        """True if a guard that was set before the motion would trip in the air, when the motion starts."""
+        """True if the start of the motion, in the air, would trip a guard that was set before the motion."""
         return self.jolt > self.limit * GRAM_FORCE
 
 
@@ -91,11 +91,11 @@ def touch(
     limit: int = LIMIT,
     phase: float = 0.0,
 ) -> Touch:
-    """Let the hand descend on a block, and freeze it as the real-time level does: when the sensors are read and a gauge
-    is beyond its limit, the goal becomes the present position.
+    """Let the hand descend on a block, and freeze the hand as the real-time level does: when the sensors are read and
+    a gauge is beyond its limit, the goal becomes the present position.
 
-    The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip it.
-    `Touch.trips` says whether a guard that was set before the start would have tripped in the air.
+    The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip the
+    guard. `Touch.trips` says whether a guard that was set before the start would have tripped in the air.
 
     Raises:
         BadArgument: a value is out of range.
@@ -184,7 +184,7 @@ def _check(what: str, value: float, span: tuple[float, float], unit: str) -> Non
 
 @lru_cache(maxsize=8)
 def _model(bandwidth: float) -> mujoco.MjModel:
-    """Return the scene of the arm over a block. The servo of its z slide has the bandwidth `bandwidth` (Hz)."""
+    """Return the scene of the arm over a block. The servo of the z slide has the bandwidth `bandwidth` (Hz)."""
     spec = scene(ArmWorld(), wand=False)
     half = _BLOCK / 2
     spec.worldbody.add_geom(

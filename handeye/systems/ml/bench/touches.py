@@ -1,4 +1,6 @@
-"""Touches for many periods, bandwidths and speeds, and a page on which a user chooses one of each."""
+"""Touches for many periods, bandwidths and speeds, and a page on which a user chooses a period, a bandwidth and a
+speed.
+"""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -42,8 +44,9 @@ def swept(limit: int = LIMIT) -> list[Touch]:
 
 
 def fastest(period: int, bandwidth: float, force: float = FORCE, limit: int = LIMIT) -> float:
-    """Return the greatest speed (mm/s, to within .5 mm/s) at which the force of a guarded touch stays within `force`
-    (N) and the start of its motion does not trip the guard; 0 if there is no such speed.
+    """Return the greatest speed for a guarded touch (mm/s, to within .5 mm/s); 0 if no speed is suitable. At a
+    suitable speed, the force of the touch stays within `force` (N), and the start of the motion does not trip the
+    guard.
     """
 
     def right(speed: float) -> bool:

@@ -138,13 +138,15 @@ class ArmWorld:
         return self.variation.value(name, self.spec)
 
     def fault(self, name: str) -> float | None:
-        """Return the size of a fault (SI; 1 for a fault without a size), or None if the world does not have it."""
+        """Return the size of a fault (SI; 1 for a fault without a size), or None if the world does not have the
+        fault.
+        """
         faults = () if self.spec is None else self.spec.faults
         return next((1.0 if each.value is None else each.value for each in faults if each.name == name), None)
 
     def normal(self, name: str, sigma: str) -> float:
-        """Draw the normally distributed number called `name`. Its standard deviation is the world's value of the
-        quantity `sigma`, and it is clipped at two standard deviations.
+        """Draw the normally distributed number called `name`. The standard deviation is the world's value of the
+        quantity `sigma`, and the number is clipped at two standard deviations.
         """
         if self.spec is None:
             return 0.0

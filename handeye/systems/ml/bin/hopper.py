@@ -41,11 +41,11 @@ _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
 
 def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, rim: float = DEEP) -> None:
     """Add the hopper at a place of the scene (m). By default, this place is under the hand when the x and y slides are
-    at 0. A part that slides in the hopper has the friction of the hopper, not its own. The pile in it is solved with
-    dense matrices. A part that falls off the table comes to rest on the floor.
+    at 0. A part that slides in the hopper has the friction of the hopper, not its own. The contact forces in the pile
+    are computed with dense matrices. A part that falls off the table comes to rest on the floor.
 
     Args:
-        rim: height of its walls over the table, m.
+        rim: height of the hopper's walls over the table, m.
     """
     _solve_densely(spec)
     spec.geom("floor").conaffinity = 1  # touches parts, but not the arm
@@ -78,7 +78,7 @@ def hold_firmly(spec: mujoco.MjSpec, parts: Sequence[str] = ()) -> None:
     """Let friction hold light parts in the fingers without creep.
 
     Args:
-        parts: names of the light parts, if the fingers also carry heavy ones.
+        parts: names of the light parts, if the fingers also carry heavy parts.
     """
     for side, piece in product(("left", "right"), ("bar", "pad")):
         finger = spec.geom(f"{side}_{piece}")
@@ -93,8 +93,8 @@ def hold_firmly(spec: mujoco.MjSpec, parts: Sequence[str] = ()) -> None:
 
 
 def _solve_densely(spec: mujoco.MjSpec) -> None:
-    """Let MuJoCo solve for the contact forces with dense matrices. By default it takes sparse ones from 60 degrees of
-    freedom on.
+    """Let MuJoCo solve for the contact forces with dense matrices. By default, MuJoCo uses sparse matrices if the
+    model has 60 or more degrees of freedom.
 
     MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, for example if fingers touch
     parts of a pile, and these parts touch each other. Newton's method then ends after 100 iterations without a
@@ -129,8 +129,8 @@ def add_bin_box(
     """Add the box for good or for bad parts at a place of the scene (m).
 
     Args:
-        half: half its inner sides along x and y, m.
-        high: height of its walls over the table, m.
+        half: half the inner lengths of the box along x and y, m.
+        high: height of the box's walls over the table, m.
     """
     box = spec.worldbody.add_body(name=f"{name}_box", pos=[*place, 0])
     x, y = half

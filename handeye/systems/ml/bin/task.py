@@ -206,7 +206,9 @@ def told(count: str) -> tuple[int, int]:
 
 
 def parts_of(plan: MlPlan) -> int:
-    """Return the number of parts that a plan puts into the bin. Raises NoSuchName unless it is from 1 to `MOST`."""
+    """Return the number of parts that a plan puts into the bin. Raises NoSuchName if the number is not from 1 to
+    `MOST`.
+    """
     if plan.variant.isdecimal() and 1 <= int(plan.variant) <= MOST:
         return int(plan.variant)
     raise NoSuchName(f"the bin takes from 1 to {MOST} parts, not {quoted(plan.variant)}")

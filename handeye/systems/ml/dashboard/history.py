@@ -1,4 +1,6 @@
-"""The recorded tables of a run: the value of each word in each cycle. They can be written to a file and read again."""
+"""The recorded tables of a run: the value of each word in each cycle. The recorded tables can be written to a file and
+read again.
+"""
 
 import gzip
 import zlib
@@ -42,7 +44,9 @@ class Course:
         return self.values[found - 1] if found else 0
 
     def changed(self, cycle: int) -> bool:
-        """Return True if the word was changed in a cycle. Its first value, in cycle 0, does not count as a change."""
+        """Return True if the word was changed in a cycle. The word's first value, in cycle 0, does not count as a
+        change.
+        """
         found = bisect_right(self.cycles, cycle)
         return found > 0 < cycle == self.cycles[found - 1]
 
@@ -84,7 +88,7 @@ class History:
         return course is not None and course.changed(cycle)
 
     def used(self, segment: Segment) -> list[int]:
-        """Return the lines of a table that are connected to a device, and those that change. If no line of the table
+        """Return the lines of a table that are connected to a device or that change. If no line of the table
         is connected to a device, return the lines that are not always 0.
         """
         labels = line_labels(segment.side, segment.table)
@@ -119,10 +123,10 @@ def history(head: Head, changes: Iterable[Changes]) -> History:
 def packed(done: History) -> bytes:
     """Return a history as a compressed file.
 
-    The file begins with the length of the head and the head itself, in JSON. Then it has for each word: how many words
-    without a course were skipped before it, the number of its changes, the number of cycles from each change to the
-    next, and the difference that each change makes to its value. Integers are written with seven bits in each byte,
-    the lowest bits first.
+    The file begins with the length of the head and the head itself, in JSON. Then the file has four kinds of numbers
+    for each word: how many words without a course were skipped before this word, how often this word changes, how many
+    cycles pass from each change to the next, and by how much each change increases the value. Integers are written
+    with seven bits in each byte, the lowest bits first.
     """
     head = msgspec.json.encode(done.head)
     stream = bytearray(_integers([len(head)]) + head)
@@ -199,7 +203,9 @@ class _Reader(Iterator[int]):
 
 
 def _sums(read: _Reader, count: int, *, folded: bool = False) -> list[int]:
-    """Return the running sums of the next `count` numbers. With `folded`, odd numbers stand for negative ones."""
+    """Return the running sums of the next `count` numbers. If `folded` is True, odd numbers stand for negative
+    numbers.
+    """
     sums, total = [], 0
     for _ in range(count):
         number = next(read)

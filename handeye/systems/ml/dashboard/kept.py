@@ -15,8 +15,8 @@ _LARGEST: Final = 50_000_000  # bytes
 
 
 def kept_history(folder: Path) -> History | None:
-    """Return the tables of a run. For an interrupted run, they end at its newest checkpoint. Returns None if the
-    folder has no tables. Raises BadFile.
+    """Return the tables of a run. If the run was interrupted, the tables end at the run's newest checkpoint. Returns
+    None if the folder has no tables. Raises BadFile.
     """
     path = folder / TABLES
     if path.is_file():

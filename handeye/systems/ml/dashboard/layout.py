@@ -16,7 +16,7 @@ _SPECS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
 
 
 class Segment(NamedTuple):
-    """A table of an arm, or one that both arms share."""
+    """A table of one arm, or a table that both arms share."""
 
     side: str  # the arm; empty: both arms share the table
     table: str
@@ -33,18 +33,20 @@ class Segment(NamedTuple):
         return self.base + (line - 1) * self.shape.words + word - 1
 
     def line_word(self, number: int) -> tuple[int, int]:
-        """Return the line and the word that have a number; both count from 1."""
+        """Return the line, and the word in the line, to which the number of a word belongs. Lines and words count from
+        1.
+        """
         line, word = divmod(number - self.base, self.shape.words)
         return line + 1, word + 1
 
     @property
     def names(self) -> list[str]:
-        """The names of the words of a line; empty if they have none."""
+        """The names of the words of a line; empty if the words have no names."""
         names = self.shape.names
         return [name.replace("_", " ") for name in names] if len(names) == self.shape.words else []
 
     def name(self, word: int) -> str:
-        """Return the name of a word of a line; empty if it has none."""
+        """Return the name of a word of a line; empty if the word has no name."""
         return self.names[word - 1] if self.names else ""
 
 

@@ -112,7 +112,9 @@ def facts(head: Head, *, picked: int | None) -> Markup:
 
 
 def _moving(done: History) -> int:
-    """Find the motor that has moved in the most cycles, and return the number of the word with its position."""
+    """Find the motor that has moved in the most cycles, and return the number of the word that has this motor's
+    position.
+    """
     motors = done.find("MT")
     positions = [motors.number(line, 1) for line in range(1, motors.shape.lines + 1)]
     return max(

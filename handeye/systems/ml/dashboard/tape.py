@@ -55,7 +55,7 @@ class Tape(MutableRecord):
 
 
 def changes_of(tape: Tape) -> Iterator[Changes]:
-    """Yield the changes on a tape. Raises BadFile if it cannot be read."""
+    """Yield the changes on a tape. Raises BadFile if the tape cannot be read."""
     yield from map(_expanded, tape.blocks)
     yield _triples(tape.open)
 
@@ -162,7 +162,7 @@ class TapeRecorder:
 
 
 class _Fast:
-    """The tables that change in most cycles. They are copied in each cycle, and compared later."""
+    """The tables that change in most cycles. These tables are copied in each cycle, and compared later."""
 
     def __init__(self, machine: Machine, tables: Sequence[Segment]) -> None:
         arms, shared = machine.memory.arms, machine.memory.shared
@@ -282,7 +282,7 @@ class _Sparse(_Source):
 
 
 class _Viewed(_Source):
-    """A table that the background level keeps. It can have changed only if the value of `key` has changed."""
+    """A table that the background level keeps. The table can have changed only if the value of `key` has changed."""
 
     def __init__(self, segment: Segment, view: View, key: Callable[[], object]) -> None:
         self._segment, self._view, self._key = segment, view, key
@@ -302,7 +302,7 @@ class _Viewed(_Source):
 
 
 def _views(mos: Interpreter, program: StoredProgram) -> dict[str, tuple[View, Callable[[], object]]]:
-    """Return the tables of the background level, each with a function whose value changes when the table does."""
+    """Return the tables of the background level, each with a function whose value changes when the table changes."""
     memory, points = mos.memory, program.memory
     return {
         "PT": (RecentPoints(program), lambda: ([*points.recent], dict(points.points))),

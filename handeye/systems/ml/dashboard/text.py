@@ -48,7 +48,7 @@ def one_word(done: History, segment: Segment, line: int, word: int) -> dict[str,
 
 
 def _changing(done: History, segment: Segment, cycle: int | None = None) -> int:
-    """Return the number of words of a table that changed during the run, or in a cycle."""
+    """Return how many words of a table changed during the run or, if `cycle` is given, in that cycle."""
     mine = [
         course
         for number, course in done.courses.items()
@@ -58,8 +58,8 @@ def _changing(done: History, segment: Segment, cycle: int | None = None) -> int:
 
 
 def overview(done: History, cycle: int) -> Iterator[str]:
-    """List all tables. For each, give the number of words that changed during the run, and the number that changed in
-    one cycle.
+    """List all tables. For each table, give the number of words that changed during the run, and the number of words
+    that changed in one cycle.
     """
     yield f"{done.head.program}, {_moment(done, cycle)}"
     yield ""
@@ -149,8 +149,8 @@ def _within(number: int, most: int, what: str) -> int:
 
 
 def columns(rows: Sequence[Sequence[str]], *, words: int, last: bool = False) -> Iterator[str]:
-    """Align rows in columns. The first `words` columns are texts; with `last`, the last column is also a text. All
-    other columns are numbers, which are aligned to the right.
+    """Align rows in columns. The first `words` columns are texts; if `last` is True, the last column is also a text.
+    All other columns are numbers, which are aligned to the right.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:

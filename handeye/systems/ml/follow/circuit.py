@@ -2,9 +2,9 @@
 The program of the paper detects neither, and runs on for ever.
 
 When a circuit is closed, left turns outnumber right turns by four. If a follower misses its wall, it turns left four
-times without a touch. It goes around a square with sides of one step, and is back where it was. The turns of such a
-square are not counted. The follower then tries again; because each motion ends at a slightly different place, it often
-finds the wall. If it has not found the wall after `IDLE` squares, it is lost.
+times without a touch. The follower has then gone around a square with sides of one step, and is back where it was. The
+turns of such a square are not counted. The follower then tries again; because each motion ends at a slightly different
+place, the follower often finds the wall. A follower that has not found the wall after `IDLE` squares is lost.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,6 @@
-"""The names of the outlines. They are not in the module of the shapes, because that module needs a simulator."""
+"""The names of the outlines. The names have a module of their own, because the module of the shapes needs a
+simulator.
+"""
 
 from typing import Literal
 

@@ -26,7 +26,7 @@ class Rectangle(NamedTuple):
 
 
 class Outline(NamedTuple):
-    """A plate, in units of the slides x and y. Its origin is where the slides are at 0."""
+    """A plate, in units of the slides x and y. The origin is the place at which the slides are at 0."""
 
     corners: tuple[tuple[float, float], ...]  # x, y of a polygon, in order around it
     parts: tuple[Rectangle, ...]  # rectangles of which the plate consists; none: the plate is a disc
@@ -75,7 +75,7 @@ def lay(
     """Lay a plate on the table.
 
     Args:
-        off: how far the plate lies from its place, along x and y of the slides (m).
+        off: how far the plate is displaced from its nominal place, along x and y of the slides (m).
         turned: rotation of the plate about z of the slides (rad).
         friction: coefficient of friction between plate and table.
     """
@@ -104,7 +104,7 @@ def lay(
 
 def placed(points: Array, R: Array, centre: Array) -> Array:
     """Convert points of a plate, shape (n, 2), to where they lie on the table, in units of the slides. The plate has
-    the true rotation `R`, shape (3, 3), and its middle is at `centre` (m, shape (3,)) in the scene.
+    the true rotation `R`, shape (3, 3), and the plate's middle is at `centre` (m, shape (3,)) in the scene.
     """
     flat = np.array([[1.0, 0.0], [0.0, -1.0]])  # from coordinates of the slides to those of the scene
     lying = points * LINEAR @ flat @ R[:2, :2].T + centre[:2] - [CENTRE, 0.0]

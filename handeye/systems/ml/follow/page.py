@@ -1,4 +1,4 @@
-"""Builds the report page of a follower: the outline that was felt, drawn over the true one, and the findings."""
+"""Builds the report page of a follower: the outline that was felt, drawn over the true outline, and the findings."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from math import hypot
@@ -120,7 +120,9 @@ def _plan(true: Array, touches: Array) -> Iterator[Markup]:
 
 
 def _outwards(at: Array, true: Array) -> Array:
-    """Return the offset from a touch to where its number is drawn, away from the plate, in units of the drawing."""
+    """Return the offset from a touch to the place where the touch's number is drawn, in units of the drawing. The
+    offset points away from the plate.
+    """
     slope = [distance(at + step, true) - distance(at - step, true) for step in np.eye(2) * _FAR]
     return 11 * np.array(slope) / max(hypot(*slope), 1.0)
 

@@ -54,7 +54,7 @@ def judge(touches: Array, outline: Array, before: Array) -> Findings:
 
 
 def distance(at: Array, outline: Array) -> float:
-    """Return the distance of a place from an outline; inside the outline, it is negative."""
+    """Return the distance of a place from an outline; inside the outline, the distance is negative."""
     ends = np.roll(outline, -1, axis=0)
     way = ends - outline
     share = np.clip(((at - outline) * way).sum(axis=1) / (way**2).sum(axis=1), 0.0, 1.0)
@@ -72,7 +72,7 @@ def along(outline: Array, count: int = 20) -> Array:
 
 
 def turning_number(touches: Array, centre: Array) -> int:
-    """Return how many times the path through all touches and back to the first one goes around `centre`."""
+    """Return how many times the path through all touches and back to the first touch goes around `centre`."""
     turns = np.unwrap(np.arctan2(*(np.concatenate((touches, touches[:1])) - centre).T))
     return round(float(turns[-1] - turns[0]) / (2 * np.pi)) if len(touches) else 0
 

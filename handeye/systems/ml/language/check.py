@@ -30,8 +30,9 @@ def checked(
     """Return the stored lines of a program by their numbers, in ascending order, and the mistakes.
 
     Args:
-        first: the statement at which the program begins; None: the one with the lowest number.
-        left: the statement at which the program of the left arm begins; None: the left arm has no program.
+        first: the statement at which the program begins. If this is None, the program begins at the statement with the
+            lowest number.
+        left: the statement at which the program of the left arm begins. If this is None, the left arm has no program.
     """
     lines, found = parsed(source)
     complete = not has_errors(found)
@@ -141,7 +142,7 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that each end of a loop or subroutine has its beginning, and each loop its end."""
+        """Check that each end of a loop or subroutine has its beginning, and that each loop has its end."""
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])
@@ -167,7 +168,7 @@ def commanded(flow: Flow, starts: Iterable[tuple[int, Side]]) -> dict[int, set[S
 
 
 def _motors(line: Line, arm: ArmSpec) -> Iterator[Diagnostic]:
-    """Find motors that an arm lacks, and constant goals that it cannot reach."""
+    """Find motors that an arm lacks, and constant goals that the arm cannot reach."""
     travel = {motor.number: (motor.lower, motor.upper) for motor in arm.motors}
     of_arm = "" if arm is RIGHT else f" of the {arm.side} arm"
     code, values = line.statement.code, line.statement.parameters

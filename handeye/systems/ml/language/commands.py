@@ -20,8 +20,9 @@ _KINDS: Final[dict[str, Kind]] = {
 
 
 class Command(Record, frozen=True, kw_only=True):
-    """A command. `usage` gives its parameters: those in `[ ]` may be left out, and `...` repeats the parameter
-    before it."""
+    """A command. `usage` lists the parameters of the command. Parameters in `[ ]` may be left out. The parameter
+    before `...` may be repeated.
+    """
 
     code: str
     category: Category
@@ -40,7 +41,7 @@ class Command(Record, frozen=True, kw_only=True):
         return _counts(self.usage)
 
     def kind(self, number: int) -> Kind:
-        """The kind of the parameter with this number, from 0."""
+        """The kind of the parameter with this number, counted from 0."""
         names = _names(self.usage)
         name = names[min(number, len(names) - 1)]
         return _KINDS.get(name) or _KINDS.get(name.rstrip("0123456789"), "value")

@@ -25,9 +25,9 @@ class Flow:
         return self.numbers[at] if at < len(self.numbers) else None
 
     def ways(self, number: int, *, likely: bool = False) -> tuple[int | None, ...]:
-        """Return the numbers of the statements that may follow a statement; None stands for the end. A computed
-        branch may lead to any statement. With `likely`, it leads only to statements whose numbers BAL or LOAD puts
-        into its variable.
+        """Return the numbers of the statements that may follow a statement; None stands for the end. A computed branch
+        may lead to any statement. If `likely` is True, a computed branch leads only to statements whose numbers BAL or
+        LOAD puts into the branch's variable.
         """
         return tuple(dict.fromkeys(self._ways(number, likely)))
 

@@ -25,8 +25,8 @@ class MlLanguage(OwnLanguage):
         return checked(source)[1]
 
     def explanation(self, word: str) -> str | None:
-        """Return the meaning of a code or of a command, or None. If the arm language has a word with the name of the
-        command, `handeye ml words` explains the command.
+        """Return the meaning of a code or of a command, or None if ML has no such code or command. If the arm language
+        has a word with the name of the command, `handeye ml words` explains the command.
         """
         return code_explained(word) or explained(word)
 

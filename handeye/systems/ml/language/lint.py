@@ -1,8 +1,8 @@
-"""Warnings on how a program uses its sensors: motions without guards, flags that stay on, and speeds that trip a
-limit by themselves.
+"""Warnings on how a program uses its sensors: motions without guards, flags that stay on, and speeds so high that the
+jolt at the start of a motion exceeds a force limit.
 
-All paths through the program are followed. This shows, for each statement, which sensors are guarded on every path to
-it, and which flags may be on.
+All paths through the program are followed. The result shows, for each statement, which sensors are guarded on every
+path to the statement, and which flags may be on.
 """
 
 from collections.abc import Iterator, Mapping
@@ -152,7 +152,7 @@ def _number(sensor: Parameter) -> int:
 
 def _too_fast(line: Line, watch: Watch) -> Iterator[Diagnostic]:
     """Warn if the jolt at the start of a motion is beyond the limit of a finger's strain gauge. If a mass m on springs
-    of stiffness k starts with speed v, it pulls with the force v sqrt(k m).
+    of stiffness k starts with speed v, the mass pulls on the springs with the force v sqrt(k m).
     """
     if not watch.limits:
         return

@@ -67,8 +67,9 @@ def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def parsed_line(text: str, start: int = 0, row: int = 1) -> tuple[Line | None, Diagnostic | None]:
-    """Parse a line that begins at the offset `start` of its text. Returns the line and None, or None and the mistake.
-    For a remark or an empty line, both are None.
+    """Parse a line that begins at the offset `start` of its text. Returns two values. For a correct line, these are
+    the line and None; for a line with a mistake, None and the mistake. For a remark or an empty line, both values are
+    None.
     """
     if len(text) > LONGEST_LINE:
         told = f"a line can have at most {LONGEST_LINE} characters, but this line has {len(text)}"

@@ -52,12 +52,14 @@ class Line(Record, frozen=True, kw_only=True):
     spans: tuple[Span, ...]
 
     def place(self, parameter: int) -> Span:
-        """The span of the parameter with this number, from 0; if there is none, the span of the command."""
+        """The span of the parameter with this number, counted from 0. If there is no such parameter, the span of the
+        command.
+        """
         return self.spans[parameter + 1] if parameter + 1 < len(self.spans) else self.spans[0]
 
 
 def statement_text(code: str, parameters: tuple[Parameter, ...], point: Point = ()) -> str:
-    """Write a statement. Tables are written by their names where a table is expected."""
+    """Write a statement. Where a parameter must be a table, the text has the name of the table."""
     words = [code]
     for number, each in enumerate(parameters):
         if isinstance(each, int) and COMMANDS[code].kind(number) == "table":

@@ -130,7 +130,9 @@ class PerfectArm(Axes, Outputs):
         self.memory.q = list(self.memory.goal)
 
     def switch(self, channel: str, value: float) -> None:
-        """Set the value of a channel, such as the panic button, until it is set again. Raises NoSuchName."""
+        """Set the value of a channel, such as the panic button. The value holds until the channel is set again. Raises
+        NoSuchName.
+        """
         names = [each.name for each in self._channels]
         if channel not in names:
             raise NoSuchName(f"the {self.name} arm has no {channel}; it has {', '.join(names)}")
@@ -158,8 +160,8 @@ def perfect_machine(
     stimuli: Sequence[Stimulus] = (),
     outline: Sequence[Point] = (),
 ) -> "tuple[Machine, dict[Side, PerfectArm]]":
-    """Return a machine of perfect motors, and its arms. The stimuli act on the right arm, and it is the right arm's
-    wand that touches the outline.
+    """Return a machine of perfect motors, and its arms. The stimuli act on the right arm, and only the right arm's
+    wand can touch the outline.
     """
     clock = PerfectClock()
     arms = {

@@ -44,7 +44,7 @@ class AnalogInput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmSpec:
-    """An arm with its wiring. Inputs and outputs are numbered as in their tables."""
+    """An arm with its wiring. Inputs and outputs have the numbers of their lines in the tables."""
 
     side: Side
     motors: tuple[MotorSpec, ...]
@@ -60,7 +60,7 @@ class ArmSpec:
 
 
 def analog(point: int) -> SensorLine:
-    """Return the line of an analog sensor that reads the counts of its input without a scale."""
+    """Return the line of an analog sensor. The sensor reads the counts of its input without a scale."""
     return SensorLine(input=point)
 
 

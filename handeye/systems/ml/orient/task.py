@@ -167,7 +167,7 @@ def add_stop(spec: mujoco.MjSpec, world: ArmWorld, place: tuple[int, int], moved
     """Add the stop, an upright pin, at a place of the slides, with its error in the world.
 
     Args:
-        moved: by how much it stands farther along y (m).
+        moved: how far the stop is displaced along y (m).
     """
     import mujoco
 

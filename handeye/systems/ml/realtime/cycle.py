@@ -101,7 +101,7 @@ class Cycles:
 
     @property
     def _statement(self) -> int:
-        """Number of the statement that is being executed; 0 if there is none."""
+        """Number of the statement that is being executed; 0 if no statement is being executed."""
         return self._memory.AR[0].statement
 
     def cycle(self) -> None:
@@ -209,7 +209,7 @@ class Cycles:
         self._switch_tools()
 
     def _advance(self, motor: MotorSpec, line: MotorLine) -> bool:
-        """Advance the tactical goal of a motor; return False if it stays where it is."""
+        """Advance the tactical goal of a motor. Returns False if the goal does not change."""
         memory, n = self._memory, motor.number - 1
         was = memory.fine[n]
         if was == HUNDREDTHS * line.tactical == HUNDREDTHS * line.strategic:
@@ -223,7 +223,7 @@ class Cycles:
         return memory.fine[n] != was
 
     def _put(self) -> None:
-        """Write the tactical goals to the output words, and the output words to the motors."""
+        """Write the tactical goals to the output words, and send the output words to the motors."""
         memory, goal = self._memory, np.zeros(len(self._axes.specs))
         for axis, motor, line in self._motors:
             words, point = (memory.AO, line.output) if line.output > 0 else (memory.DO, -line.output)
@@ -256,15 +256,15 @@ class Cycles:
         self._told(LimitCrossed, sensor=number, reading=sensor.reading, lower=lower, upper=upper)
 
     def _hold(self) -> None:
-        """Replace the strategic goal of every motor by its position, or by the end of its travel if a potentiometer
-        shows a position beyond it.
+        """Replace the strategic goal of every motor by its position, or by the end of the motor's travel if a
+        potentiometer shows a position beyond that end.
         """
         for _, motor, line in self._motors:
             line.strategic = min(max(nearest_detent(line.position, line.detent), motor.lower), motor.upper)
             line.status |= FROZEN
 
     def _post(self, what: Post) -> None:
-        """Post (notify) the background level, if it waits."""
+        """Post (notify) the background level, if that level waits."""
         arm = self._memory.AR[0]
         if not arm.posted:
             arm.posted = POSTS.index(what)
@@ -312,5 +312,5 @@ def _leaves(sensor: SensorLine) -> bool:
 
 
 def _arrived(line: MotorLine, fine: int) -> bool:
-    """Return True if the set-point of a motor has arrived at its goal, and the motor is there."""
+    """Return True if the set-point of a motor has arrived at its goal, and the motor is at this goal."""
     return fine == HUNDREDTHS * line.strategic and abs(line.position - line.strategic) <= line.tolerance

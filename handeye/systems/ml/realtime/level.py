@@ -142,9 +142,7 @@ class RealTime(Cycles, Level):
             raise MlError("M10", f"motor {motor} can go from {lower} to {upper}, not to {goal}")
 
     def _set_paces(self) -> None:
-        """Let the motors arrive together if the table AR asks for this; if it does not, each motor goes as fast as it
-        can.
-        """
+        """If the table AR asks for it, let the motors arrive together. If not, let each motor go as fast as it can."""
         memory = self._memory
         memory.pace[:] = [0] * len(memory.pace)
         if not memory.AR[0].coordinate:
@@ -180,7 +178,7 @@ class RealTime(Cycles, Level):
             self._stop(found, self._statement)
 
     def _danger(self) -> Danger | None:
-        """Read all inputs. Returns the cause of the emergency that they show, or None."""
+        """Read all inputs. Returns the cause of an emergency that the inputs show, or None."""
         self.sample()
         self.check_interlocks()
         return danger(self._memory, self.spec)
@@ -223,7 +221,9 @@ class RealTime(Cycles, Level):
 
 
 def _fits(memory: ArmMemory, own: ArmMemory) -> bool:
-    """Return True if the tables of a state are as long as this arm's own, and their words have possible values."""
+    """Return True if the tables of a state are as long as this arm's own tables, and all words in the state have
+    possible values.
+    """
     return (
         all(
             not isinstance(table := getattr(memory, name), list) or len(table) == len(getattr(own, name))

@@ -34,7 +34,7 @@ class Danger(NamedTuple):
 
 
 def danger(memory: ArmMemory, spec: ArmSpec) -> Danger | None:
-    """Return the cause of the emergency that the tables show, or None."""
+    """Return the cause of the emergency that the tables show, or None if they show no emergency."""
     for number, (lock, name) in enumerate(zip(memory.SF, spec.interlocks, strict=False), 1):
         if lock.now:
             return Danger(_INTERLOCKS[name][0], number)

@@ -43,7 +43,7 @@ def scaled(count: int, line: MotorLine | SensorLine) -> int:
 
 
 def sensed(line: SensorLine, analog: Sequence[int], digital: Sequence[int]) -> int:
-    """Return the reading of a logical sensor before its offset is subtracted; 0 if it is not connected. Raises
+    """Return the reading of a logical sensor before its offset is subtracted; 0 if the sensor is not connected. Raises
     ProgramCheck.
     """
     if not line.input:

@@ -12,7 +12,9 @@ _OF_SENSORS = ("reading", "flag")
 
 
 def level_channels(levels: Mapping[Side, RealTime]) -> tuple[Channel, ...]:
-    """Return the channels of all arms. Each has one part per motor or sensor, in the order of their numbers."""
+    """Return the channels of all arms. Each channel has one part per motor or sensor, in the order of the numbers of
+    the motors or sensors.
+    """
     return tuple(
         Channel(name=_named(name, side, len(levels)), width=width)
         for side in levels

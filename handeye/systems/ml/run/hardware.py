@@ -1,4 +1,4 @@
-"""What a run drives: perfect motors, or a station with a job in it."""
+"""What a run drives: either perfect motors, or a station with a job."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
@@ -24,14 +24,14 @@ Tell = Callable[[SystemEvent], None]
 
 
 class Ending(NamedTuple):
-    """How a run has ended, in the view of its job."""
+    """How a run has ended, according to its job."""
 
     done: bool  # False: the operator is called
     text: str
 
 
 class Hardware(ABC):
-    """The machine of a run: what the run shows of it, and what its job learns about the run."""
+    """The machine of a run. It provides what the run shows of the machine, and informs the job about the run."""
 
     machine: Machine
     joints: Sequence[str] = ()
@@ -45,7 +45,7 @@ class Hardware(ABC):
 
     @property
     def servo_period(self) -> ServoPeriod | None:
-        """The present state of the arm for traces; None if there is no arm to be seen."""
+        """The present state of the arm for traces; None if the machine has no visible arm."""
         return None
 
     @property
@@ -54,7 +54,7 @@ class Hardware(ABC):
         return {}
 
     def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:
-        """Continue from a copy of a state. Raises BadFile if the state does not fit."""
+        """Continue from a copy of a state. Raises BadFile if the state does not fit this hardware."""
         if memory:
             raise BadFile("the saved state belongs to perfect motors")
 
@@ -66,7 +66,7 @@ class Hardware(ABC):
         """Called with each line that the program prints."""
 
     def ending(self, statement: int) -> Ending | None:
-        """Return how the job has ended, if a statement has ended it; None if the job continues."""
+        """Return how the job has ended, if a statement has ended the job. Return None if the job continues."""
         return None
 
     @property

@@ -1,4 +1,4 @@
-"""Kinds of trials of jobs in ML."""
+"""Defines the kinds of trials for the jobs in ML."""
 
 from collections.abc import Mapping
 from typing import Final

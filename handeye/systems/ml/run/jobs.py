@@ -39,7 +39,7 @@ def job_plan(job: str, variant: str = "") -> MlPlan:
 
 
 def program_plan(task: str, name: str, text: str, variant: str = "") -> MlPlan:
-    """Return the plan with which a user's program does a variant of a job. By default, it is the usual variant. Raises
+    """Return the plan with which a user's program does a variant of a job. The default is the usual variant. Raises
     BadFile if the program has errors.
     """
     plan = MlPlan(name=name, text=text, arm="rectilinear", job=task, variant=variant or USUAL.get(task, ""))

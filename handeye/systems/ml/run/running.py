@@ -1,4 +1,6 @@
-"""An ML program during a run. A step is one statement with all the cycles that pass until another can be executed."""
+"""An ML program during a run. A step is one statement with all the cycles that pass until another statement can be
+executed.
+"""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -192,7 +194,7 @@ class RunningMl(NumberedRun):
 
     @property
     def _next(self) -> Interpreter | None:
-        """The interpreter of the arm whose statement is executed next; None if there is none."""
+        """The interpreter of the arm whose statement is executed next; None if no program is running."""
         standing = [each for each in self.interpreters.values() if each.memory.at]
         return min(standing, key=lambda each: bool(each.memory.waits), default=None)
 
@@ -215,7 +217,7 @@ class RunningMl(NumberedRun):
 
     @property
     def _stopped(self) -> Interpreter | None:
-        """The interpreter whose program was stopped; None if there is none."""
+        """The interpreter whose program was stopped; None if no program was stopped."""
         return next((each for each in self.interpreters.values() if each.memory.stopped), None)
 
     def _call(self) -> None:

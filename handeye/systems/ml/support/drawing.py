@@ -1,5 +1,5 @@
 """The drawing of the rail support: its parts, and their places at the work station. Places are in units of the slides
-(.001 in), lengths in mm.
+(.001 in); lengths are in mm.
 """
 
 from math import pi

@@ -15,8 +15,8 @@ _CYCLES: Final = 4093  # cycles after which the noise of the current repeats
 
 
 class PowerScrewdriver:
-    """A screwdriver that turns while the output `screwdriver` is on. It turns backwards if `reverse` is on, too. Its
-    bit is a permanent magnet.
+    """A screwdriver that turns while the output `screwdriver` is on. If the output `reverse` is also on, the
+    screwdriver turns backwards. The screwdriver's bit is a permanent magnet.
     """
 
     magnet = True
@@ -39,8 +39,8 @@ class PowerScrewdriver:
 
 
 class ScrewdriverCurrent:
-    """The torque of the screwdriver (N m), as indicated by its motor current. It is positive while a screw is driven
-    in.
+    """The torque of the screwdriver (N m), as indicated by the motor current. The torque is positive while a screw is
+    driven in.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class FingerForces(Record, frozen=True, kw_only=True):
 
 
 class ForceGauge(Mechanism[FingerForces]):
-    """Keeps the greatest true forces on the fingers, for the referee and the reader of a report."""
+    """Keeps the greatest true forces on the fingers, for the referee and for the report."""
 
     name, kind = "finger_forces", FingerForces
 

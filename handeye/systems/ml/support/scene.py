@@ -99,7 +99,7 @@ def add_support(spec: mujoco.MjSpec, drawing: Drawing) -> None:
 def _part(
     shaper: Shaper, name: str, lie: Lie, z: float, mass: float, size: tuple[float, ...]
 ) -> mujoco.MjsBody:
-    """Add a free body. Its origin is the middle of its underside, which is at the height `z` (mm)."""
+    """Add a free body. The origin of the part is the middle of its underside, which is at the height `z` (mm)."""
     body = add_loose(shaper, name, lie.at, z)
     body.quat[:] = [cos(lie.turned / 2), 0, 0, sin(lie.turned / 2)]
     body_inertia(body, mass, (0, 0, size[2] / 2 * MM), box_moments(mass, [each * MM for each in size]))
@@ -110,7 +110,7 @@ def add_ridge(
     shaper: Shaper, body: mujoco.MjsBody, mesh: str, style: str, at: Place, size: tuple[float, ...], lead: float,
     low: float, *, across: bool = False,
 ) -> None:  # fmt: skip
-    """Add a bar along x or, if `across`, along y. Its long upper edges are beveled by `lead` (mm)."""
+    """Add a bar along x or, if `across`, along y. The long upper edges of the bar are beveled by `lead` (mm)."""
     long, wide, high = (each * MM for each in size)
     if shaper.spec.mesh(mesh) is None:
         profile = [(wide / 2, 0), (wide / 2, high - lead * MM), (wide / 2 - lead * MM, high)]

@@ -98,7 +98,8 @@ def screwing(
     """Return the station of a scene with the parts of the support. Screws and screwdriver work.
 
     Args:
-        others: mechanisms of a job whose state the cell keeps, but which do nothing as time passes.
+        others: other mechanisms of the job. The cell keeps the state of these mechanisms, but they do nothing as time
+            passes.
     """
     drawing, driver = Drawing(world), PowerScrewdriver()
     tools = {"screwdriver": driver.turn, "reverse": driver.reverse}

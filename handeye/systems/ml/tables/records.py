@@ -1,5 +1,6 @@
 """The lines of the tables whose words have names. The fields of a line are its words, in the order of the table. Lines
-that change in every cycle are mutable; the others are replaced, so that saved states can share them.
+that change in every cycle are mutable. Any other line is never changed in place but replaced, so that saved states can
+share it.
 """
 
 from typing import Annotated, Final
@@ -48,7 +49,7 @@ class MotorLine(MutableRecord):
 
 
 class SensorLine(MutableRecord):
-    """A line of ST: a logical sensor. Limits are in the units of its reading."""
+    """A line of ST: a logical sensor. Limits are in the units of the sensor's reading."""
 
     kind: Word = ANALOG
     input: Word = 0  # point of AI, or word of DI
@@ -69,7 +70,7 @@ class SensorLine(MutableRecord):
 
 
 class ForceLine(Record, frozen=True):
-    """A line of FE: a force event, in which all motors were frozen. The latest is in line 1."""
+    """A line of FE: a force event, in which all motors were frozen. The latest event is in line 1."""
 
     cycle: Word = 0  # low and high word
     epoch: Word = 0
@@ -90,7 +91,7 @@ class ForceLine(Record, frozen=True):
 
 
 class GoalLine(Record, frozen=True):
-    """A line of GO: a motion that has reached its goal. The latest is in line 1."""
+    """A line of GO: a motion that has reached its goal. The latest motion is in line 1."""
 
     cycle: Word = 0
     epoch: Word = 0

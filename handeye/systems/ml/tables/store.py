@@ -1,4 +1,4 @@
-"""Stores the tables of an arm, and those that both arms have in common."""
+"""Stores the tables of an arm, and the tables that both arms have in common."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Final
@@ -169,8 +169,8 @@ class Tables:
         )
 
     def _page_in(self, table: str, page: int) -> None:
-        """Bring a page of an external table into a frame. If no frame is free, it replaces the page that was used
-        least recently.
+        """Bring a page of an external table into a frame. If no frame is free, the new page replaces the page that was
+        used least recently.
         """
         frames, name, now = self._shared.PF, word_of(table), self._arm.now
         there = [n for n, frame in enumerate(frames) if (frame.table, frame.page) == (name, page)]

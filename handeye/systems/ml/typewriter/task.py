@@ -128,7 +128,7 @@ class Typewriter(ArmTask):
         return SupportHardware(*self.station(parts_of(plan), self.world(world)), tell, TROUBLES)
 
     def judge(self, truth: Truth) -> Findings:
-        """Judge the support as the referee of `support` does, and the bars."""
+        """Judge the bars, and judge the support as the referee of `support` does."""
         pile = truth.states[POURED]
         assert isinstance(pile, Poured)
         fitted, left, boxed, lost = [], 0, 0, 0
@@ -152,13 +152,13 @@ class Typewriter(ArmTask):
 
 
 def _metres(place: tuple[int, int]) -> Place:
-    """Convert a place of the slides to the scene (m)."""
+    """Convert a place of the slides to scene coordinates (m)."""
     at = mm(*place)
     return Place(at.x * MILLIMETRE, at.y * MILLIMETRE)
 
 
 def _add_ridges(spec: mujoco.MjSpec) -> None:
-    """Add the place of the bar to the frame: a ridge along each side, and one at each end."""
+    """Add the place of the bar to the frame: a ridge along each side and a ridge at each end."""
     shaper, frame, (thick, high) = Shaper(spec=spec), spec.body("frame"), _RIDGE
     middle, long, wide = mm(*BAR), LONG / MILLIMETRE, WIDE / MILLIMETRE
     end, side = (half / 2 + play + thick / 2 for half, play in zip((long, wide), _PLAY, strict=True))

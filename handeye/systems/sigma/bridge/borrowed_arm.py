@@ -1,8 +1,8 @@
 """The Stanford arm in place of arm 1: the axes X1, Y1 and Z1 drive coordinates of its tool, and there is no bus.
 
-The central computer gives the same commands as to the motors of SUPERSIGMA. They are not sent as bytes: they set goals
-of the tool (`execution/tool_axes.py`), one in each servo period of 1/60 s. Commands, places and times are handled as
-for perfect motors, except that each motion takes as long as this arm needs.
+The central computer gives the same commands that it gives to the motors of SUPERSIGMA. The commands are not sent as
+bytes. In each servo period of 1/60 s, they set a new goal of the tool (`execution/tool_axes.py`). Commands, places and
+times are handled as for perfect motors, except that each motion takes as long as this arm needs.
 """
 
 import math
@@ -56,7 +56,7 @@ class BorrowedArm(PerfectMotors):
     """
 
     def __init__(self, drive: ArmDrive, at: tuple[float, float] = AT) -> None:
-        """Take an arm that is held in place, and bring its tool to the place that the axes have at power-on."""
+        """Take an arm that is held in place, and bring its tool to the place where the axes are at power-on."""
         super().__init__()
         self._drive, self._axes, self._at = drive, ToolAxes(drive), at
         self._top, self._open = TOP, OPEN  # mm
@@ -92,7 +92,7 @@ class BorrowedArm(PerfectMotors):
         return self._feel()
 
     def _drive_to(self, goal: Array) -> None:
-        """Drive the tool towards a goal for a servo period. Raises Refused if the arm cannot go there."""
+        """Drive the tool towards a goal for a servo period. Raises Refused if the arm cannot go to the goal."""
         try:
             self._axes.put(goal)
         except Refused as refused:
@@ -122,7 +122,7 @@ class BorrowedArm(PerfectMotors):
 
     @property
     def error(self) -> float:
-        """Distance of the tool from its goal (mm), along the axis on which it is greatest."""
+        """The greatest distance of the tool from its goal along one axis (mm)."""
         return float(np.abs(self._axes.read().q - self._goal())[:3].max()) / _MM
 
     # -- goals -----------------------------------------------------------------------------------------------
@@ -149,7 +149,7 @@ class BorrowedArm(PerfectMotors):
         return s if number in self._slow else s**3 * (10 - 15 * s + 6 * s * s)
 
     def _approach(self) -> None:
-        """Move the tool straight to the place that the axes have at power-on."""
+        """Move the tool along a straight line to the place where the axes are at power-on."""
         here, goal = self._axes.read().q, self._goal()
         steps = math.ceil(float(np.abs(goal - here)[:3].max()) / _START_SPEED / self._axes.period)
         for share in [*np.linspace(0, 1, steps + 1)[1:], *np.ones(20)]:
@@ -198,7 +198,7 @@ class BorrowedArm(PerfectMotors):
 def borrowed(
     spec: WorldSpec, at: tuple[float, float], poll: Callable[[], None] = lambda: None
 ) -> BorrowedArm:
-    """Return the Stanford arm over the table of a world of the water pump, with the friction of its joints measured.
+    """Return the Stanford arm over the table of a world of the water pump, whose joint friction has been measured.
 
     Args:
         at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).

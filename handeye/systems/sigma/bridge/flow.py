@@ -1,4 +1,6 @@
-"""Finds which places, limits and speeds hold at each line of a single task, whichever way the task reaches the line."""
+"""Finds which places, limits and speeds hold at each line of a single task, by whichever path the task reaches the
+line.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -56,7 +58,9 @@ class ForceTest(NamedTuple):
 
 
 def force_test(line: Line, after: int | None) -> ForceTest | None:
-    """Return the force test of an IF statement, or None if it tests something else. `after` is the next line."""
+    """Return the force test of an IF statement, or None if the statement tests something else. `after` is the next
+    line.
+    """
     match line.statement:
         case Statement(
             values=(Binary(operator=sign, left=Call("ABS", Call("FORCE", axis)), right=right),),
@@ -80,7 +84,9 @@ def _jump(statement: Statement) -> int | None:
 
 
 def goals(statement: Statement, places: Axes) -> dict[str, Known]:
-    """Return the place (mm) to which a MOVE moves each of its axes; UNKNOWN after a distance from an unknown place."""
+    """Return the place (mm) to which a MOVE moves each of its axes; the place is UNKNOWN if the MOVE goes a distance
+    from an unknown place.
+    """
     found: dict[str, Known] = {}
     for goal in statement.goals:
         name, distance = goal.axis.text[0], constant(goal.distance)
@@ -97,7 +103,7 @@ Tests = Mapping[int, ForceTest]
 
 
 def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:
-    """Return, for the number of each line that can be reached, what holds before it."""
+    """Return what holds before each line that can be reached, by the number of the line."""
     by_number = {line.number: line for line in lines}
     after = dict(pairwise(by_number))
     holds: dict[int, Before] = {lines[0].number: Before()} if lines else {}

@@ -1,10 +1,11 @@
-"""Lets SUPERSIGMA do legs of a relay: a MAL program moves the tool of the Stanford arm as arm 1. There is no bus.
+"""Lets SUPERSIGMA do legs of a relay: a MAL program moves the tool of the Stanford arm as if it were arm 1. There is
+no bus.
 
-The corner X1 = 0, Y1 = 0 of the board is at x = 350 and y = 800 mm on the table, and Z1 = 0 is 240 mm above it. The
-hand points straight down, with its fingers along Y. When a leg begins, the hand is brought straight to the nearest
-place of the board, and the axes count from their origins. A place in the record with the name NAME is in the variables
-NAMEX, NAMEY and NAMEZ (mm), if the program uses them. A height with this name is in NAMEH, as a coordinate of Z1. A
-leg hands over the variables NAMEX, NAMEY and NAMEZ that it sets.
+The corner X1 = 0, Y1 = 0 of the board is at x = 350 and y = 800 mm on the table, and Z1 = 0 is 240 mm above the table.
+The hand points straight down, with its fingers along Y. When a leg begins, the hand is brought straight to the nearest
+place of the board, and the axes count from their origins. If the program uses the variables NAMEX, NAMEY and NAMEZ,
+they have the coordinates (mm) of the place that the record calls NAME. Likewise, NAMEH has the height that the record
+calls NAME, as a coordinate of Z1. A leg hands over the variables NAMEX, NAMEY and NAMEZ that it sets.
 """
 
 from collections.abc import Mapping, Sequence
@@ -66,7 +67,7 @@ class MalLegState(MalState, kw_only=True):
 
 
 class LegArm(BorrowedArm):
-    """The arm of a leg. It does not move when it is built."""
+    """The arm of a leg. Building this object does not move the arm."""
 
     def __init__(self, tool: ToolArm) -> None:
         super(BorrowedArm, self).__init__()
@@ -77,7 +78,7 @@ class LegArm(BorrowedArm):
         self._slow, self.felt, self.most, self._zero = set(), np.zeros(3), 0.0, 0.0
 
     def begin_leg(self) -> None:
-        """Bring the hand straight down to the nearest place of the board, and count from there."""
+        """Bring the hand, pointing straight down, to the nearest place of the board, and count from there."""
         self._axes = self._tool.axes
         here = self._axes.read().q
         goal = np.array([*here[:3], *DOWN, here[6] if self._hand_open else -0.02])
@@ -224,7 +225,7 @@ def _variables(plan: MalPlan, op: Literal["PUSHV", "POPV"]) -> set[str]:
 
 
 def _counted(plan: MalPlan) -> set[str]:
-    """Return the variables that FOR counts and INPUT asks for."""
+    """Return the variables that a FOR counts or an INPUT asks for."""
     return {str(each.operand) for each in plan.program.code if each.op in ("FOR", "IN")}
 
 

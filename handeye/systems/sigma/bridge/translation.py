@@ -2,10 +2,10 @@
 motion is refused.
 
 The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A
-MOVE of one axis is a straight motion, and so is a MOVE with LINE; any other MOVE of several axes is a motion on any
-path. A LIMIT becomes a guard of the motions of its axis. A test of FORCE right after a motion becomes a guard of this
-motion: the motion stops at this force, and the program no longer tests the force afterwards. Without a LIMIT there is
-no guard, because an arm that is not balanced feels several newtons even in free motion.
+MOVE of one axis becomes a straight motion, and so does a MOVE with LINE. Any other MOVE of several axes becomes a
+motion whose path is free. A LIMIT becomes a guard of the motions of its axis. A test of FORCE right after a motion
+becomes a guard of this motion: the motion stops at this force, and the program no longer tests the force afterwards.
+Without a LIMIT there is no guard, because an arm that is not balanced feels several newtons even in free motion.
 """
 
 from collections.abc import Iterator, Sequence
@@ -89,7 +89,7 @@ class _Draft(NamedTuple):
 
 
 def translated(source: Source, taught: Taught, at: tuple[float, float] = AT) -> Compiled:
-    """Translate a program. Returns None with the reasons if a line cannot become a motion.
+    """Translate a program. If a line cannot become a motion, returns None and the reasons.
 
     Args:
         at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).
@@ -117,7 +117,9 @@ def _refused(line: Line, why: str, *labels: Label) -> Diagnostic:
 
 
 def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Sort refusals. What a plan can contain is said only in the last refusal, because it is the same for all."""
+    """Sort refusals. Only the last refusal says what a plan can contain, because that help is the same for all
+    refusals.
+    """
     *others, last = arranged(found)
     return [*others, replace(last, help=_CURE)]
 
@@ -148,7 +150,9 @@ def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
 
 
 def _device(statement: Statement) -> str:
-    """Return the reason why an ACTUATE cannot become an operation; empty if it can."""
+    """Return the reason why an ACTUATE cannot become an operation. The text is empty if the ACTUATE can become an
+    operation.
+    """
     kind, value = MAL_DEVICES[statement.names[0].text][1], constant(statement.values[0])
     if kind not in ("HAND", "DRIVER"):
         return f"the arm has no {statement.names[0].text}"
@@ -289,7 +293,7 @@ class _Translation:
     def _path(
         self, line: Line, before: Before, moved: Axes, guards: tuple[Against, ...]
     ) -> AnyOperation | None:
-        """Return the motion of a MOVE, or None if it was refused."""
+        """Return the motion of a MOVE, or None if the MOVE was refused."""
         statement = line.statement
         places = {**before.places, **moved}
         ways = {
@@ -333,7 +337,9 @@ class _Translation:
         return (-x if self._mirrored else x) * _MM, y * _MM, -z * _MM
 
     def _position(self, place: Sequence[float]) -> str:
-        """Add a position of the tool for a place in the coordinates of the arm (mm), and return its name."""
+        """Add a position of the tool for a place in the coordinates of the arm (mm), and return the name of this
+        position.
+        """
         x, y, z = place
         across = ACROSS - x if self._mirrored else x
         name = f"X{x:g}_Y{y:g}_Z{z:g}".replace(".", "p").replace("-", "m")
@@ -365,7 +371,7 @@ class _Translation:
 
 
 def _way(moved: Axes, before: Before, name: str) -> Known:
-    """Return how far an axis has to go to its goal (mm); unknown if its present place or goal is unknown."""
+    """Return how far an axis has to go to its goal (mm); unknown if the axis's present place or its goal is unknown."""
     goal, here = moved[name], before.places[name]
     return goal - here if isinstance(goal, float) and isinstance(here, float) else UNKNOWN
 

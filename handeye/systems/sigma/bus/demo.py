@@ -57,8 +57,9 @@ class Demonstration:
 def demonstrate(
     defects: Sequence[BusDefect] = (), *, late_riser: bool = False, seed: int = 0, all_lines: bool = False
 ) -> Demonstration:
-    """Send a command and ask a question. With `late_riser`, the microcomputer of Y1 becomes free in the middle
-    of the command."""
+    """Send a command and ask a question. If `late_riser` is True, the microcomputer of Y1 becomes free in the middle
+    of the command.
+    """
     shown = Demonstration(bus=WiredBus(defects=defects, seed=seed))
     bus, number = shown.bus, NUMBERS[ASKED]
     bus.tell.append(shown.log.append)

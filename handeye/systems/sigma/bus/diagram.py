@@ -72,8 +72,8 @@ class Diagram:
 def diagram(
     title: str, log: Sequence[AnyBusEvent], begin: int, end: int, timing: Timing, *, all_lines: bool = False
 ) -> Diagram:
-    """Make the diagram of a log between two times (microseconds). With `all_lines`, it includes status lines
-    that do not change.
+    """Make the diagram of a log between two times (microseconds). If `all_lines` is True, the diagram includes status
+    lines that do not change.
     """
     first, last = begin * PS, end * PS
     sent = [e for e in log if isinstance(e, CommandSent)]

@@ -17,7 +17,7 @@ Kind = Literal["motor", "force", "hand", "sensor"]
 
 
 class Place(Record, frozen=True, kw_only=True):
-    """A microcomputer: its number, which also determines its status lines, and its segment."""
+    """A microcomputer: its number and its segment. The number also determines the status lines."""
 
     number: int
     kind: Kind
@@ -37,8 +37,8 @@ class Layout(Record, frozen=True, kw_only=True):
 
     @property
     def reflexes(self) -> dict[tuple[int, int], int]:
-        """For each component of each force microcomputer, the motor that it can interrupt. These are the motors
-        with the three numbers before the number of the force microcomputer.
+        """For each component of each force microcomputer, the motor that this component can interrupt. The three
+        motors of a force microcomputer have the three numbers before its own number.
         """
         motors = {place.number for place in self.places if place.kind == "motor"}
         wired = {

@@ -1,5 +1,5 @@
-"""A microcomputer on the bus. It polls the strobe with its own clock, takes five bytes, and executes the command
-if the bytes are addressed to it.
+"""A microcomputer on the bus, which polls the strobe with its own clock, takes five bytes, and executes the command if
+the bytes are addressed to this microcomputer.
 """
 
 from collections.abc import Sequence
@@ -79,7 +79,7 @@ class Microcomputer:
 
     @property
     def due(self) -> int | None:
-        """Time of the next action of the receiver or the firmware (ps), or None if there is none."""
+        """Time of the next action of the receiver or the firmware (ps), or None if there is no next action."""
         if self.dead:
             return None
         memory = self.memory
@@ -103,9 +103,9 @@ class Microcomputer:
 
     def listen(self, at: int, sent: Sequence[Sending], wires: Wires, *, quiet: bool) -> list["Taken"]:
         """Look for a strobe if the microcomputer is free to take a command. Returns the commands for other
-        microcomputers, which this one takes from the lines and then drops.
+        microcomputers. This microcomputer takes such commands from the lines and then drops them.
 
-        Such commands are returned only if no line is faulty and no answer is on the lines (`quiet`); otherwise they are
+        Such commands are returned only if no line is faulty and no answer is on the lines (`quiet`); if not, they are
         received byte by byte.
         """
         memory, passed = self.memory, list[Taken]()
@@ -152,8 +152,8 @@ class Microcomputer:
     def receive(
         self, at: int, sent: Sequence[Sending], speeches: Sequence[Speech], wires: Wires
     ) -> Taken | None:
-        """Return the five bytes taken by now if the microcomputer has just compared the number in them with its own,
-        or else None.
+        """Return the five bytes that the microcomputer has taken, if it has just compared the number in these bytes
+        with its own number. Returns None at all other times.
         """
         noticed = self.memory.noticed
         if noticed is None or self._checked(noticed) != at:

@@ -39,8 +39,9 @@ class Plant(ABC, Generic[Kept]):
     )
 
     def resumed(self) -> None:
-        """Called after the state was restored. Afterwards, `driven` and `limited` are called for all
-        microcomputers."""
+        """The bus calls this method after the state was restored. Afterwards, it calls `driven` and `limited` for all
+        microcomputers.
+        """
 
     def advance(self, at: int) -> tuple[int, list[Level]] | None:
         """Advance to the time `at`, or to an earlier time at which levels change. Returns the time reached and the
@@ -49,10 +50,12 @@ class Plant(ABC, Generic[Kept]):
         return None
 
     def driven(self, number: int, motor: Motor) -> None:
-        """Called when a motor may have begun or ended a pulse train."""
+        """The bus calls this method when a motor may have begun or ended a pulse train."""
 
     def limited(self, number: int, thresholds: Sequence[float]) -> None:
-        """Called when a force microcomputer has executed a command that may have changed its thresholds (N)."""
+        """The bus calls this method when a force microcomputer has executed a command that may have changed its
+        thresholds (N).
+        """
 
     @abstractmethod
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:
@@ -74,7 +77,7 @@ class Plant(ABC, Generic[Kept]):
 
     @abstractmethod
     def actuate(self, number: int, devices: Sequence[int]) -> None:
-        """Called when the outputs of a hand microcomputer have changed."""
+        """The bus calls this method when the outputs of a hand microcomputer have changed."""
 
 
 class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
@@ -90,8 +93,8 @@ class IdealMemory(MutableRecord, kw_only=True, tag="ideal"):
 
 
 class IdealMachine(Plant[IdealMemory]):
-    """An ideal machine. Its rotors are where the pulses put them, and there are no forces or obstacles unless
-    they are set.
+    """An ideal machine. The rotors of this machine are where the pulses put them. There are no forces or obstacles,
+    unless a caller sets some.
     """
 
     def __init__(self) -> None:

@@ -67,8 +67,9 @@ def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None
 
 
 def _taken(wires: Wires, timing: Timing, sending: Sending, ppm: int, free: int) -> bytes | None:
-    """Return the bytes that a receiver takes if it becomes free at the time `free` (ps), or None if it takes
-    none."""
+    """Return the bytes that a receiver takes if it becomes free at the time `free` (ps), or None if the receiver takes
+    no bytes.
+    """
     node = Microcomputer(
         _ANOTHER.places[0], timing, answers_to=256, ppm=ppm, phase=free, dead=False
     )  # a microcomputer with an unused number, so that it acts on nothing

@@ -293,7 +293,7 @@ class WiredBus(MicrobusPort):
         return due if due is not None and due <= moment * PS else None
 
     def _due_of(self, number: int, at: int) -> int | None:
-        """Return the time of a microcomputer's next action after the time `at`, or None if there is none."""
+        """Return the time of a microcomputer's next action after the time `at`, or None if no action follows."""
         node = self._nodes[number]
         times = [
             time for time in (node.due, self._pin_due(node), self._scan_due(node, at)) if time is not None
@@ -318,7 +318,7 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """Return the motors that a force microcomputer can interrupt, each with True if it is interrupted now."""
+        """Return the motors that a force microcomputer can interrupt, each with True while the motor is interrupted."""
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
@@ -381,7 +381,7 @@ class WiredBus(MicrobusPort):
                 self._say(InterruptLine(at=at, level=level))
 
     def _show(self, number: int, node: Microcomputer) -> None:
-        """Tell the machine the pulses of a motor, or the thresholds of a wrist."""
+        """Pass the pulses of a motor, or the thresholds of a wrist, to the machine."""
         if isinstance(node.device, Motor):
             self.plant.driven(number, node.device)
         elif isinstance(node.device, Force):
@@ -455,8 +455,9 @@ class WiredBus(MicrobusPort):
         return self.wires.answers(self._speeches())
 
     def _low(self, question: Question) -> int | None:
-        """Return the time at which the central computer next sees /ANSWER READY low (ps), or None if it does
-        not."""
+        """Return the time at which the central computer next sees /ANSWER READY low (ps), or None if it never sees
+        that.
+        """
         for start, end in self._answers():
             seen = _COMPUTER.after(question.since, self.timing.poll, max(start, question.since))
             if seen < end:

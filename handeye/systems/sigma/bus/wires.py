@@ -116,7 +116,9 @@ class Wires:
         return joined
 
     def _spoken(self, speech: Speech, at: int) -> int | None:
-        """Return the byte that a microcomputer drives onto the lines at the time `at`, or None if it drives none."""
+        """Return the byte that a microcomputer drives onto the lines at the time `at`, or None if the microcomputer
+        drives no byte.
+        """
         for byte, (start, end) in zip(speech.frame, speech.lows(self.timing), strict=True):
             if start <= at < end:
                 return byte

@@ -1,5 +1,5 @@
-"""Chooses chess pieces at random, and random positions for them along three lines of a board. Their shapes are those of
-pieces turned from boxwood.
+"""Chooses chess pieces at random, and random positions for them along three lines of a board. The pieces have the
+shapes of pieces turned from boxwood.
 """
 
 from typing import Final, NamedTuple
@@ -59,7 +59,7 @@ class Piece(Record, frozen=True, kw_only=True):
 
 
 def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
-    """Choose the pieces of a board at random. Raises BadArgument if there are too many."""
+    """Choose the pieces of a board at random. Raises BadArgument if there are too many pieces."""
     if not 1 <= count <= MOST_PIECES:
         raise BadArgument(f"a board must have 1 to {MOST_PIECES} pieces, not {count}")
     numbers, pieces = world.numbers("pieces"), list[Piece]()
@@ -88,7 +88,7 @@ def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
 
 
 def stand(spec: mujoco.MjSpec, pieces: tuple[Piece, ...]) -> None:
-    """Add pieces to the board. Each consists of a foot, a tapered stem of three rings, and a round head."""
+    """Add pieces to the board. Each piece consists of a foot, a tapered stem of three rings, and a round head."""
     for piece in pieces:
         body = spec.worldbody.add_body(name=piece.name, pos=[piece.x / 1000, piece.y / 1000, 0])
         body.add_freejoint(name=piece.name)

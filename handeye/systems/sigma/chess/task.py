@@ -65,8 +65,9 @@ class Chess(JobTask):
 
 
 def _error(piece: Piece, told: Sequence[ToldHeight]) -> float:
-    """Return the error of the heights reported for a piece (mm), the greatest one if there are several.
-    Infinite if no height was reported."""
+    """Return the greatest error (mm) of the heights that were reported for a piece. The error is infinite if no height
+    was reported.
+    """
     here = [each for each in told if each.line == piece.line and abs(each.x - piece.x) < _NEAR]
     return max((abs(each.height - piece.height) for each in here), default=inf)
 

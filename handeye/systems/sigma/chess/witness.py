@@ -1,5 +1,5 @@
-"""The witness of a board. It records the initial pieces and what the program prints about them. Only the referee sees
-these records.
+"""The witness of a board, which records the initial pieces and what the program prints about them. Only the referee
+sees these records.
 """
 
 import re

@@ -1,8 +1,8 @@
 """The machine on the test bench, and what a technician can do to it by hand. The machine is ideal except for a planted
 fault.
 
-Rotors follow each pulse, unless the fault weakens their motors. A balance of forces then decides whether they
-follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers when they
+Rotors follow each pulse, unless the fault weakens their motors. In that case, a balance of forces decides whether the
+rotors follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers when they
 close on a block.
 """
 
@@ -74,14 +74,15 @@ class Machine(IdealMachine):
         self.now = 0
 
     def fault(self, kind: MachineKind, number: int = 0) -> MachineFault | None:
-        """Return the planted fault of a kind at a microcomputer, or None if there is none."""
+        """Return the planted fault of a kind at a microcomputer, or None if there is no such fault."""
         return self.faults.get((kind, number))
 
     # -- rotors --------------------------------------------------------------------------------------------
 
     def _every(self, number: int) -> int:
-        """Return the interval at which pulses are lost: if it is n, every n-th pulse is lost. 0 if no pulses
-        are lost."""
+        """Return the interval at which pulses are lost: if it is n, every n-th pulse is lost. If no pulses are lost,
+        return 0.
+        """
         fault = self.fault("pulses", number)
         return 0 if fault is None else fault.which
 
@@ -258,5 +259,5 @@ class Bench:
         self.machine.light[NUMBERS[f"HAND{arm}"]] = passes
 
     def block(self, arm: int, *, there: bool) -> None:
-        """Fix a block between the fingers of a hand, but not midway; or, with `there` false, take the block away."""
+        """Fix a block between the fingers of a hand, but not midway. If `there` is False, take the block away."""
         (self.machine.blocks.add if there else self.machine.blocks.discard)(NUMBERS[f"HAND{arm}"])

@@ -61,7 +61,9 @@ class Draw:
 
 
 class _InTurn(Draw):
-    """Chooses the options whose numbers are given in advance; when these are used up, always the first option."""
+    """Chooses the options whose numbers are given in advance; after the last of these numbers, always chooses the
+    first option.
+    """
 
     def __init__(self, numbers: Sequence[int]) -> None:
         super().__init__(None)
@@ -243,7 +245,7 @@ FAULTS: Final[dict[str, Fault]] = {
 
 
 def planted(name: str, seed: int | None = None) -> Planted:
-    """Return the fault called `name`, at its usual place or, with a seed, at a random place. Raises NoSuchName."""
+    """Return the fault called `name`, at its usual place, or at a random one if a seed is given. Raises NoSuchName."""
     if name not in FAULTS:
         raise NoSuchName(f"there is no fault {quoted(name)}; the faults are {', '.join(FAULTS)}")
     rng = None if seed is None else random_numbers(seed, f"diagnosis {name}")

@@ -29,7 +29,7 @@ _LONGEST_RUN: Final = 300_000_000  # microseconds
 
 
 class Means(NamedTuple):
-    """An action that a player can take. `counts` is True if it counts as a test."""
+    """An action that a player can take. `counts` is True if the action counts as a test."""
 
     usage: str
     help: str
@@ -95,7 +95,9 @@ class Game:
         return [*MEANS]
 
     def hear(self, line: str) -> None:
-        """Do what the player has typed. If that is impossible, raises InvalidInput and counts no test."""
+        """Do what the player has typed. If the player's line cannot be executed, raises InvalidInput and counts no
+        test.
+        """
         word, _, rest = line.strip().partition(" ")
         word, rest = word.lower(), rest.strip()
         if not word:

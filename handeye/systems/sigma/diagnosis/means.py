@@ -1,7 +1,6 @@
-"""The tests of a diagnosis. Each sends commands and questions over the bus, and returns what it has measured.
+"""The tests of a diagnosis. Each test sends commands and questions over the bus, and returns what it has measured.
 
-A test uses the interface of the bus, and what a technician can do by hand. It does not use any knowledge of the
-fault.
+A test uses the interface of the bus, and what a technician can do by hand. A test uses no knowledge of the fault.
 """
 
 from collections.abc import Sequence
@@ -70,8 +69,8 @@ def self_tests(at: Technician) -> SelfTests:
 
 @dataclass(frozen=True, slots=True)
 class Clocks:
-    """By how many percent the clock of each microcomputer is slower than usual, measured by the times of its answers.
-    None for a microcomputer that does not answer.
+    """How much slower than usual the clock of each microcomputer is (percent), measured by the times of its answers.
+    The value is None for a microcomputer that does not answer.
     """
 
     slow: dict[int, float | None]
@@ -174,7 +173,7 @@ class Motion:
 
     @property
     def astray(self) -> bool:
-        """True if the far switch stopped the motion at a count that differs from the one in the drawing."""
+        """True if the far switch stopped the motion at a count that differs from the count in the drawing."""
         return self.at_abort is not None and abs(self.at_abort - TRAVEL[self.axis[0]]) > _OFF_STEPS
 
     @property
@@ -240,8 +239,9 @@ class Lost:
 
 
 def moves(at: Technician, *axes: str) -> Lost:
-    """Move axes out at full speed, all at the same time, and back slowly. The switches then show how many steps
-    were lost on the way."""
+    """Move axes out at full speed, all at the same time, and then move them back slowly. The switches then show how
+    many steps were lost on the way out and back.
+    """
     bus = at.bus
     for axis in axes:
         origin(at, axis)
@@ -264,7 +264,7 @@ def load(at: Technician, axis: str) -> Lost:
 
 
 def _lost(bus: MicrobusPort, axis: str) -> int | None:
-    """Return the number of steps by which an axis lags behind its count, or None if it cannot be measured. If
+    """Return the number of steps by which an axis lags behind its count, or None if this number cannot be measured. If
     no steps were lost, the low switch acts at a count of -1."""
     here = _count(bus, axis)
     if here is None:
@@ -312,7 +312,7 @@ def forces(at: Technician, arm: int) -> Forces:
 @dataclass(frozen=True, slots=True)
 class Beam:
     """Whether a light beam reads as interrupted: with nothing in it, with a rod in it, and with a grey filter in it.
-    None if there was no answer.
+    The value is None if there was no answer.
     """
 
     arm: int
@@ -342,8 +342,9 @@ def beam(at: Technician, arm: int) -> Beam:
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """A hand that has closed on a block that is not midway between its fingers: the push on its wrist (N) when
-    the hand reports that it is done, and later."""
+    """A hand that has closed on a block that was not midway between the fingers. The push on the hand's wrist (N) was
+    read twice: when the hand reported that it was done, and later.
+    """
 
     arm: int
     busy: bool

@@ -1,7 +1,8 @@
-"""The self-tests at power-on, in the order of the paper. They use only the bus interface.
+"""The self-tests at power-on, in the order of the paper. These tests use only the bus interface.
 
-The central computer is tested first, then the segments of the bus, then each microcomputer. A faulty interface
-of a segment makes the tests of all microcomputers behind it fail; a faulty microcomputer fails alone.
+The central computer is tested first, then the segments of the bus, then each microcomputer. If the interface of a
+segment is faulty, the tests of all microcomputers behind that interface fail. If a microcomputer is faulty, only its
+own test fails.
 """
 
 from collections.abc import Container, Iterator, Mapping, Sequence
@@ -138,8 +139,8 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
 
     def takes(stranger: int, other: int) -> bool:
         """Return True if the microcomputer `stranger`, which is silent at its own number, answers to the number of the
-        microcomputer `other`. This shows in one of two ways: both become busy together; or, if `stranger` is always
-        busy, like the microcomputer of a wrist, it disturbs the answers of `other`.
+        microcomputer `other`. There are two signs of this. Usually, both microcomputers become busy together. If
+        `stranger` is always busy, like the microcomputer of a wrist, `stranger` disturbs the answers of `other`.
         """
         theirs = heard[other]
         seen = not theirs.right if stranger in scanning else stranger in theirs.busy

@@ -1,7 +1,7 @@
 """Runs the tests in the order of the paper: first the computer, the bus, interfaces and microcomputers, then
 transducers and drives.
 
-The strategy uses only the results of tests, not the planted fault. Its verdict names a part, or says that no test can
+The strategy uses only the results of tests, not the planted fault. The verdict names a part, or says that no test can
 decide which part is faulty.
 """
 
@@ -225,8 +225,9 @@ def part_of(test: SelfTest) -> str:
 
 
 def wrong_force(found: means.Forces) -> tuple[str, str]:
-    """Return the part of a wrist that reads known loads wrongly, and the reason. Both are empty if there is
-    none."""
+    """Return the part of a wrist that reads known loads wrongly, and the reason. Both texts are empty if no part reads
+    wrongly.
+    """
     arm, errors = found.arm, [*_errors(found)]
     if any(value is None for _, _, read in found.readings for value in read):
         return f"microcomputer FORCE{arm}", "it answers only some questions"

@@ -1,1 +1,1 @@
-"""Firmware of the microcomputers. It takes commands and pin levels, and produces pulses and answers."""
+"""Firmware of the microcomputers, which takes commands and pin levels, and produces pulses and answers."""

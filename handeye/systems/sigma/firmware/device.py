@@ -57,7 +57,7 @@ class Device(ABC):
 
     @property
     def due(self) -> int | None:
-        """Time of the next action that needs no command (ps), or None if there is none."""
+        """Time of the next action that needs no command (ps), or None if there is no such action."""
         return None
 
     def elapse(self, at: int) -> None:

@@ -1,5 +1,5 @@
-"""Firmware of a wrist. It scans the three components of force, and raises a pin of a motor while a component
-exceeds its threshold.
+"""Firmware of a wrist, which scans the three components of force. While a component exceeds its threshold, the
+firmware raises a pin of a motor.
 """
 
 from collections.abc import Sequence
@@ -33,7 +33,9 @@ class ForceMemory(MutableRecord, kw_only=True, tag="force"):
 
 
 class Force(Device):
-    """The firmware of a force microcomputer. It always shows that it is busy, but takes commands nevertheless."""
+    """The firmware of a force microcomputer. A force microcomputer always shows that it is busy, but takes commands
+    nevertheless.
+    """
 
     memory: ForceMemory
     by_interrupt = True
@@ -54,8 +56,8 @@ class Force(Device):
 
     @property
     def pins(self) -> tuple[bool, ...]:
-        """For each component, True if its motor is interrupted. This begins when the force exceeds the
-        threshold, and ends when the force is well below it.
+        """For each component, True if its motor is interrupted. The interruption begins when the force exceeds the
+        threshold, and ends when the force is well below the threshold.
         """
         memory = self.memory
         each = zip(memory.readings, memory.thresholds, memory.over, strict=True)

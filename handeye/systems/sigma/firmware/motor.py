@@ -1,4 +1,4 @@
-"""Firmware of a motor. It converts commands to pulse trains. If a pin rises during a motion, the motor stops by
+"""Firmware of a motor, which converts commands to pulse trains. If a pin rises during a motion, the motor stops by
 the steepest ramp.
 """
 
@@ -157,7 +157,7 @@ class Motor(Device):
         memory.status = Status.BUSY
 
     def _halt(self, at: int) -> float:
-        """End the pulse train. Returns the speed until then (steps/s)."""
+        """End the pulse train. Returns the speed (steps/s) just before the end."""
         memory, speed = self.memory, abs(self.speed(at))
         memory.pulses, memory.train, memory.state, memory.ended = self.sent(at), None, "still", at
         return speed

@@ -62,7 +62,9 @@ class Crash(Record, frozen=True, kw_only=True):
 
 
 def program_text(speed: float | None, lower: int = 0) -> str:
-    """Return the program of the study. If an arm is lower, the program ends with an ORIGIN of both arms."""
+    """Return the program of the study. If the hand of one arm is lower than the other hand, the program ends with an
+    ORIGIN of both arms.
+    """
     slow = "" if speed is None else f" SLOW {speed:g}"
     text = _PROGRAM.format(stands=STANDS, goal=GOAL, slow=slow)
     return text + _LOWER.format(arm=lower, lowered=LOWERED) + _ORIGIN if lower else text
@@ -75,8 +77,8 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
         speed: speed of arm 1 (mm/s), or None for the greatest speed that a motor reaches over the distance.
         reflex: True if the wires from the wrists to the motors are connected.
         endless_loop: True if the central computer hangs after it has sent the move, and reads no status.
-        lower: the arm whose hand is lower, so that its column, above the wrist, and the hand of the other arm meet;
-            0: the hands meet.
+        lower: the arm whose hand is lower than the other hand. The column of this arm, above its wrist, then meets the
+            hand of the other arm. If 0, the hands meet.
     """
     if speed is not None and not SLOWEST <= speed <= FASTEST:
         raise BadArgument(f"a constant speed must be between {SLOWEST:g} and {FASTEST:g} mm/s, not {speed:g}")

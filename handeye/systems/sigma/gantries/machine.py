@@ -62,7 +62,9 @@ Table = NDArray[np.float64]
 
 
 class Rig(NamedTuple):
-    """The axes and arms of a machine. The axes of its arms, which have wrists, come first: three for each arm."""
+    """The axes and arms of a machine. The axes of the arms come first, three for each arm. Only these axes have
+    wrists.
+    """
 
     axes: tuple[str, ...] = AXES
     arms: tuple[int, ...] = (1, 2)
@@ -247,7 +249,7 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def counting(self) -> tuple[bool, ...]:
-        """For each axis, False while the axis searches for the end of its rail, where its count begins."""
+        """For each axis, False while the axis searches for the end of its rail. The count of the axis begins there."""
         return tuple(motor is not None and motor.memory.state in COUNTING for motor in self._motors)
 
     @property
@@ -389,8 +391,8 @@ class Gantries(Plant[GantryMemory]):
 
 
 def _hold(lags: Array, begins: Array, ends: Array) -> Array:
-    """Return, for each rotor, the fraction of the pull-out force with which its pole holds it, computed from the
-    rotor's lag (steps).
+    """Return, for each rotor, the fraction of the pull-out force with which the pole holds the rotor. This fraction is
+    computed from the rotor's lag (steps).
     """
     return np.cos(np.clip((np.abs(lags) - begins) / (ends - begins), 0.0, 1.0) * math.pi / 2)
 
@@ -434,9 +436,9 @@ def _gauges(model: mujoco.MjModel, rig: Rig, gain: Array, left: float) -> tuple[
     """Return the matrix, shape (axes, readings), and the offset, shape (axes,), that convert the readings of the
     scene's sensors to the force along each axis. An axis without a wrist has the force 0.
 
-    A strain gauge measures the force in the wrist. The signal of an accelerometer corrects this for the force
-    that accelerates the hand itself, so that the sum is the external force. A fraction `left` of the force of
-    acceleration remains uncorrected.
+    A strain gauge measures the force in the wrist. The signal of an accelerometer cancels the part of this force that
+    accelerates the hand itself, so that the sum is the external force. A fraction `left` of the force of acceleration
+    remains uncorrected.
     """
     size, wrists = len(rig.axes), [f"wrist_{axis}" for axis in rig.wrists]
     bent = _sensors(model, mujoco.mjtSensor.mjSENS_JOINTPOS, wrists)

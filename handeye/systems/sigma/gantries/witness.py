@@ -1,5 +1,5 @@
-"""The witness of a job. It records what the program prints and what happens on the board. Only the referee sees these
-records.
+"""The witness of a job, which records what the program prints and what happens on the board. Only the referee sees
+these records.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ H = TypeVar("H", bound=Heard)
 
 
 def touch_of_arms(gantries: Gantries) -> Callable[[], bool]:
-    """Return a function that tells whether arms touch each other now. A piece in a hand counts as a part of the
+    """Return a function that returns True while arms touch each other. A piece in a hand counts as a part of the
     board.
     """
     model, data = gantries.bench.model, gantries.bench.data

@@ -112,8 +112,8 @@ VARIATION: Final = Variation(
 
 @dataclass(frozen=True, slots=True)
 class GantryWorld:
-    """A world of the gantries. A world without a specification has no errors. Each number is drawn from a random stream
-    of its own, which is selected by the number's name.
+    """A world of the gantries. A world without a specification has no errors. Each number is drawn from a random
+    stream of its own. The number's name selects the stream.
     """
 
     spec: WorldSpec | None = None
@@ -126,8 +126,8 @@ class GantryWorld:
         return VARIATION.value(quantity, self.spec)
 
     def normal(self, name: str, quantity: str) -> float:
-        """Draw the normally distributed number called `name`. Its standard deviation is the world's value of
-        `quantity`, and it is clipped at two standard deviations.
+        """Draw the normally distributed number called `name`. The number's standard deviation is the world's value of
+        `quantity`. The number is clipped at two standard deviations.
         """
         if self.spec is None:
             return 0.0

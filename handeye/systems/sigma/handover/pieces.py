@@ -39,7 +39,7 @@ def pin(name: str) -> str:
 
 
 def drawn(world: GantryWorld, count: int) -> tuple[Piece, ...]:
-    """Return the pieces of a world. Raises BadArgument if there are too many."""
+    """Return the pieces of a world. Raises BadArgument if there are too many pieces."""
     if not 1 <= count <= MOST:
         raise BadArgument(f"a hand-over must have 1 to {MOST} pieces, not {count}")
     numbers, pieces = world.numbers("handover"), list[Piece]()

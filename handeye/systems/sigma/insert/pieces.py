@@ -1,7 +1,7 @@
 """The pieces of the insertion: square pegs that stand in front of a rack, each rotated by up to 20 degrees, and plates
 that each have a square hole.
 
-Nothing holds a plate but its friction on the board, and nothing holds a peg but the friction of the fingers.
+Only friction on the board holds a plate, and only friction of the fingers holds a peg.
 """
 
 from typing import Final
@@ -30,7 +30,7 @@ _PLATE_DENSITY: Final = 7850.0  # kg/m3, steel
 
 
 class Peg(Record, frozen=True, kw_only=True):
-    """A peg where it stands at the beginning, and the plate with the hole for it (mm)."""
+    """The initial places of a peg and of the plate with the peg's hole (mm)."""
 
     name: str  # name of the peg's body; with a prefix, of the plate's body
     x: float
@@ -46,12 +46,14 @@ class Peg(Record, frozen=True, kw_only=True):
 
 
 def rack_y(number: int) -> float:
-    """Return the Y coordinate (mm) of a place in the rack. Places are numbered from 1; arm 1 uses the odd ones."""
+    """Return the Y coordinate (mm) of a place in the rack. Places are numbered from 1; arm 1 uses the places with odd
+    numbers.
+    """
     return 80.0 * number - 20.0
 
 
 def drawn(world: GantryWorld, count: int) -> tuple[Peg, ...]:
-    """Return the pegs of a world, with their plates. Raises BadArgument if there are too many."""
+    """Return the pegs of a world, with their plates. Raises BadArgument if there are too many pegs."""
     if not 1 <= count <= MOST:
         raise BadArgument(f"an insertion must have 1 to {MOST} pegs, not {count}")
     numbers, pegs = world.numbers("insert"), list[Peg]()

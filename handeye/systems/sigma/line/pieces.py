@@ -58,7 +58,8 @@ def pin(piece: str, which: str) -> str:
 
 def drawn(world: GantryWorld, count: int) -> tuple[LinePiece, ...]:
     """Return the pieces of a world, which fill the cells of the tray in order. Raises BadArgument if there are too
-    many."""
+    many pieces.
+    """
     if not 1 <= count <= MOST:
         raise BadArgument(f"the feeder must have 1 to {MOST} pieces, not {count}")
     numbers, pieces = world.numbers("line"), list[LinePiece]()

@@ -16,7 +16,9 @@ class WatchedLine(HeardTouches, frozen=True, kw_only=True):
 
     @property
     def counted(self) -> tuple[int, int]:
-        """The numbers of finished and of withdrawn pieces that the program printed last; 0 if it printed none."""
+        """The numbers of finished and of withdrawn pieces that the program printed last; both are 0 if the program
+        printed no numbers.
+        """
         told = [said for line in self.lines if (said := _TOLD.search(line)) is not None]
         return (int(told[-1][1]), int(told[-1][2])) if told else (0, 0)
 

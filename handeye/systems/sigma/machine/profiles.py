@@ -8,7 +8,7 @@ from handeye.systems.sigma.motors.pulses import CURVES, SHORT
 
 def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
     """Return the duration (microseconds) of a move by `steps` with an acceleration curve. `limit` is a speed limit
-    (steps/s); 0 means none.
+    (steps/s); 0 means no limit.
     """
     form = CURVES[curve if curve < len(CURVES) else 0]
     start, top, acceleration = form.start, form.top, form.acceleration
@@ -26,6 +26,6 @@ def move_us(steps: int, curve: int = 0, limit: int = 0) -> int:
 
 
 def slow_us(steps: int, speed: float) -> int:
-    """Return the duration of a move at a constant speed (steps/s), in microseconds. Above the start/stop speed,
+    """Return the duration (microseconds) of a move at a constant speed (steps/s). Above the start/stop speed,
     the move begins and ends with ramps."""
     return math.ceil(steps / speed * 1e6) if speed <= CURVES[0].start else move_us(steps, 0, round(speed))

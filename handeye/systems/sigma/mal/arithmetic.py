@@ -49,7 +49,7 @@ UNARY: Final[dict[str, Callable[[float], float]]] = {
 
 
 def checked(value: float) -> float:
-    """Return the number. Raises Trap if it is not finite."""
+    """Return the number. Raises Trap if the number is not finite."""
     if not math.isfinite(value):
         raise Trap("the value is beyond the largest number of MAL")
     return float(value)

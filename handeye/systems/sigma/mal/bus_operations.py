@@ -1,4 +1,6 @@
-"""Executes the instructions that use the machine. They send commands, ask questions, and read status lines."""
+"""Executes the instructions that use the machine. These instructions send commands, ask questions, and read status
+lines.
+"""
 
 from collections.abc import Callable
 from typing import Final
@@ -200,8 +202,8 @@ class BusOperations:
             raise Trap(f"NOTSTARTED: {what.to} has not begun to execute its command")
 
     def _compare(self, name: str, axis: str) -> None:
-        """Raise Trap if the count of a motor is not the one that the program's commands give. The cause is that its
-        microcomputer missed or misread a command.
+        """Raise Trap if the count of a motor is not the count that the program's commands give. If the counts differ,
+        the motor's microcomputer missed or misread a command.
         """
         sent = self.memory.counts.get(axis, 0)
         count = protocol.signed(self.ask(name, protocol.position(axis)))

@@ -56,7 +56,9 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def in_order(lines: Sequence[Line]) -> list[Line]:
-    """Sort lines by their numbers. Each line gets the task that began last in this order, at this line or before it."""
+    """Sort lines by their numbers. Each line belongs to the task whose TASK statement is the last one in this order,
+    at this line or before it.
+    """
     ordered, task = [], MAIN
     for line in sorted(lines, key=lambda line: line.number):
         if line.statement.word == "TASK":
@@ -129,7 +131,7 @@ class _Task:
     lines: list[Line] = field(default_factory=list)
 
     def nearest(self, number: int) -> int:
-        """Return, of the line numbers of the task, the one nearest to `number`."""
+        """Return the task's line number that is nearest to `number`."""
         at = bisect_left(self.lines, number, key=lambda line: line.number)
         near = [line.number for line in self.lines[max(0, at - 1) : at + 1]]
         return min(near, key=lambda each: (abs(each - number), each))
@@ -172,8 +174,7 @@ class _Check:
             yield from self._variables()
 
     def _near(self, name: str, known: Collection[str]) -> SimilarName | KnownNames | None:
-        """Return names that may be intended. Returns None if more mistakes have already been found than are
-        shown."""
+        """Return names that may be intended. Returns None if as many mistakes as are shown have already been found."""
         self._told += 1
         return alternatives(name, known) if self._told <= LIMIT else None
 

@@ -62,7 +62,7 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CompiledLine:
-    """An executable line. `begin` is the address at which its code begins."""
+    """An executable line. `begin` is the address at which the line's code begins."""
 
     number: int
     task: str
@@ -90,7 +90,7 @@ class MalProgram:
 
     @cached_property
     def beyond(self) -> CompiledLine | None:
-        """The first line that uses an axis or hand that only the assembly line has, or None."""
+        """The first line that uses an axis or hand that only the assembly line has. None if there is no such line."""
         for address, each in enumerate(self.code):
             names = each.operand if isinstance(each.operand, tuple) else (each.operand,)
             if any(name in _BEYOND for name in names):
@@ -99,7 +99,7 @@ class MalProgram:
 
     def check_alone(self) -> None:
         """Raise BadFile unless SUPERSIGMA alone can run the program. A missing microcomputer reports nothing, so the
-        program would not notice that it is missing.
+        program would not notice that the microcomputer is missing.
         """
         if self.beyond is not None:
             raise BadFile(
@@ -114,12 +114,14 @@ class MalProgram:
 
     @property
     def hands(self) -> int:
-        """Number of hand microcomputers of that machine."""
+        """Number of hand microcomputers of the machine for which the program is written."""
         return sum(name.startswith("HAND") for name in (NUMBERS if self.beyond is None else LINE_NUMBERS))
 
     @cached_property
     def line_at(self) -> tuple[int, ...]:
-        """For each address, the index of its line. The END after a task belongs to the task's last line."""
+        """For each address, the index of the line to which the address belongs. The END after a task belongs to the
+        task's last line.
+        """
         owners, at = [], 0
         begins = {line.begin: number for number, line in enumerate(self.lines)}
         for address in range(len(self.code)):
@@ -139,7 +141,7 @@ class MalProgram:
 
 
 def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]:
-    """Compile a text. Returns the program, or None if there are errors, and the diagnostics."""
+    """Compile a text. Returns two values: the program (None if the text has errors) and the diagnostics."""
     lines, found = checked(source)
     if has_errors(found):
         return None, found
@@ -148,11 +150,11 @@ def compile_source(source: Source) -> tuple[MalProgram | None, list[Diagnostic]]
 
 @lru_cache(maxsize=8)
 def program_of(name: str, text: str, *, line: bool = False) -> MalProgram:
-    """Compile a text. Raises BadFile if it has errors.
+    """Compile a text. Raises BadFile if the text has errors.
 
     Args:
-        line: True if the program may use the axes and hands of the assembly line. By default, a program that uses them
-            is refused.
+        line: True if the program may use the axes and hands of the assembly line. By default, a program that uses
+            these axes or hands is refused.
     """
     program, found = compile_source(Source(name=name, text=text))
     if program is None:
@@ -385,7 +387,9 @@ class _Ways:
 
     @cached_property
     def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
-        """The lines after each FOR and each GOSUB, by task, instruction and operand."""
+        """The lines that follow FORs and GOSUBs, as lists. The key of each list consists of the task, the instruction
+        and the operand.
+        """
         behind: dict[tuple[str, str, Operand], list[int | None]] = {}
         for index, line in enumerate(self._program.lines):
             for op, operand, _ in self._code(index):

@@ -74,8 +74,9 @@ class Printed(SystemEvent, frozen=True, kw_only=True):
 
 
 class MotorAborted(SystemEvent, frozen=True, kw_only=True):
-    """A motor was stopped by the end of its rail or by a force, and the central computer has queried its
-    position."""
+    """A motor was stopped by the end of its rail or by a force, and the central computer has queried the motor's
+    position.
+    """
 
     importance: ClassVar[Importance] = "warning"
     task: str  # the task that had started the motion
@@ -107,7 +108,7 @@ class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
 
 
 class CountWrong(SystemEvent, frozen=True, kw_only=True):
-    """ORIGIN has shown that the count of an axis was wrong, although no force had made it doubtful."""
+    """ORIGIN has shown that the count of an axis was wrong, although no force had made the count doubtful."""
 
     importance: ClassVar[Importance] = "warning"
     axis: str

@@ -127,7 +127,7 @@ class _Search:
 
     @cached_property
     def _private(self) -> tuple[bool, ...]:
-        """For each line, True if it does not concern any other task."""
+        """For each line, True if the line does not concern any other task."""
         return tuple(all(map(self._is_private, within(line.statement))) for line in self.program.statements)
 
     def _is_private(self, statement: Statement) -> bool:
@@ -332,7 +332,9 @@ class _Search:
     def _find(
         self, kind: FindingKind, told: str, lines: Sequence[int], key: bytes, act: Act | None = None
     ) -> None:
-        """Record a finding, only once for the same lines. The first path that leads to it is the shortest."""
+        """Record a finding, unless the same finding is already recorded. The first path that leads to a finding is the
+        shortest.
+        """
         name = (kind, tuple(sorted(lines)) if kind != "variable" else told)
         if name not in self.found:
             schedule = (*self._schedule(key), *(() if act is None else (act,)))
@@ -381,7 +383,9 @@ def schedule_lines(schedule: Sequence[Act]) -> list[str]:
 
 
 def unreached_lines(program: MalProgram, result: Interleavings) -> str:
-    """Return the lines that no order executes, such as `lines 40, 70 to 90`; empty if there are none."""
+    """Return the lines that no order executes, such as `lines 40, 70 to 90`. The text is empty if there are no such
+    lines.
+    """
     numbers, spans = [line.number for line in program.lines], list[list[int]]()
     for before, number in zip([None, *numbers], numbers, strict=False):
         if number in result.unreached:
@@ -394,8 +398,9 @@ def unreached_lines(program: MalProgram, result: Interleavings) -> str:
 
 
 def told_orders(name: str, program: MalProgram, result: Interleavings) -> Iterator[str]:
-    """Yield the result of trying all orders: each finding, with a schedule for the first finding of each kind, and the
-    lines that no order reaches."""
+    """Yield the result of trying all orders: first each finding (with a schedule for the first finding of each kind),
+    then the lines that no order reaches.
+    """
     shown: set[str] = set()
     for finding in result.findings:
         yield f"{finding.kind}: {KINDS[finding.kind]}"

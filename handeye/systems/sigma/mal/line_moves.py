@@ -1,4 +1,4 @@
-"""Moves axes along a straight line although they are not synchronised. Each axis moves at constant speed, and
+"""Moves axes along a straight line although the axes are not synchronised. Each axis moves at constant speed, and
 the axes wait for each other at intermediate points.
 """
 
@@ -44,8 +44,8 @@ def line_moves(goals: Sequence[tuple[str, int]], counts: Mapping[str, int]) -> l
 
 
 def _codes(moved: Mapping[str, int], longest: int, fastest: int) -> tuple[dict[str, int], float]:
-    """Return the codes of the speeds if the axis with the longest distance moves at speed `fastest`, and the
-    resulting deviation from the straight line (mm).
+    """Return the codes of the speeds, and the resulting deviation from the straight line (mm). The axis with the
+    longest distance moves at speed `fastest`.
     """
     codes = {axis: max(1, round(fastest * abs(way) / longest)) for axis, way in moved.items()}
     off = max(abs(codes[axis] / fastest - abs(way) / longest) for axis, way in moved.items())

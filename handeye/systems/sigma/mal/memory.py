@@ -12,7 +12,9 @@ Address = Annotated[int, Meta(ge=0)]
 
 
 class Flags(Record, frozen=True, kw_only=True, tag=True):
-    """Wait until flags are set. With `take`, there is only one flag, and it is cleared in the same act."""
+    """Wait until flags are set. If `take` is True, the task waits for a single flag, and the act that ends the wait
+    clears this flag.
+    """
 
     names: tuple[str, ...]
     take: bool

@@ -245,7 +245,7 @@ class Operations(BusOperations):
         task.pc, task.amid, task.resume = task.resume, False, None
 
     def _wait(self, name: str, task: TaskMemory, waiting: Waiting) -> None:
-        """Let a task wait for a condition, unless it is already met."""
+        """Let a task wait for a condition, unless the condition is already met."""
         task.waits = waiting
         self.met(name, task, waiting)
 

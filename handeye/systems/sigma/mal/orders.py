@@ -18,8 +18,8 @@ _STOPPING: Final[tuple[FindingKind, ...]] = ("deadlock", "stops")
 
 
 def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, str, str]]:
-    """Yield what is wrong with a program, the worst first. Each problem is given by three values: True if the program
-    itself does not notice the problem, then what happens, then an example.
+    """Yield the problems of a program, the worst problem first. Each problem is a tuple: whether the problem escapes
+    the program's notice, what happens, and an example.
     """
     for each in sorted(found.findings, key=lambda finding: finding.kind in _STOPPING):
         order = "; ".join(" ".join(line.split()) for line in schedule_lines(each.schedule))
@@ -33,8 +33,9 @@ def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, 
 
 
 def order_problems(name: str, text: str) -> list[tuple[bool, str]]:
-    """Return what is wrong with a program in some order of its tasks, the worst first. Each problem is given by two
-    values: True if the program does not notice the problem, then a sentence. Raises BadFile if the text has errors.
+    """Return the problems that a program has in some order of its tasks, the worst problem first. Each problem is a
+    tuple: whether the problem escapes the program's notice, and a sentence that describes the problem. Raises BadFile
+    if the text has errors.
     """
     program = program_of(name, text)
     return [(silent, f"{what}: {told}") for silent, what, told in problems(program, interleavings(program))]

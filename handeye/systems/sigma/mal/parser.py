@@ -47,8 +47,9 @@ def parsed(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def parsed_line(text: str, start: int, row: int, task: str) -> tuple[Line | None, Diagnostic | None]:
-    """Parse a line that begins at the offset `start` of its text and belongs to a task. Returns the line and None, or
-    None and the mistake. For an empty line, both are None.
+    """Parse a line that begins at the offset `start` of its text and belongs to a task. Returns two values. For a
+    correct line, these are the line and None; for a line with a mistake, None and the mistake. For an empty line, both
+    values are None.
     """
     scanned, wrong = tokens(text, start)
     if wrong is not None:

@@ -1,4 +1,4 @@
-"""Splits a line of MAL into tokens. Mistakes are returned; no text raises an exception."""
+"""Splits a line of MAL into tokens. Mistakes are returned. No text makes the scanner raise an exception."""
 
 import re
 from typing import Final, Literal, NamedTuple
@@ -36,8 +36,9 @@ _TOKEN: Final = re.compile(
 
 
 def tokens(line: str, start: int) -> tuple[list[Token], Diagnostic | None]:
-    """Return the tokens of a line that begins at the offset `start`, and the first mistake, or None. A remark
-    has only the token REM."""
+    """Return the tokens of a line that begins at the offset `start`, and the first mistake in the line. If the line
+    has no mistake, the second value is None. A remark has only the token REM.
+    """
     found: list[Token] = []
     if len(line) > LONGEST_LINE:
         told = f"a line can have at most {LONGEST_LINE} characters, but this line has {len(line)}"

@@ -37,7 +37,7 @@ class Binary(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A call of a function. The argument is an expression or an axis, or None."""
+    """A call of a function. The argument is an expression, an axis or None."""
 
     function: str
     argument: "Expression | Token | None"
@@ -47,7 +47,7 @@ Expression = Number | Variable | Unary | Binary | Call
 
 
 class Text(NamedTuple):
-    """A text in quotes, in PRINT and STOP."""
+    """A quoted text in a PRINT or STOP statement."""
 
     text: str
 
@@ -62,7 +62,7 @@ class AxisGoal(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Statement:
-    """A statement. Its word determines, according to the grammar, which fields are set."""
+    """A statement. The word of the statement determines, according to the grammar, which fields are set."""
 
     word: str
     span: Span

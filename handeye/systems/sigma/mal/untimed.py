@@ -20,7 +20,7 @@ class UntimedMemory(MutableRecord, kw_only=True):
 
 
 class UntimedMachine(MicrobusPort):
-    """A machine without time. Its sensors answer 0, and its motors answer with their counts.
+    """A machine without time. The sensors answer 0, and the motors answer with their counts.
 
     Axes in `instant` reach their goals as soon as they are commanded.
     """

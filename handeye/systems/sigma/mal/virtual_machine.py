@@ -1,6 +1,7 @@
-"""The virtual machine. It schedules the tasks, one statement of each in turn, and handles aborts and deadlocks.
+"""The virtual machine, which schedules the tasks, one statement of each in turn, and handles aborts and deadlocks.
 
-It uses the machine only through `ports/microbus.py`. Between two statements, its memory is its complete state.
+The virtual machine uses the simulated machine only through `ports/microbus.py`. Between two statements, the memory of
+the virtual machine is its complete state.
 """
 
 import math
@@ -70,7 +71,7 @@ class VirtualMachine:
 
     @property
     def idle(self) -> float:
-        """Fraction of the time since the program began in which the central computer was idle."""
+        """Idle time of the central computer, as a fraction of the time since the program began."""
         passed = self.machine.now - self.memory.began
         return 1.0 - self.memory.worked / passed if passed else 0.0
 
@@ -80,7 +81,7 @@ class VirtualMachine:
         return self.memory.turn
 
     def waits_for(self, task: str) -> str:
-        """Say in words what a task waits for. Empty if it waits only for its turn."""
+        """Say in words what a task waits for. The text is empty if the task waits only for its turn."""
         match self.memory.tasks[task].waits:
             case Flags(names=names):
                 return f"{'flag' if len(names) == 1 else 'flags'} {' and '.join(names)}"
@@ -102,8 +103,8 @@ class VirtualMachine:
         self.settle()
 
     def statement(self) -> None:
-        """Execute the statement of the task whose turn it is, until it ends or waits. `settle` then determines
-        the next task.
+        """Execute the statement of the task whose turn it is, until the statement ends or waits. `settle` then
+        determines the next task.
         """
         memory, name = self.memory, self.memory.turn
         memory.last, began = name, self.machine.now
@@ -199,8 +200,9 @@ class VirtualMachine:
     # -- turns ---------------------------------------------------------------------------------------------
 
     def _order(self) -> list[str]:
-        """Return the tasks in the order of their turns, beginning with the task after the one that had the last
-        turn."""
+        """Return the tasks in the order of their turns, beginning with the task after the task that had the
+        last turn.
+        """
         names = [*self.memory.tasks]
         after = names.index(self.memory.last) + 1 if self.memory.last in names else 0
         return names[after:] + names[:after]
@@ -282,7 +284,7 @@ class VirtualMachine:
 
     def _see_aborts(self) -> None:
         """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues as
-        its ON ABORT says; if it has no ON ABORT, the program stops.
+        its ON ABORT says; if the task has no ON ABORT, the program stops.
         """
         if not self.machine.interrupt:
             return

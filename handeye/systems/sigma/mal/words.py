@@ -1,4 +1,6 @@
-"""The table of the words of MAL. The parser, completion, `explain` and the page of words are derived from it."""
+"""The table of the words of MAL. The parser, completion, `explain` and the page of words are derived from this
+table.
+"""
 
 from typing import Final, Literal, NamedTuple
 
@@ -181,7 +183,7 @@ RESERVED: Final = {*WORDS, *LINE_AXES, "DIM"}
 
 
 def explained(word: str) -> str | None:
-    """Return the meaning of a word with an example, or None if it is not a word of MAL."""
+    """Return the meaning of a MAL word, followed by an example. Return None for a word that MAL does not have."""
     known = WORDS.get(word.upper())
     if known is None:
         return None

@@ -104,8 +104,8 @@ class Pulses:
 
 
 def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
-    """Return the pulse train of a move. A very short move has a constant speed. All others have a ramp up and a
-    ramp down, and long ones have a constant speed in between.
+    """Return the pulse train of a move. A very short move has a constant speed. All other moves have a ramp up and a
+    ramp down. Long moves have a constant speed between the ramps.
 
     Args:
         steps: number of steps, at least 1.
@@ -131,8 +131,8 @@ def stop(speed: float, curve: Curve) -> Train:
 
 
 def stopped(train: Train, curve: Curve, ticks: int, *, cut: bool = False) -> Pulses:
-    """Return the pulses of a train that is interrupted after some ticks. It stops by the steepest ramp or, with
-    `cut`, abruptly, which is a fault.
+    """Return the pulses of a train that is interrupted after some ticks. The train stops by the steepest ramp or, if
+    `cut` is True, abruptly. An abrupt stop is a fault.
     """
     pulses = train.pulses
     made = pulses.ticks[: pulses.count(ticks)]
@@ -157,8 +157,9 @@ def _stop_times(train: Train) -> NDArray[np.float64]:
 
 
 def _profile_times(train: Train) -> NDArray[np.float64]:
-    """Return the times of the pulses of two ramps, whose speeds follow raised cosines, and of the part between
-    the ramps."""
+    """Return the times of the pulses of two ramps, and of the part between the ramps. The speeds on the ramps follow
+    raised cosines.
+    """
     steps, start, peak = train.steps, train.start, train.peak
     made = np.arange(1.0, steps + 1)
     if peak <= start:

@@ -1,10 +1,10 @@
-"""Simulates the rotor of a stepping motor. The pulses pull it along like a spring whose greatest force is the
+"""Simulates the rotor of a stepping motor. The pulses pull the rotor along like a spring whose greatest force is the
 pull-out force. Beyond that force, the rotor slips.
 
-There are two models. The reference is the sine model, force = pull-out x sin(2 pi lag / 4 steps), which is
-integrated in steps of .1 ms. The balance model, in steps of 1 ms, is a quick check. It tests whether the force
-that the pulses require is available, and lets a rotor that can no longer follow its pulses coast until a pole
-catches it. In both models the rotor slips by whole poles of 4 steps. Units are SI, except for steps.
+There are two models. The reference is the sine model, force = pull-out x sin(2 pi lag / 4 steps), which is integrated
+in steps of .1 ms. The balance model, in steps of 1 ms, is a quick check. The balance model tests whether the force
+that the pulses require is available. A rotor that can no longer follow its pulses coasts until a pole catches it. In
+both models the rotor slips by whole poles of 4 steps. Units are SI, except for steps.
 """
 
 import math
@@ -109,9 +109,9 @@ def wanted(pulses: Pulses, drive: Drive) -> tuple[NDArray[np.float64], NDArray[n
 class Balance:
     """A rotor in the balance model, with steps of one millisecond.
 
-    The rotor is `caught` as long as its pole can give the required force. If more force is required, it is
-    `strained` until it is two steps away. After that it is `slipping`, and only the damping pulls it along,
-    until a pole can hold it again.
+    The rotor is `caught` as long as its pole can give the required force. If more force is required, the rotor is
+    `strained` until it is two steps away from the pole. The rotor is then `slipping`, and only the damping pulls it
+    along, until a pole can hold it again.
     """
 
     def __init__(self, drive: Drive) -> None:
@@ -123,8 +123,8 @@ class Balance:
         self._speed = self._before = 0.0  # steps/s of the rotor, and of the field a millisecond ago
 
     def follow(self, there: float, pace: float, force: float) -> None:
-        """Let a millisecond pass. In it, the field is at the position `there` (steps), moves at `pace`
-        (steps/s), and requires a force (N).
+        """Let a millisecond pass. During this millisecond, the field is at the position `there` (steps), moves at
+        `pace` (steps/s), and requires a force (N).
         """
         pull, jump = self.drive.pull_out(pace), abs(pace - self._before)
         if self.state != "slipping" and jump > _JUMP and not _catches(self.drive, pace, self._before):

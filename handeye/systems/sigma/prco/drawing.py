@@ -55,8 +55,8 @@ _FRICTION: Final = (0.87, 1.13)  # friction of a thread, as a multiple of its no
 
 
 class Pump(Record, frozen=True, kw_only=True):
-    """The parts of a world: where they stand, and how they differ from the drawing. Holes are given by the errors of
-    their places.
+    """The parts of a world: where they stand, and how they differ from the drawing. Each hole is given by its true
+    place, which includes the error of the place.
     """
 
     nest: Place

@@ -20,7 +20,9 @@ class DriverState(Record, frozen=True, kw_only=True):
 
 
 class HandDriver(Mechanism[DriverState]):
-    """A motor that drives screws in while its device is 1, and out while it is 2. Its bit is a permanent magnet."""
+    """The screwdriver of arm 2. It drives screws in while its device has the value 1, and drives screws out while its
+    device has the value 2. The bit is a permanent magnet.
+    """
 
     name = "screwdriver"
     kind = DriverState

@@ -64,7 +64,7 @@ def add_pump(spec: mujoco.MjSpec, pump: Pump) -> None:
 
 
 def _add_base(shaper: Shaper, pump: Pump) -> None:
-    """Add the base with its holes, loose in a nest of four stops."""
+    """Add the base with its holes. The base lies loose in a nest of four stops."""
     nest, (length, width, height) = pump.nest, BASE
     stops = shaper.spec.worldbody.add_body(name="nest", pos=[nest.x * MM, nest.y * MM, 0])
     for sign in (-1, 1):
@@ -122,8 +122,8 @@ def _add_pins(shaper: Shaper, pump: Pump) -> None:
 
 
 def _add_screws(shaper: Shaper, pump: Pump) -> None:
-    """Add the screws in their dispenser. Also add, out of sight, a tray that holds the loose bodies of screws that are
-    in threads.
+    """Add the screws in their dispenser. Also add a tray, which is out of sight. While a screw is in a thread, the
+    tray holds the screw's loose body.
     """
     (x, y), top = pump.dispenser, DISPENSER_HEIGHT
     dispenser = shaper.spec.worldbody.add_body(name="dispenser")

@@ -1,4 +1,4 @@
-"""Trials of faults: a job runs with one fault of the machine, and then DIAGNOSE searches for the part."""
+"""Trials of faults: a job runs with one fault of the machine, and then DIAGNOSE searches for the faulty part."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -52,7 +52,7 @@ class MalFaultWork:
     world: WorldSpec
 
     def __call__(self, case: Case) -> list[MalFaultRow]:
-        """Run the job with the fault, then diagnose a machine that has it."""
+        """Run the job with the fault, then diagnose a machine with the same fault."""
         planted = every_fault()[case.condition]
         fault = catalogue().kind(case.condition).usual()
         world = msgspec.structs.replace(self.world, seed=case.seed, faults=(fault,))

@@ -1,4 +1,4 @@
-"""Kinds of trials of jobs on the board of the gantries."""
+"""Defines the kinds of trials for the jobs on the board of the gantries."""
 
 from collections.abc import Mapping
 from typing import Final

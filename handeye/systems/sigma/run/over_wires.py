@@ -1,4 +1,6 @@
-"""Runs a MAL program on the simulated bus without gantries, to measure the load of bus and computer."""
+"""Runs a MAL program on the simulated bus without gantries, to measure the load on the bus and on the central
+computer.
+"""
 
 from collections.abc import Callable, Sequence
 from typing import Final

@@ -51,7 +51,7 @@ class MalPlan(Record, frozen=True, kw_only=True):
 
 @lru_cache(maxsize=8)
 def listing(plan: MalPlan) -> NumberedListing:
-    """Return the listing of a plan. Its labels are the names of the tasks."""
+    """Return the listing of a plan. The labels of the listing are the names of the tasks."""
     program = plan.program
     steps = [
         NumberedStep(

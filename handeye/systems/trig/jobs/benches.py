@@ -75,7 +75,7 @@ class TaughtPlan(Record, frozen=True, kw_only=True):
 
     @property
     def task(self) -> JobName:
-        """Name of the task. It is the name of the job."""
+        """Name of the task. The task has the same name as the job."""
         return self.job
 
 
@@ -105,7 +105,9 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def lay(self) -> None:
-        """Put the table into the state that it has after teaching. A saved state is restored afterwards."""
+        """Put the table into the state that it has after teaching. To resume a saved run, call this before you restore
+        the saved state.
+        """
 
     @property
     @abstractmethod
@@ -126,7 +128,9 @@ class TaughtJob(ABC):
         """Record the scene for the referee before the reversal."""
 
     def built(self) -> "Findings":
-        """Return the referee's findings on the work before its reversal. Empty if there was no reversal."""
+        """Return the referee's findings on the work before its reversal. If there was no reversal, there are no
+        findings.
+        """
         return {}
 
     @property
@@ -140,7 +144,7 @@ class TaughtJob(ABC):
         """The goals of the blocks (mm), in the order in which the arm picks the blocks up."""
 
     def remembered(self) -> "Findings":
-        """Return findings on the program after its reversal; empty by default."""
+        """Return the findings on the program after its reversal. By default, there are no findings."""
         return {}
 
 

@@ -1,4 +1,4 @@
-"""The referee of the block bench. It uses the true poses of the blocks and of the hand."""
+"""The referee of the block bench. The referee uses the true poses of the blocks and of the hand."""
 
 from collections.abc import Mapping, Sequence
 from math import acos, degrees
@@ -73,7 +73,9 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
 
 
 def judge_hand(truth: Array, place: Array, what: str) -> Finding:
-    """Check that the true position of the hand is at a place. Both have shape (6,), in m and rad."""
+    """Check that the true position of the hand is at a place. The position and the place have shape (6,), in m and
+    rad.
+    """
     off = float(np.linalg.norm(truth[:3] - place[:3]))
     return at_most(off * _MM, HAND, "mm", f"distance of the hand from the place where the program {what}")
 

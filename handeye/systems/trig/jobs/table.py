@@ -1,4 +1,6 @@
-"""The Purbrick arm for TRIG, with blocks and a bucket on its platter. The user places them between commands."""
+"""The Purbrick arm for TRIG, with blocks and a bucket on its platter. The user places the blocks and the bucket
+between commands.
+"""
 
 import math
 from typing import Final

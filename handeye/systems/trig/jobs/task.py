@@ -82,8 +82,9 @@ class Pallet(_BlocksTask):
         return {**judge_back(seen.poses, stood.poses), "hand": back}
 
     def places(self, seen: InitialScene) -> list[Place]:
-        """Return the places at which the arm releases the blocks, one after the other. They are computed from the
-        taught positions."""
+        """Return the places at which the arm releases the blocks, one after the other. These places are computed from
+        the taught positions.
+        """
         above, places = seen.place("PALLET"), []
         for _ in range(COLUMNS):
             for _ in range(ROWS):
@@ -114,7 +115,7 @@ class Bucket(_BlocksTask):
 
 class Arrange(_BlocksTask):
     """Place blocks as a user's script says. Only a referee that the user provides can judge the work. This referee
-    judges only whether the reversal has undone it.
+    judges only whether the reversal has undone the work.
     """
 
     name = "arrange"

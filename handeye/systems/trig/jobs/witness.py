@@ -43,13 +43,13 @@ class ObservedScene(Record, frozen=True, kw_only=True):
 
 
 class InitialScene(ObservedScene, frozen=True, kw_only=True):
-    """The scene before a run. Once the run's reversal has begun, also the scene before the reversal."""
+    """The scene before a run. Once the run's reversal has begun, the record also has the scene before the reversal."""
 
     taught: dict[str, Place]  # taught positions
     turned: ObservedScene | None = None  # scene before the reversal, if recorded
 
     def place(self, name: str) -> Place:
-        """Return a taught position. Raises Refused if the script does not teach it."""
+        """Return a taught position. Raises Refused if the script does not teach the position."""
         found = self.taught.get(name)
         if found is None:
             raise Refused(f"the referee needs the position {name}, which the script does not teach")

@@ -107,7 +107,7 @@ _MAX_SIGMAS: Final = 2.0  # people notice and correct larger errors
 
 @dataclass(frozen=True, slots=True)
 class BlocksWorld:
-    """A world of the block bench. Without a specification, it has no errors. Each number is drawn from a stream
+    """A world of the block bench. A world without a specification has no errors. Each number is drawn from a stream
     of its own, which is selected by the number's name."""
 
     spec: WorldSpec | None = None

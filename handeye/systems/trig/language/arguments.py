@@ -21,7 +21,7 @@ _VECTOR: Final = re.compile(r"\(\s*(\S+)[\s,]+(\S+)[\s,]+(\S+?)\s*\)")
 
 @dataclass(slots=True, kw_only=True)
 class Arguments:
-    """The arguments of a command; None if omitted. `negate` is True if the position has a minus sign;
+    """The arguments of a command. An omitted argument is None. `negate` is True if the position has a minus sign;
     `threshold` is in N."""
 
     position: str | None = None

@@ -59,7 +59,7 @@ def here(session: Session, given: Arguments) -> None:
 
 
 def here_relative(session: Session, given: Arguments) -> None:
-    """SR: store, under a name, the offset from where the last step ended to the arm's present place."""
+    """SR: store, under a name, the offset from the place where the last step ended to the arm's present place."""
     start = session.program.ended_at
     if start is None:
         raise Refused("no step has moved the arm yet; to measure a distance, use CALPOS and ENDCAL")
@@ -88,7 +88,7 @@ def _define(session: Session, name: str, place: Place, *, relative: bool) -> Non
 
 
 def _check_redefinition(session: Session, name: str, relative: bool) -> None:
-    """Raise an exception if a position may not be redefined, or if the user does not agree to that."""
+    """Raise an exception if a position may not be redefined, or if the user does not agree to the redefinition."""
     was = session.position(name).relative
     if relative and any(node.type == "savpos" for node in session.program.users(name)):
         raise Refused(f"{name} cannot become relative, because a SAVPOS step sets it; D deletes the step")

@@ -52,7 +52,7 @@ class AxesArm(TrigArm):
     """The six axes of a machine (X, Y, Z, roll, pitch and yaw) and its hand, as a TRIG arm."""
 
     def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits, *, ready: bool = False) -> None:
-        """Take the arm. Unless it is `ready`, its hand is opened."""
+        """Take the arm. If the arm is not `ready`, open its hand."""
         self._axes, self._clock, self._limits = axes, clock, limits
         self._goal, self._closed, self._opening = self._where(), False, limits.open
         self._met_force = 0.0
@@ -159,8 +159,8 @@ class AxesArm(TrigArm):
         self._wait(self._limits.grasping)
 
     def _obstacle(self, tare: Array, speed: Array, limit: float) -> Obstacle | None:
-        """Return the obstacle in the way, or None: either a force that exceeds `tare` by more than `limit` (N),
-        or an axis that lags behind. `speed` is the speed of the n axes (m/s or rad/s, shape (n,)).
+        """Return the obstacle in the way, if there is one. An obstacle is either a force that exceeds `tare` by more
+        than `limit` (N), or an axis that lags behind. `speed` is the speed of the n axes (m/s or rad/s, shape (n,)).
         """
         found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:
@@ -168,7 +168,7 @@ class AxesArm(TrigArm):
         return found
 
     def _stand(self) -> None:
-        """Stop, and make the sensed position the commanded one."""
+        """Stop, and make the sensed position the commanded position."""
         self._goal = self._where()
         self._wait(self._limits.settling)
 

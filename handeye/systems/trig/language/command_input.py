@@ -112,7 +112,7 @@ class Script(Desk):
         self.number = 0  # number of the line read last, from 1
 
     def next_line(self) -> str | None:
-        """Return the next line that is not empty, or None."""
+        """Return the next line that is not empty, or None if there is no such line."""
         for number, line in self._lines:
             self.number = number
             if text := stripped(line):
@@ -165,7 +165,7 @@ class LineRefused(BadFile):
         self.name, self.number, self.why = name, number, why
 
     def on(self, arm: str) -> "LineRefused":
-        """Return the error with the arm on which the script was typed."""
+        """Return the error with a longer message, which also names the arm on which the script was typed."""
         return LineRefused(self.name, self.number, f"{self.why} (typed on {arm})")
 
 

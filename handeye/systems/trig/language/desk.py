@@ -52,8 +52,9 @@ class Desk(ABC):
 
     @abstractmethod
     def wrong(self, error: InvalidInput) -> None:
-        """Report that the user's answer or action is invalid, before the next one is read. A user interface
-        that cannot ask again raises the error instead."""
+        """Report that the user's answer or action is invalid, before the next answer or action is read. A user
+        interface that cannot ask again raises the error instead.
+        """
 
     def halted(self) -> bool:
         """Return True if a key was pressed since the last call."""
@@ -144,7 +145,7 @@ class Tabletop(ABC):
 
 
 def arrange(table: Tabletop, line: str) -> str:
-    """Execute a line that describes the table. Returns a sentence on what the table then holds. Raises
+    """Execute a line that describes the table. Returns a sentence that says what is then on the table. Raises
     BadArgument.
     """
     words = line.removeprefix(MARK).upper().split()

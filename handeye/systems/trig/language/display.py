@@ -118,7 +118,9 @@ def _is_link_behind(graph: Graph, id: int) -> bool:
 
 
 def _measure(chain: _Chain) -> None:
-    """Compute the size of a chain with all its attached chains. Chains attached farther down are placed nearer."""
+    """Compute the size of a chain with all its attached chains. The farther down a chain is attached, the nearer to
+    this chain it is placed.
+    """
     chain.height = len(chain.items)
     below: list[tuple[int, int]] = []
     for row in sorted(chain.hung, reverse=True):
@@ -190,7 +192,7 @@ def _put_elbow(grid: _Grid, elbow: Elbow, symbols: Symbols) -> None:
 
 
 def _line(grid: _Grid, row: int, left: int, width: int, symbols: Symbols) -> Line:
-    """Return one line of the display. A mark at either end shows that the program continues beyond it."""
+    """Return one line of the display. A mark at an end of the line shows that the program continues beyond that end."""
     last = max((x for y, x in grid if y == row), default=-2)
     line = [grid.get((row, x), ("", " ")) for x in range(left, min(last, left + width - 1) + 1)]
     if line and left > -1 and any((row, x) in grid for x in range(left)):
@@ -208,7 +210,7 @@ _STEP_STYLES: Final = {"guarded": "guarded", "normal": "position", "savpos": "po
 
 def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols) -> tuple[str, str, Style]:
     """Return the name of a step, its action, and the style of the action. If the name already says everything, the
-    action is empty, and the style is that of the name.
+    action is empty, and the returned style is the style of the name.
     """
     node = cell.node
     if cell.link:

@@ -79,8 +79,8 @@ class Graph:
     # -- looking ---------------------------------------------------------------------------------------
 
     def order(self) -> list[int]:
-        """Return all nodes in drawing order. Each node comes before the sons that are drawn below it, and the
-        normal son before the guarded one.
+        """Return all nodes in drawing order. Each node comes before the sons that are drawn below it, and the normal
+        son before the guarded son.
         """
         found, waiting = [], [TOP]
         while waiting:
@@ -129,12 +129,12 @@ class Graph:
         return id
 
     def target(self, loop: Node) -> Node | None:
-        """Return the step to which a loop returns, or None."""
+        """Return the step to which a loop returns, or None if there is no such step."""
         id = self.step_at(loop.partner)
         return None if id == NONE else self[id]
 
     def fill(self, nodes: Sequence[Node]) -> None:
-        """Replace all nodes by those of a file."""
+        """Replace all nodes by the nodes of a file."""
         self.nodes = {node.id: node for node in nodes}
         self._next = max(self.nodes) + 1
         for node in nodes:
@@ -287,7 +287,9 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """Place the nodes below a node along own edges. An edge to a node that is already placed becomes a link."""
+    """Place all nodes that can be reached from a node along own edges. An edge to a node that is already placed
+    becomes a link.
+    """
     waiting = [start]
     while waiting:
         node = graph[waiting.pop()]

@@ -1,9 +1,9 @@
 """An imaginary arm, which reaches every place immediately and exactly.
 
-With imaginary blocks, it serves to try out a program without a real arm. The blocks do not fall, and they exert a
-force only on top: if the force vector of a guarded move responds to upward force, a closed hand stops on top of a
-block, and a block in the hand stops on another block or on the table. A block passes between the fingers of an open
-hand. All other moves pass through blocks.
+With imaginary blocks, this arm lets a user try out a program without a real arm. The blocks do not fall, and they
+exert a force only on top: if the force vector of a guarded move responds to upward force, a closed hand stops on top
+of a block, and a block in the hand stops on another block or on the table. A block passes between the fingers of an
+open hand. All other moves pass through blocks.
 """
 
 import math
@@ -124,8 +124,8 @@ class NoArm(TrigArm, Tabletop):
         self.blocks, self.held = [], None
 
     def _met(self, goal: Place) -> float | None:
-        """Return the height of the hand at the first contact on the way down to a goal (m), or None if there is
-        none.
+        """Return the height of the hand at the first contact on the way down to a goal (m), or None if there is no
+        contact.
         """
         if self.held is not None:
             there, tips = self.held.moved(goal.seen_from(self._at)), self._at.z - self.held.z + HEIGHT

@@ -17,7 +17,9 @@ _MAX_DISTANCE = 100_000  # steps of the cursor
 
 
 def next_step(session: Session, given: Arguments) -> None:
-    """N: move the cursor down by a number of steps. At a loop, the cursor moves on instead of back."""
+    """N: move the cursor down by a number of steps. At a loop, the cursor moves on to the step after the loop, and not
+    back to the loop's target.
+    """
     program = session.program
     for _ in range(_distance(given)):
         branch = session.branch(None)
@@ -29,7 +31,7 @@ def next_step(session: Session, given: Arguments) -> None:
 
 
 def _come_down(session: Session, son: int, branch: int) -> None:
-    """Move the cursor along an edge, and make every father on the way the most recent one."""
+    """Move the cursor along an edge. Make each node on the way the most recent father of the next node."""
     graph, father = session.program.graph, session.program.cursor
     node = graph[father].sons[branch]
     while True:
@@ -52,7 +54,7 @@ def previous_step(session: Session, given: Arguments) -> None:
 
 
 def goto(session: Session, given: Arguments) -> None:
-    """GOTO: make a named step the active one."""
+    """GOTO: make a named step the active step."""
     session.program.put_cursor(session.step(given.step or "").id)
 
 
@@ -108,7 +110,7 @@ def write(session: Session, given: Arguments) -> None:
 
 
 def read(session: Session, given: Arguments) -> None:
-    """R: replace the program by one read from a file."""
+    """R: replace the program by a program from a file."""
     _check_files(session)
     file = trig_file(Path(given.file or ""))
     program = read_program(file)

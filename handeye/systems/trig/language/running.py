@@ -1,10 +1,10 @@
 """Runs the steps of a program, forwards and backwards.
 
-A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the last
-step first, regardless of later edits and of the cursor. A reversal brings the arm back to the start of each move, the
-hand to its earlier state, and positions and counts to their old values. Where the hand closed on an object or let it
-go, the fingers must have the same gap again. An object that was taken up must find support again. An object that a
-guarded step met must still be there.
+A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the last step
+first, regardless of later edits and of the cursor. A reversal brings the arm back to the start of each move, the hand
+to its earlier state, and positions and counts to their old values. Where the hand closed on an object or released it,
+the fingers must have the same gap again. An object that was taken up must find support again. An object that a guarded
+step met must still be there.
 """
 
 import math
@@ -28,8 +28,8 @@ _MIN_MOTION: Final = 1e-6  # m; a shorter step has no direction
 
 
 def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Reverse the last step. The caller removes the step from the trail. Returns the reason if the reversal was
-    stopped, or None.
+    """Reverse the last step. The caller removes the step from the trail. If the reversal was stopped, returns the
+    reason; if not, returns None.
     """
     done = program.trail[-1]
     node = program.graph[done.node]
@@ -69,7 +69,7 @@ def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -
     """Before the arm reverses a guarded step, check that the object that stopped the step is still there,
     unless the step pushed the object away.
 
-    If the arm meets nothing, it returns to the place of contact, so that the user can put the object back.
+    If the arm meets nothing, the arm returns to the place of contact, so that the user can put the object back.
     """
     if done.touched is None or node.vector is None or node.threshold is None:
         return None
@@ -86,7 +86,7 @@ def _touch_again(node: Node, done: RecordedStep, arm: TrigArm, halted: Halted) -
 
 
 def _hand_back(done: RecordedStep, arm: TrigArm) -> HoldOff | None:
-    """Restore the hand. The gap must be the same as when the hand closed on the object or let it go."""
+    """Restore the hand. The gap must be the same as when the hand closed on the object or released the object."""
     before, after = done.gaps
     off = _off_hold(after, arm)
     if off is None:
@@ -102,7 +102,7 @@ def _off_hold(kept: float, arm: TrigArm) -> HoldOff | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunResult:
-    """How a run ended: the number of steps executed, and the reason."""
+    """How a run ended: the number of executed steps, and the reason for the end."""
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]
@@ -129,7 +129,7 @@ class Interpreter:
         return self._from_top(None)
 
     def forward(self, wanted: int) -> RunResult:
-        """Execute a number of steps from the active one on."""
+        """Execute a number of steps, from the active step on."""
         program = self.program
         halted_here = program.paused == program.cursor or self._is_cut(program.active)
         if program.cursor in (TOP, program.first) and not halted_here:
@@ -152,8 +152,9 @@ class Interpreter:
         return RunResult(steps=steps, end="none" if id == NONE else "count")
 
     def carry_out(self, id: int, came: int) -> int | None:
-        """Execute one node, and move the cursor if the node is a visible step. Arguments and result are those
-        of `execute`."""
+        """Execute one node, and move the cursor if the node is a visible step. The arguments and the result are the
+        same as for `execute`.
+        """
         node = self.program.graph[id]
         if came in node.fathers:
             node.last_father = came
@@ -249,7 +250,7 @@ class Interpreter:
     # -- backwards -------------------------------------------------------------------------------------
 
     def back(self, wanted: int) -> RunResult:
-        """Reverse a number of steps, the last step first. The cursor ends on the step before them."""
+        """Reverse a number of steps, the last step first. The cursor ends on the step before the reversed steps."""
         steps, program = 0, self.program
         while steps < wanted:
             if not program.trail:

@@ -44,8 +44,8 @@ class Session:
     # -- finding ---------------------------------------------------------------------------------------
 
     def position(self, name: str | None, *, negate: bool = False) -> Position:
-        """Return a defined position. Raises NoSuchName if it is not defined, and Refused if the opposite of an
-        absolute position is requested.
+        """Return a defined position. Raises NoSuchName if the position is not defined, and Refused if the opposite of
+        an absolute position is requested.
         """
         found = self.program.positions.get(name or "")
         if found is None:
@@ -58,7 +58,7 @@ class Session:
         return found
 
     def step(self, name: str) -> Node:
-        """Return the step called `name`, or the top. Raises NoSuchName."""
+        """Return the step called `name`, or the top if `name` is the top's name. Raises NoSuchName."""
         graph = self.program.graph
         found = graph[TOP] if name == TOP_NAME else graph.named(name)
         if found is None:

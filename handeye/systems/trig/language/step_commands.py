@@ -95,7 +95,7 @@ def save(session: Session, given: Arguments) -> None:
 
 
 def check_no_opposite(session: Session, name: str) -> None:
-    """Raise Refused if a step uses the opposite of the position `name`, which therefore cannot become absolute."""
+    """Raise Refused if a step uses the opposite of the position `name`. Such a position cannot become absolute."""
     if any(node.negate for node in session.program.users(name)):
         raise Refused(f"{name} cannot become absolute, because a step goes to -{name}; D deletes the step")
 
@@ -142,7 +142,7 @@ def link(session: Session, given: Arguments) -> None:
 
 
 def _add(session: Session, node: Node, branch: int) -> None:
-    """Add an executed step below the active one, and make it the active step."""
+    """Add an executed step below the active step, and make the new step the active step."""
     program = session.program
     program.graph.insert(program.cursor, branch, node)
     program.put_cursor(node.id)
@@ -190,7 +190,7 @@ def change_vector(session: Session, given: Arguments) -> None:
 
 
 def delete(session: Session, given: Arguments) -> None:
-    """D: delete one step. If it is guarded, keep only branch n or g."""
+    """D: delete one step. If the step is guarded, keep only branch n or g."""
     program, node = session.program, _named_or_active(session, given)
     keep = _kept_branch(session, given, node)
     above = program.above(node.id)
@@ -239,7 +239,7 @@ def flush(session: Session, given: Arguments) -> None:
 
 
 def ask_if_unsaved(session: Session, deed: str) -> None:
-    """If the program has unsaved changes, ask the user whether to lose them. Raises Cancelled unless the user
+    """If the program has unsaved changes, ask the user whether to lose these changes. Raises Cancelled unless the user
     agrees."""
     if session.program.changed:
         session.confirmed(f"The program has not been written to a file. {deed}? ")
@@ -288,6 +288,6 @@ def _reached_otherwise(program: TrigProgram, node: Node, branch: int, entry: int
 
 
 def _after(program: TrigProgram, above: int) -> None:
-    """Move the cursor to the step above the deleted ones."""
+    """Move the cursor to the step above the deleted steps."""
     program.put_cursor(above if above in program.graph else TOP)
     program.taken, program.changed = None, True

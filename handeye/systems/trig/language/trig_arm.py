@@ -24,15 +24,16 @@ class Resistance(Record, frozen=True, kw_only=True, tag="resisted"):
 
 
 class HoldOff(Record, frozen=True, kw_only=True, tag="hold_off"):
-    """The gap between the fingers (m) differs from the gap during the step, because the hand holds another
-    object, or none."""
+    """The gap between the fingers (m) differs from the gap during the step, because the hand holds another object or
+    no object.
+    """
 
     gap: float
     kept: float
 
 
 class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
-    """An axis lags behind its goal (by m or rad). Axes are numbered from 0, as in AXES."""
+    """An axis lags behind its goal. The lag is in m or rad. Axes are numbered from 0, as in AXES."""
 
     axis: int
     off: float
@@ -93,7 +94,7 @@ class TrigArm(ABC):
 
     @abstractmethod
     def here(self) -> Place:
-        """Return the commanded place. The true place differs from it by the sag of the servos."""
+        """Return the commanded place. The true place differs from the commanded place by the sag of the servos."""
 
     @property
     @abstractmethod
@@ -126,8 +127,9 @@ class TrigArm(ABC):
 
     @abstractmethod
     def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to where the held object was taken up, and set it down. Arguments and result are those of
-        `back`."""
+        """Return to the place where the held object was taken up, and set the object down. The arguments and the
+        result are the same as for `back`.
+        """
 
     @abstractmethod
     def hand(self, closed: bool) -> None:

@@ -1,4 +1,4 @@
-"""Executes a taught job, reverses it, and lets the referee judge both."""
+"""Executes a taught job, reverses it, and lets the referee judge the work and the reversal."""
 
 from collections.abc import Callable, Mapping
 from typing import Final, Literal
@@ -62,7 +62,7 @@ def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpo
 
 
 def program_plan(task: str, name: str, text: str, variant: str = "") -> TaughtPlan:
-    """Return the plan with which a user's script does a job, which has no variants."""
+    """Return the plan with which a user's script does a job. TRIG's jobs have no variants."""
     return TaughtPlan(job=next(job for job in JOBS if job == task), script=text)
 
 
@@ -78,12 +78,11 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Execute a job from its present state to the end of its program, or for `after` steps. Then reverse it, if
-    that is possible.
+    """Execute a job from its present state to the end of its program, or for `after` steps. Then reverse the job, if
+    it can be reversed.
 
-    `go` executes a number of steps, or all steps if the number is None; by default it does so without an
-    operator. `tell` is called with a sentence on how the program ended, and with one on how
-    its reversal ended.
+    `go` executes a number of steps, or all steps if the number is None. The default `go` works without an operator.
+    `tell` is called twice: with a sentence on how the program ended, and with a sentence on how the reversal ended.
     """
     go = go or (lambda steps: advance(runner, steps=steps))
     if job_of(runner).state.turn is None:
@@ -104,15 +103,15 @@ def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
 
 
 def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
-    """Return True if the run has arrived where its reversal begins."""
+    """Return True if the run has reached the point at which the reversal is due, and if the job can be reversed."""
     there = pause.kind == "end" or (after is not None and pause.kind == "break")
     system = job_of(runner)
     return there and system.job.undoable and not runner.undone and len(system.executed) > 0
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
-    """Return True if a run is a job that has ended and, if its program was completed, has been judged. A run whose
-    reversal a user ordered does not count.
+    """Return True if a run is a job that has ended and, if its program was completed, has been judged. A run that was
+    reversed because a user ordered the reversal does not count.
     """
     system = runner.system
     if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):

@@ -90,7 +90,9 @@ def _blocks(done: JobReport) -> Iterator[Markup]:
 
 
 def _placed(done: JobReport) -> list[Point]:
-    """Return the placement errors of the blocks (mm). Empty unless the referee judged the placed blocks."""
+    """Return the placement errors of the blocks (mm). The list is empty if the referee did not judge the placed
+    blocks.
+    """
     return _off(done.lying.get("run", ()), done.goals) if "placed" in done.checks else []
 
 

@@ -126,7 +126,7 @@ def steps_of(program: TrigProgram) -> tuple[TaughtStep, ...]:
 
 
 def told_difference(planned: Sequence[TaughtStep], taught: Sequence[TaughtStep]) -> str:
-    """Say where the steps that a script has taught in a world differ from the planned ones."""
+    """Say where the steps that a script has taught in a world differ from the planned steps."""
     first = next(one or other for one, other in zip_longest(planned, taught) if one != other)
     assert first is not None
     return (
@@ -158,7 +158,7 @@ def _text(program: TrigProgram, node: Node, number: int) -> str:
 
 
 def text_now(step: TaughtStep, node: Node) -> str:
-    """Return the present text of a step. For a loop, it includes the number of the present round."""
+    """Return the present text of a step. The text of a loop includes the number of the present round."""
     if node.type != "loop":
         return step.text
     back = f"goes back ({node.count + 1} of {node.wanted})" if node.count < node.wanted else "goes on"

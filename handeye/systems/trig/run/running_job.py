@@ -1,5 +1,6 @@
-"""A TRIG job during a run. It is taught in the world of the run, and executed and undone step by step on a
-bench."""
+"""A TRIG job during a run. The job is taught in the world of the run, and executed and undone step by step on a
+bench.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -170,7 +171,9 @@ class RunningJob(RunningSystem):
             state.stage = None
 
     def _carried_out(self, step: TaughtStep) -> str | None:
-        """Execute a step and the hidden nodes after it. Returns the reason if the arm refuses, or None."""
+        """Execute a step and the hidden nodes after it. If the arm refuses, returns the reason; if not, returns
+        None.
+        """
         try:
             next = self.job.session.runner.carry_out(step.node, self._state.came)
         except Refused as error:  # the arm cannot reach the goal of the step
@@ -209,7 +212,7 @@ class RunningJob(RunningSystem):
             self._call(refused, number)
 
     def _undone(self, job: TaughtJob) -> str | None:
-        """Reverse the last step. Returns the reason if the arm stopped, or None."""
+        """Reverse the last step. If the arm stopped before the end, returns the reason; if not, returns None."""
         try:
             ran = job.session.runner.back(1)
         except Refused as error:  # the arm cannot go back to its earlier place

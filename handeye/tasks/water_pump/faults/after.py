@@ -1,8 +1,8 @@
-"""Faults after a run: changes that a person makes to a finished pump before the arm undoes its work. The arm
-does not know of them.
+"""Faults after a run: changes that a person makes to a finished pump before the arm undoes its work. The arm does not
+know of these changes.
 
 The person's hand is not simulated. A part that is removed is put on the tray below the floor, where nothing
-touches it. A part that is moved is placed elsewhere, at rest. Parts that are glued are welded. A screw is
+touches it. A part that is moved is placed elsewhere, at rest. Glue is modelled as a weld. A screw is
 tightened by a torque.
 """
 
@@ -110,8 +110,9 @@ _OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
 
 
 def disturbances() -> tuple[Disturbance, ...]:
-    """Return the changes that can be made to a whole pump, followed by those to a pump whose top has just been
-    put on."""
+    """Return the changes that can be made to a whole pump, and after them the changes that can be made to a pump whose
+    top has just been put on.
+    """
     return tuple(
         Disturbance(name=name, meaning=meaning, make=make, after=after)
         for after, those in ((None, _OF_A_PUMP), (TOP_ON_STAGE, _OF_A_STACK))

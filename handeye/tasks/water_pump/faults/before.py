@@ -280,8 +280,8 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
 
 
 def bad_threads(faults: Sequence[Fault], how: Literal["scarred", "crosses"]) -> frozenset[int]:
-    """Return the indices of the tapped holes whose threads are bad: with `scarred`, those that an earlier screw
-    has cross-threaded; with `crosses`, those in which every screw cross-threads.
+    """Return the indices of the tapped holes whose threads are bad. `scarred` selects the holes that an earlier screw
+    has cross-threaded; `crosses` selects the holes in which every screw cross-threads.
     """
     return _numbered(faults, "thread", how)
 

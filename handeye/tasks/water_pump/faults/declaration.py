@@ -25,8 +25,9 @@ def declared(
     *,
     stage: int | None = None,
 ) -> PumpFault[B]:
-    """Declare a fault that begins during a run. By default it begins with `stage`, or at the start of the run
-    if `stage` is None."""
+    """Declare a fault that begins during a run. By default, the fault begins with `stage`, or at the start of the run
+    if `stage` is None.
+    """
     return PumpFault(
         name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
     )

@@ -25,8 +25,8 @@ _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 
 
 def _loose(screw: int, turns: float | None, scene: Scene, _: MishapState) -> bool:
-    """As soon as a screw is in its thread and the bit has left it, loosen the screw by `turns`, or take it away if
-    `turns` is None.
+    """As soon as a screw is in its thread and the bit has left the screw, loosen the screw by `turns`. If `turns` is
+    None, take the screw away.
     """
     assert scene.threads is not None
     if not scene.threads.loosen(screw, turns):

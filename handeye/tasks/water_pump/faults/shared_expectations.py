@@ -176,7 +176,7 @@ def screw_of(hole: int) -> int:
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
     """Return `expected` if the program uses the screw or hole with this number. The later make of the pump has a
-    seventh screw and hole, which the program does not use: for number 7, the expectation is unknown, and only the
-    referee reports the faults.
+    seventh screw and hole, which the program does not use. For number 7, the expectation is therefore unknown: only
+    the referee reports the faults.
     """
     return expected if number <= len(SCREWED) else UNKNOWN

@@ -44,7 +44,7 @@ class PumpClaims:
         self.places = PumpPlaces(screws)
 
     def head(self, hole: int) -> Claim:
-        """Return the claim that a head is at its height over the face of the base."""
+        """Return the claim that a head is at its nominal height above the face of the base."""
         places = self.places
         top = base_top() + places.head_height
         where = places.over_hole(hole, 0.35 * INCH, top - 0.02 * INCH, top + 0.8 * INCH)
@@ -117,7 +117,7 @@ class PumpClaims:
         )
 
     def size(self, hole: int) -> Claim:
-        """Return the claim that a screw stood at the right height over its thread before it was driven."""
+        """Return the claim that a screw stood at the right height above its thread before it was driven."""
         places, d = self.places, dimensions()
         row = d("dispenser.pitch") * places.screws
         dispenser = Region(at=point("dispenser.place"), radius=row, height=Limits(2 * INCH, 9 * INCH))
@@ -174,7 +174,7 @@ class PumpClaims:
         )
 
     def face(self, corner: int) -> Claim:
-        """Return the claim that, at one of four holes, the face of the base is at its height over the table."""
+        """Return the claim that the face of the base, at one of four holes, has its nominal height above the table."""
         places = self.places
         limits = Limits(base_top() - 0.04 * INCH, base_top() + 0.04 * INCH)
         over = HeightWithin(of=self.corner(corner), over=places.table, limits=limits)
@@ -255,7 +255,7 @@ class PumpClaims:
         )
 
     def pin(self, number: int) -> Claim:
-        """Return the claim that the end of a pin in its holder is at its height over the table."""
+        """Return the claim that the end of a pin in its holder is at its nominal height above the table."""
         d = dimensions()
         x0, y0, x1, y1 = d.all("pin_holder.places")
         at = ((x0, y0), (x1, y1))[number]
@@ -272,7 +272,7 @@ class PumpClaims:
         )
 
     def rack(self) -> Claim:
-        """Return the claim that the end of the screwdriver in its rack is at its height over the table."""
+        """Return the claim that the end of the screwdriver in its rack is at its nominal height above the table."""
         at = point("rack.place")
         end = Region(at=at, radius=0.4 * INCH, height=Limits(8.1 * INCH, 9.2 * INCH))
         held = Region(at=at, radius=0.6 * INCH, height=Limits(5.5 * INCH, 8.05 * INCH))
@@ -304,7 +304,7 @@ class PumpClaims:
         return tuple(found)
 
     def bearing(self) -> Claim:
-        """Return the claim that the end of the crank pin is at its height over the face of the base."""
+        """Return the claim that the end of the crank pin is at its nominal height above the face of the base."""
         radius = dimensions()("rotor.crank_radius")
         circle = Region(
             at=self.places.on_pump(0.0, 0.0),

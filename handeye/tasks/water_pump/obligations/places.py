@@ -1,7 +1,7 @@
 """Regions of the pump's cell in which a touch means something, and the limits of what is felt there.
 
-The places follow from the drawing of the cell, and the limits from docs/care.md: each limit is a little wider than
-what the careful program asks for, and no wider than the argument for it on that page allows.
+The places follow from the drawing of the cell, and the limits from docs/care.md: each limit is a little wider than the
+limit in the careful program, and no wider than that page justifies.
 """
 
 from dataclasses import dataclass
@@ -44,12 +44,12 @@ class PumpPlaces:
 
     @cached_property
     def head_height(self) -> float:
-        """Height of a head over the face of the base, with six screws that press the layers together (m)."""
+        """Height (m) of a head above the face of the base when six screws press the layers together."""
         d = dimensions()
         return d("gasket.thickness") + d("top.flange") + d("screw.head_height") - PRESSED
 
     def over_hole(self, hole: int, radius: float, low: float, high: float) -> Region:
-        """Return the region over a screw hole, from `low` to `high` over the table (m)."""
+        """Return the region above a screw hole, from `low` to `high` above the table (m)."""
         return Region(at=self.on_pump(*self.holes[hole]), radius=radius, height=Limits(low, high))
 
     def socket(self, hole: int) -> Region:
@@ -57,7 +57,7 @@ class PumpPlaces:
 
     @cached_property
     def pump(self) -> Region:
-        """The pump, and what is over it."""
+        """The pump, and the space above it."""
         return Region(at=self.on_pump(1.0 * INCH, 0.0), radius=4.0 * INCH, height=Limits(0.0, 12 * INCH))
 
     @cached_property
@@ -78,7 +78,7 @@ class PumpPlaces:
 
     @cached_property
     def laid(self) -> Region:
-        """Where the fingers let go of the gasket on the base, and take it up again."""
+        """The region in which the fingers release the gasket onto the base, and take it up again."""
         web = self.on_pump(web_centre(), 0.0)
         return Region(at=web, radius=0.5 * INCH, height=Limits(1.0 * INCH, 3.8 * INCH))
 

@@ -223,8 +223,8 @@ def _greatest(
 
 
 def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
-    """Judge the distance of the hand from the nearest of some parts, including shapes fixed to them. Distances
-    are measured up to twice the limit.
+    """Judge the distance of the hand from the nearest of some parts. Shapes that are fixed to a part belong to that
+    part. Distances are measured up to twice the limit.
     """
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0

@@ -1,4 +1,4 @@
-"""Finds devices of a cell that still have a command, which would later move parts that lie correctly now."""
+"""Finds devices of a cell that still have a command. Such a command would later move parts that lie correctly now."""
 
 from typing import Final
 
@@ -20,8 +20,8 @@ def commanded(truth: Truth) -> list[str]:
 
 
 def _arm_driven(truth: Truth) -> bool:
-    """Return True if the arm has a torque command although its brakes are set, or if its torque command does not
-    hold it still.
+    """Return True if the arm has a torque command although its brakes are set, or if the torque command does not hold
+    the arm still.
 
     The check allows for a drive that is too weak by some factor, and for friction that carries a part of the load.
     """

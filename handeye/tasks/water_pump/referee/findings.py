@@ -126,7 +126,7 @@ def _screws(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
 
 
 def _pressing(settled: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    """Judge the forces and torques of the screws, which can only be measured after the cell has settled."""
+    """Judge the forces and torques of the screws. They can be measured only after the cell has settled."""
     filled = [k for k, thread in enumerate(holes) if thread.screw is not None]
     forces = [measure.head_force(settled, k) for k in filled]
     turned = [holes[k].clamp for k in filled]
@@ -191,8 +191,9 @@ def _turning(settled: SettledState) -> Finding:
 
 
 def judge_apart(truth: Truth) -> Findings:
-    """Measure the parts of a pump that was taken apart, as they were left and after they have settled. The
-    worse finding counts."""
+    """Measure the parts of a pump that was taken apart: first as the arm left them, and again after they have settled.
+    The worse finding counts.
+    """
     holes = holes_of(truth)
     filled = sum(thread.screw is not None for thread in holes)
     left, settled = _as_left_and_settled(truth)

@@ -51,8 +51,9 @@ def head_gap(measured: SettledState, hole: int) -> float:
 
 
 def misfit(measured: SettledState, layer: str, hole: int) -> float:
-    """Return the distance between the axes of a screw and of its hole in gasket or top (m), at the end of the
-    hole where it is greater."""
+    """Return the distance between the axes of a screw and of its hole in gasket or top (m), at the end of the hole
+    where this distance is greater.
+    """
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"{layer}_hole{hole}").xpos
     down = -thickness(layer) * measured.pose(layer)[:3, 2]
     ends = np.array([mouth, mouth + down]) - axis.xpos
@@ -66,8 +67,9 @@ def clearance(measured: SettledState, layer: str, hole: int) -> float:
 
 
 def corner_height(measured: SettledState, layer: str, holes: int) -> float:
-    """Return the deviation of a layer's upper face from its nominal height above the base (m), at the screw
-    hole where it is greatest."""
+    """Return the deviation of a layer's upper face from its nominal height above the base (m), at the screw hole where
+    this deviation is greatest.
+    """
     X_BW = inverse(measured.pose("base"))
     corners = np.array([measured.data.site(f"{layer}_hole{k}").xpos for k in range(holes)])
     heights = corners @ X_BW[2, :3] + X_BW[2, 3]

@@ -20,7 +20,7 @@ _WEDGES = 24  # number of wedges around a large hole; each covers 15 degrees
 
 
 def add_base(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the base as a free body on the belt. Its threads are bodies inside it."""
+    """Add the base as a free body on the belt. The threads are bodies inside the body of the base."""
     d = dimensions()
     body = shaper.spec.worldbody.add_body(
         name="base",
@@ -88,8 +88,9 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
 
 
 def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[np.str_]:
-    """Return the colour names of the base's surface: the face is machined, holes are dark inside because they
-    are as cast and oily, and the rest is cast."""
+    """Return the colour names of the base's surface: the face is machined, the insides of holes are dark because they
+    are oily and not machined, and the rest is cast.
+    """
     d = dimensions()
     x2 = d("base.large_hole_2.x")
     rims = [(0.0, 0.0, d("base.large_hole_1.diameter") / 2), (x2, 0.0, d("base.large_hole_2.diameter") / 2)]
@@ -105,10 +106,10 @@ def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[n
 def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number: int, at: Point) -> None:
     """Add the bore and the thread.
 
-    The thread is a carrier body, whose frame is that of the screw in it, with the origin at the screw's point. The
-    pitch couples the carrier's slide to its turn. Head and shank touch nothing until the cell engages a screw.
-    They are nevertheless compiled with the widest contact bits, because contact bits can be narrowed at run time
-    but not widened.
+    The thread is a carrier body. Its frame is the frame of the screw in the thread, with the origin at the screw's
+    point. The pitch couples the carrier's slide to its turn. Head and shank touch nothing until the cell engages a
+    screw. Nevertheless, head and shank are compiled with the widest contact bits, because contact bits can be narrowed
+    at run time but not widened.
     """
     top, depth, (x, y) = base_top(), d("base.screw_holes.depth"), at
     tap = Bore(

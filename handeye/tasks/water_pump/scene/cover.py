@@ -92,8 +92,9 @@ def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
 
 
 def add_merging(spec: mujoco.MjSpec) -> None:
-    """Add welds, open at first, which the cell closes to save computing time when screws clamp the parts
-    together."""
+    """Add welds that are open at first. To save computing time, the cell closes the welds when screws clamp the parts
+    together.
+    """
     for part in ("top", "gasket"):
         weld = spec.add_equality(
             name=f"merge_{part}", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,

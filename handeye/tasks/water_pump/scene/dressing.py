@@ -1,6 +1,6 @@
 """Adds furniture and details that only photographs show: tape reels, teletype, clock, boom cables and bevels.
 
-They touch nothing, have no mass, and are in a geom group that the television camera does not see.
+These objects touch nothing, have no mass, and are in a geom group that the television camera does not see.
 """
 
 import math
@@ -49,7 +49,7 @@ light look speckled.
 
 
 def add_reels(shaper: Shaper) -> None:
-    """Add the fronts of two tape drives. Each has two reels, one of them nearly full, and heads below the reels."""
+    """Add the fronts of two tape drives. Each drive has two reels, and below them heads. One reel is nearly full."""
     body = shaper.spec.worldbody
     for drive in (0, 1):
         (left, front, _), (right, _, top) = cabinet(drive)
@@ -130,7 +130,7 @@ _HANDS: Final = {
 
 
 def add_clock(shaper: Shaper) -> None:
-    """Add the clock. Each of its hands is a body, so that it can turn."""
+    """Add the clock. Each hand of the clock is a body of its own, so that the hand can turn."""
     wall = shaper.spec.worldbody
     for name, radius, back, front, material in (
         ("clock_case", 0.165, -0.03, 0.008, "black"),
@@ -159,8 +159,9 @@ _BACK, _FRONT = -1.36, -0.10  # where the cables begin and end along the boom, m
 
 
 def add_boom_cables(shaper: Shaper) -> None:
-    """Add three cables in clips along the boom, and the loop in which they lead from the end of the boom to the
-    motor behind it."""
+    """Add three cables in clips along the boom, and the loop of the cables from the end of the boom to the motor
+    behind it.
+    """
     boom = shaper.spec.body(f"{ARM}link3")
     for number, y in enumerate((_MIDDLE - 0.006, _MIDDLE, _MIDDLE + 0.006)):
         start, end = (_SIDE, y, _BACK), (_SIDE, y, _FRONT)

@@ -35,8 +35,9 @@ class Fixture:
         turn: float = 0.0,
         error: Placing = EXACT,
     ) -> mujoco.MjsBody:
-        """Add a free body that starts on this fixture. Its pose is the nominal position (m) and the yaw `turn`
-        (rad), plus an error."""
+        """Add a free body that starts on this fixture. The body's pose is the nominal position (m) and the yaw `turn`
+        (rad), plus an error.
+        """
         X = self.X_WF @ error.about(x, y, z) @ planar(x, y, z, turn)
         body = _body(shaper, name, X)
         body.add_freejoint(name=name)
@@ -50,7 +51,7 @@ def _body(shaper: Shaper, name: str, X_WB: Pose) -> mujoco.MjsBody:
 
 
 def add_fixture(shaper: Shaper, world: PumpWorld, station: str, middle: Point) -> Fixture:
-    """Add a fixture without shapes. `middle` is the point (m) about which its error turns it."""
+    """Add a fixture without shapes. `middle` is the point (m) about which the placement error turns the fixture."""
     X = world.fixtures[station].about(*middle)
     return Fixture(body=_body(shaper, station, X), X_WF=X)
 

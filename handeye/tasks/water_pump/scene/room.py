@@ -113,7 +113,9 @@ def _add_computer(shaper: Shaper) -> None:
 
 
 def _add_tripod(shaper: Shaper) -> None:
-    """Add the television camera's body, behind its mount, so that it never appears in its own picture."""
+    """Add the body of the television camera. The body is behind the camera's mount, so that it never appears in the
+    camera's own picture.
+    """
     d = dimensions()
     body, floor = shaper.spec.worldbody, -d("table.height")
     x, y, z = d.all("camera.mount")
@@ -132,8 +134,8 @@ def _add_tripod(shaper: Shaper) -> None:
 
 
 def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
-    """Add one lamp that casts shadows, at the same distance from the work as in the vision study, and the
-    ambient light of the room.
+    """Add the ambient light of the room, and one lamp that casts shadows. The lamp is at the same distance from the
+    work as in the vision study.
     """
     d, light = dimensions(), world.light
     target, distance = np.array(d.all("camera.light_target")), d("camera.light_distance")
@@ -148,8 +150,8 @@ def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
 
 
 def _add_cameras(spec: mujoco.MjSpec) -> None:
-    """Add the television camera `tv`, which looks at the standard position until the cell turns it, and the
-    cameras for photographs.
+    """Add the cameras for photographs, and the television camera `tv`. The television camera looks at the standard
+    position until the cell turns it.
     """
     d = dimensions()
     focal = d.all("camera.focal_length")[0]

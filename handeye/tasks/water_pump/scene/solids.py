@@ -1,5 +1,5 @@
-"""Makes exact solids of the pump's parts, with manifold3d and from their dimensions, for display and for
-clearances.
+"""Makes exact solids of the pump's parts from the parts' dimensions, with manifold3d. The solids serve to display the
+parts and to compute clearances.
 
 Making a solid takes longer than compiling the whole scene. Surfaces that are the same in all worlds are
 therefore kept for the next world.
@@ -29,8 +29,9 @@ def disc(radius: float, x: float = 0.0, y: float = 0.0, segments: int = _ROUND) 
 
 
 def rectangle(x0: float, y0: float, x1: float, y1: float, corner: float = 0.0) -> CrossSection:
-    """Return a rectangular cross-section between opposite corners (x0, y0) and (x1, y1), whose corners are
-    rounded to radius `corner` (m)."""
+    """Return a rectangular cross-section between the opposite corners (x0, y0) and (x1, y1). All four corners are
+    rounded to the radius `corner` (m).
+    """
     if corner == 0.0:
         return CrossSection.square((x1 - x0, y1 - y0)).translate((x0, y0))
     centres = [(x, y) for x in (x0 + corner, x1 - corner) for y in (y0 + corner, y1 - corner)]
@@ -48,8 +49,9 @@ def extruded(section: CrossSection, z0: float, z1: float) -> Manifold:
 
 
 def prism(profile: Sequence[Point], y0: float, y1: float) -> Manifold:
-    """Return the solid that a profile in the xz plane forms between `y0` and `y1` (m). The profile is a list of
-    (x, z) corners in order (m)."""
+    """Return the solid that a profile in the xz plane forms between `y0` and `y1` (m). The profile is a list of its
+    corners (x, z) in order, in m.
+    """
     upright = Manifold.extrude(CrossSection([list(profile)]), y1 - y0).rotate((90.0, 0.0, 0.0))
     return upright.translate((0.0, y1, 0.0))
 
@@ -84,7 +86,7 @@ def outline() -> CrossSection:
 
 @cache
 def casting(screws: int) -> Surface:
-    """Return the surface of the base's casting, which is above its plate and has `screws` tapped holes."""
+    """Return the surface of the base's casting. The casting is above the base's plate and has `screws` tapped holes."""
     d = dimensions()
     top, floor = base_top(), d("base.plate.thickness")
     solid = extruded(outline().offset(-0.0012), floor, top) + extruded(outline(), floor, top - 0.0016)
@@ -109,8 +111,8 @@ def plate() -> Surface:
 
 @cache
 def gasket(screws: int, torn: float = 0.0) -> Surface:
-    """Return the surface of the gasket. Its large holes are slightly wider than those of the base, and have
-    flats that the fingers grip. A square with the side `torn` (m) is missing around screw hole 6.
+    """Return the surface of the gasket. The gasket's large holes have flats that the fingers grip, and are slightly
+    wider than the large holes of the base. A square with the side `torn` (m) is missing around screw hole 6.
     """
     d = dimensions()
     over, half = d("gasket.hole_oversize") / 2, d("gasket.web") / 2
@@ -153,8 +155,8 @@ def drilled(
 
 
 def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold:
-    """Return the solid that a profile forms when it is revolved about z. The profile is a list of (radius, z)
-    corners in order (m).
+    """Return the solid that a profile forms when it is revolved about z. The profile is a list of its corners (radius,
+    z) in order, in m.
     """
     return Manifold.revolve(CrossSection([profile]), segments)
 

@@ -22,7 +22,7 @@ Grain = Callable[[np.random.Generator], Array]
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
-    """Give the materials their grain. Each grain is computed with its own random generator, so it is always the
+    """Give the materials their grain. Each grain is computed with its own random generator, so the grain is always the
     same.
     """
     for name, pixels in _pixels().items():

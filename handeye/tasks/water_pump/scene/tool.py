@@ -88,9 +88,9 @@ def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
 def _add_drives(spec: mujoco.MjSpec) -> None:
     """Add the spindle motor, the thread drive and the magnet.
 
-    The motor `drive` turns a thread's carrier, and its reaction torque acts on the driver. With a joint
-    equality instead, the torques would cancel inside the driver, and the arm would feel nothing. The cell
-    connects `drive` to the carrier of the engaged screw and sets its gains.
+    The motor `drive` turns a thread's carrier, and its reaction torque acts on the driver. If a joint equality turned
+    the carrier instead, the torques would cancel inside the driver, and the arm would feel nothing. The cell connects
+    `drive` to the carrier of the engaged screw and sets its gains.
     """
     d = dimensions()
     spin = spec.add_actuator(name="spindle", trntype=mujoco.mjtTrn.mjTRN_JOINT, target="spindle")

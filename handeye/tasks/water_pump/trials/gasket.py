@@ -118,7 +118,7 @@ def _shifted(X_WP: Pose, rng: np.random.Generator) -> Pose:
 
 
 def _doubled(X_WP: Pose, rng: np.random.Generator) -> Pose:
-    """Return the pose of the upper of two gaskets. The lower one is hidden beneath it."""
+    """Return the pose of the upper of two gaskets. The lower gasket is hidden beneath the upper one."""
     return translated(_right(X_WP, rng), (0.0, 0.0, dimensions()("gasket.thickness")))
 
 

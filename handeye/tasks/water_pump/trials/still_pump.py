@@ -86,8 +86,9 @@ def pump_base(at: Place | None = None) -> Part:
 
 
 def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
-    """Put the base at a place. If `pins`, put the aligning pins into the base; if not, leave them where they
-    are."""
+    """Put the base at a place. If `pins` is True, put the aligning pins into the base; if not, leave the pins where
+    they are.
+    """
     X_WP = planar(*place)
     still.put("base", X_WP)
     d = dimensions()
@@ -173,8 +174,8 @@ def by_sightings(still: StillPump, about: tuple[float, float, float]) -> Calibra
     """Calibrate with simulated sightings of a lamp at random points near the point `about` (m), without
     rendering.
 
-    This is fast but too accurate, because it does not simulate the errors of the joints, of the lamp's position
-    and of the raster.
+    This calibration is fast but too accurate, because it does not simulate the errors of the joints, of the lamp's
+    position and of the raster.
     """
     rng = still.world.generator("trial.calibration")
     sightings = []

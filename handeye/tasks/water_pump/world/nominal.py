@@ -32,9 +32,9 @@ def _looks(
     """Yield views of some places of a grid about (x, y). In each view, the lamp is shown left and right, high
     and low. All lengths are in inches.
 
-    The camera is aimed again for each view, because each reading of its pan and tilt has a different error. Two
-    lamp places in one view determine the roll of the camera. The lamp is shown at different heights, because
-    lamp places of one height could not distinguish height from depth.
+    The camera is aimed again for each view, because each reading of its pan and tilt has a different error. Two lamp
+    places in one view determine the roll of the camera. The lamp is shown at different heights, because views of a
+    lamp at only one height could not distinguish height from depth.
     """
     for k in chosen:
         cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)

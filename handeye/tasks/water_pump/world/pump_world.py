@@ -1,4 +1,4 @@
-"""The values of one world of the pump, sorted by device and part. The simulated cell is built from them."""
+"""The values of one world of the pump, sorted by device and part. The simulated cell is built from these values."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Self
@@ -44,8 +44,8 @@ class Placing:
     roll: float = 0.0
 
     def about(self, x: float, y: float, z: float = 0.0) -> Pose:
-        """Return this error as a pose that moves everything fixed to the part: it displaces the part, and turns it
-        about the point (x, y, z) (m).
+        """Return this error as a pose that moves everything fixed to the part: the error displaces the part, and turns
+        the part about the point (x, y, z) (m).
         """
         R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
         p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])
@@ -138,7 +138,7 @@ def _parts(world: World) -> dict[str, Placing]:
 
 
 def _in_play(world: World, name: str, play: float) -> Placing:
-    """Return the placement error called `name`, whose x and y are given as fractions of a play (m)."""
+    """Return the placement error called `name`. The world gives x and y of this error as fractions of a play (m)."""
     share = _placing(world, name)
     return replace(share, x=share.x * play, y=share.y * play)
 

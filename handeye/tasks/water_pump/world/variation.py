@@ -64,7 +64,7 @@ def _make() -> Iterator[Quantity]:
 
 
 def _of(number: int, quantities: Iterator[Quantity]) -> Iterator[Quantity]:
-    """Yield quantities of the screw or hole with this number. A pump with fewer screws does not have them."""
+    """Yield quantities of the screw or hole with this number. A pump with fewer screws lacks these quantities."""
     where = (SCREWS, float(number)) if number > USUAL else None
     return (replace(quantity, where=where) for quantity in quantities)
 
