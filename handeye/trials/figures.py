@@ -131,8 +131,8 @@ class Figures(Record, frozen=True, kw_only=True):
 
     @property
     def exit_code(self) -> int:
-        """Exit code of the command: 3 if the program reported a failure as a success in any trial, 1 if no trial
-        finished, and 0 in all other cases.
+        """Exit code of the command: 3 if the program reported a failure as a success in any trial, 1 if every trial
+        failed, and 0 in all other cases.
         """
         return 3 if self.silent_failures else int(0 < self.failed == self.n)
 
