@@ -371,7 +371,7 @@ class ServoLoop(Servo):
             sensors.begin_anew(sensed.q, sensed.qd)
             found = leapt or rested
         else:
-            found = leapt or rested or sensors.step(sensed.q, sensed.qd)
+            found = leapt or rested or sensors.step(sensed.q, sensed.qd, self._unseen)
         if found is None:
             return None
         self.state.q = self.state.here.copy()
