@@ -179,8 +179,8 @@ class JointAgreement:
         """Compare the readings of the next servo period. Returns the joint whose sensors disagree most, or None if
         all agree.
 
-        `unseen`, shape (n,), is how far the joints have moved in this period beyond their rates, if a blow explains
-        it: see `jumped`.
+        `unseen`, shape (n,), is how far the joints have moved in this period beyond their rates, if an object
+        that shifted in the fingers may have thrown them: see `thrown`.
 
         While the rate changes evenly, the mean of two successive rates is the mean rate in between. While the rate
         changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
@@ -216,14 +216,19 @@ def _tolerances(arm: ArmModel) -> list[tuple[float, float, float]]:
 
 
 def jumped(
-    arm: ArmModel, by_pot: Array, before: Array, after: Array, blow: Array | None = None, throw: Array | float = 0.0
+    arm: ArmModel,
+    by_pot: Array,
+    before: Array,
+    after: Array,
+    blow: Array | None = None,
+    throw: Array | float = 0.0,
 ) -> Disagreement | None:
     """Find the joint whose potentiometer disagrees with its rates before and after a servo period. Returns None if
     all agree.
 
     A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on
-    the hand may have caused within the period, see `blown`, and `throw` is how far a part that shifted in the fingers
-    may have moved the joints, see `thrown`. All arrays have shape (n,).
+    the hand may have caused within the period, see `blown`, and `throw` is how far an object that shifted in the
+    fingers may have moved the joints, see `thrown`. All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half
@@ -257,8 +262,8 @@ def blown(here: Dynamics, impulse: Array) -> Array:
 def thrown(M: Array, work: float, period: float) -> Array:
     """Return how far each joint, shape (n,), can move within a servo period (s) if `work` (J) is done on the hand.
 
-    A part that shifts in the fingers lets them close, and the work of the fingers throws the hand. The part may stop
-    the hand again within the period, so neither rate nor momentum shows the throw afterwards. At most, all work turns
-    into motion of one joint at the beginning of the period. `M` is the mass matrix, shape (n, n).
+    An object that shifts in the fingers lets them close, and the work of the fingers throws the hand. The object may
+    stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. At most, all work
+    becomes motion of one joint, at the beginning of the period. `M` is the mass matrix, shape (n, n).
     """
     return np.asarray(period * np.sqrt(2 * work * np.linalg.inv(M).diagonal()))

@@ -69,7 +69,9 @@ class Servo:
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
-    """How far the joints have moved in the last servo period beyond their rates (rad, m), if a blow explains it."""
+    """Motion (rad, m) of the joints in the last servo period that their rates do not show, if an object has shifted in
+    the fingers and may have thrown the hand.
+    """
 
     @property
     def period(self) -> float:
@@ -240,9 +242,10 @@ class Servo:
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
         """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
         is None. A blow on the hand also changes readings suddenly; it is recognised by the other joints, and does
-        not count. Nor does the blow of a part that shifts in the fingers; it is recognised by the gap, which closes.
+        not count. Nor does the blow of an object that shifts in the fingers; it is recognised by the gap, which closes.
         """
-        self._unseen, moved = None, after.q - before.q
+        moved, work = after.q - before.q, self._work(before, after)
+        self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None
         found = jumped(self.arm, moved, before.qd, after.qd)
         if found is None or tau is None:
             return found
@@ -250,12 +253,12 @@ class Servo:
         driven = (tau - here.bias - here.J[2] * self.state.load) * self.period
         rest, rub = here.M @ (after.qd - before.qd) - driven, self.state.friction * self.period
         blow = blown(here, rest - rest.clip(-rub, rub))
-        work = work_of_fingers(after.gap - before.gap, self.state.grip) if self._holds(before, after) else 0.0
-        throw = thrown(here.M, work, self.period)
-        found = jumped(self.arm, moved, before.qd, after.qd, blow, throw)
-        if found is None:
-            self._unseen = moved - (before.qd + after.qd) * (self.period / 2)
-        return found
+        return jumped(self.arm, moved, before.qd, after.qd, blow, thrown(here.M, work, self.period))
+
+    def _work(self, before: Sensed, after: Sensed) -> float:
+        """Return the work (J) that the fingers have done in a servo period on an object between them."""
+        work = work_of_fingers(after.gap - before.gap, self.state.grip)
+        return work if work and self._holds(before, after) else 0.0
 
     def _holds(self, before: Sensed, after: Sensed) -> bool:
         """Return True if the fingers have held or touched an object in a servo period between two readings."""

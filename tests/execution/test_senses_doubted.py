@@ -308,15 +308,17 @@ def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:
 
 
 def shifting(turn: float, closing: float) -> FakeRun:
-    """The hand lifts an object an inch thick. After .3 s the roll reads so much more (rad), and the gap so much
-    less (m), from one servo period to the next.
+    """The hand lifts an object an inch thick. After .3 s the roll reads so much more (rad), and the gap so much less
+    (m), from one servo period to the next.
     """
     run = fake_run("OPEN 2\nCLOSE .5\nCHANGE [0 0 1] 1")
     run.cell.hand.thickness = lambda _: 1.0 * INCH
     run.executor.step()
     run.executor.step()
     late, right = run.cell.clock.now + 0.3, run.cell.hand.read
-    reading(run, lambda read: replace(read, q=only(read.q, 5, read.q[5] + turn * (run.cell.clock.now > late))))
+    reading(
+        run, lambda read: replace(read, q=only(read.q, 5, read.q[5] + turn * (run.cell.clock.now > late)))
+    )
     run.cell.hand.read = lambda: replace(  # type: ignore[method-assign]
         right(), gap=right().gap - closing * (run.cell.clock.now > late)
     )
