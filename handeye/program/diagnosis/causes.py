@@ -298,6 +298,6 @@ UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingO
 InspectionCause = NoGasket | GasketWrong | CallersVision
 Cause = (
     BeyondArm | JointBehind | HandAstray | HandPushed | HandStuck | GuardsUnmet | TravelOutside | HeightOutside
-    | HeightUnknown | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
-    | PartAstray | NoSearch | PlacesTried | Looping | UndoCause
+    | HeightUnknown | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause
+    | InspectionCause | PartAstray | NoSearch | PlacesTried | Looping | UndoCause
 )  # fmt: skip
