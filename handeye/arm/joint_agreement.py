@@ -135,7 +135,7 @@ class _SensorPair:
     half: float  # half of a servo period, in s
     way: float = 0.0
     _path: float = 0.0
-    _between: float = 0.0
+    between: float = 0.0  # unknown motion between the readings
     _moving: float = 0.0
     _gain: float = 0.0
 
@@ -148,11 +148,11 @@ class _SensorPair:
         self._path += abs(gone)
         unsteady = abs(gain - self._gain) - self.steady
         if unsteady > 0:
-            self._between = float(np.hypot(self._between, STRUCK * unsteady * self.half))
+            self.between = float(np.hypot(self.between, STRUCK * unsteady * self.half))
         if qd:
             self._moving += self.creep
         self.rate, self._gain = qd, gain
-        allowed = self.slack + PATH_SHARE * self._path + self._between + self._moving
+        allowed = self.slack + PATH_SHARE * self._path + self.between + self._moving
         return abs(q - self.start - self.way) / allowed
 
 
@@ -174,15 +174,21 @@ class JointAgreement:
         """
         self.start, self.rate, self._pairs = q, qd, []
 
-    def step(self, q: Array, qd: Array) -> Disagreement | None:
+    def step(self, q: Array, qd: Array, unseen: Array | None = None) -> Disagreement | None:
         """Compare the readings of the next servo period. Returns the joint whose sensors disagree most, or None if
         all agree.
+
+        `unseen`, shape (n,), is how far the joints have moved in this period beyond their rates, if an object
+        that shifted in the fingers may have thrown them: see `thrown`.
 
         While the rate changes evenly, the mean of two successive rates is the mean rate in between. While the rate
         changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
         unknown. The unknown parts of different periods are independent, so their squares are added.
         """
         self._pairs = self._pairs or self._begun()
+        if unseen is not None:
+            for pair, leap in zip(self._pairs, unseen.tolist(), strict=True):
+                pair.between = float(np.hypot(pair.between, leap))
         found = list(map(_SensorPair.step, self._pairs, q.tolist(), qd.tolist()))
         if all(excess <= 1 for excess in found):  # not true for NaN
             return None
@@ -209,18 +215,24 @@ def _tolerances(arm: ArmModel) -> list[tuple[float, float, float]]:
 
 
 def jumped(
-    arm: ArmModel, by_pot: Array, before: Array, after: Array, blow: Array | None = None
+    arm: ArmModel,
+    by_pot: Array,
+    before: Array,
+    after: Array,
+    blow: Array | None = None,
+    throw: Array | float = 0.0,
 ) -> Disagreement | None:
     """Find the joint whose potentiometer disagrees with its rates before and after a servo period. Returns None if
     all agree.
 
     A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on
-    the hand may have caused within the period, see `blown`. All arrays have shape (n,).
+    the hand may have caused within the period, see `blown`, and `throw` is how far an object that shifted in the
+    fingers may have moved the joints, see `thrown`. All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half
     struck = STRUCK * (change if blow is None else change + blow) * half
-    excess = np.abs(by_pot - gone) / (_jump(arm) + struck)
+    excess = np.abs(by_pot - gone) / (_jump(arm) + struck + throw)
     joint = int(excess.argmax())
     if excess[joint] <= 1:
         return None
@@ -245,3 +257,13 @@ def blown(here: Dynamics, impulse: Array) -> Array:
     force, moment = np.linalg.norm(wrench[:3]), np.linalg.norm(wrench[3:])
     lever, turn = np.linalg.norm(here.J[:3], axis=0), np.linalg.norm(here.J[3:], axis=0)
     return np.asarray(np.linalg.inv(here.M).diagonal() * (lever * force + turn * moment))
+
+
+def thrown(M: Array, work: float, period: float) -> Array:
+    """Return how far each joint, shape (n,), can move within a servo period (s) if `work` (J) is done on the hand.
+
+    An object that shifts in the fingers lets them close, and the work of the fingers throws the hand. The object may
+    stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. At most, all work
+    becomes motion of one joint, at the beginning of the period. `M` is the mass matrix, shape (n, n).
+    """
+    return np.asarray(period * np.sqrt(2 * work * np.linalg.inv(M).diagonal()))

@@ -15,7 +15,7 @@ from handeye.arm.arithmetic import ArmArithmetic, Formulas
 from handeye.arm.computed_torque import felt_wrench, torque
 from handeye.arm.converters import followed, sliding
 from handeye.arm.dynamics import Dynamics
-from handeye.arm.joint_agreement import Disagreement, blown, jumped
+from handeye.arm.joint_agreement import Disagreement, blown, jumped, thrown
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
 from handeye.core.pose import Array, Pose
@@ -26,7 +26,7 @@ from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
 from handeye.program.diagnosis.sense_causes import GapJumped
 from handeye.touch.guards import ActiveGuard, Reading
-from handeye.touch.senses import FAST_PERIODS, PLATEAU, kept_apart, leapt
+from handeye.touch.senses import FAST_PERIODS, PLATEAU, kept_apart, leapt, work_of_fingers
 
 
 class ServoPeriod(Record, frozen=True, kw_only=True):
@@ -68,6 +68,10 @@ class Servo:
     track: Track = field(default_factory=Track)  # records commands and felt forces, for a later undo
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
+    _unseen: Array | None = field(default=None, init=False)
+    """Motion (rad, m) of the joints in the last servo period that their rates do not show, if an object has shifted in
+    the fingers and may have thrown the hand.
+    """
 
     @property
     def period(self) -> float:
@@ -216,7 +220,7 @@ class Servo:
             self.state.leapt = GapJumped(
                 gap=round(sensed.gap, 6),
                 before=round(before.gap, 6),
-                held=any(before.touch) or any(sensed.touch) or kept_apart(before.gap, self.state.gap),
+                held=self._holds(before, sensed),
             )
         if feel is not None and not halted:
             feel(sensed)
@@ -238,9 +242,11 @@ class Servo:
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
         """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
         is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
-        other joints, and does not count.
+        other joints, and does not count. Nor does the blow of an object that shifts in the fingers, which the
+        closing gap shows.
         """
-        moved = after.q - before.q
+        moved, work = after.q - before.q, self._work(before, after)
+        self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None
         found = jumped(self.arm, moved, before.qd, after.qd)
         if found is None or tau is None:
             return found
@@ -248,7 +254,16 @@ class Servo:
         driven = (tau - here.bias - here.J[2] * self.state.load) * self.period
         rest, rub = here.M @ (after.qd - before.qd) - driven, self.state.friction * self.period
         blow = blown(here, rest - rest.clip(-rub, rub))
-        return jumped(self.arm, moved, before.qd, after.qd, blow)
+        return jumped(self.arm, moved, before.qd, after.qd, blow, thrown(here.M, work, self.period))
+
+    def _work(self, before: Sensed, after: Sensed) -> float:
+        """Return the work (J) that the fingers have done in a servo period on an object between them."""
+        work = work_of_fingers(after.gap - before.gap, self.state.grip)
+        return work if work and self._holds(before, after) else 0.0
+
+    def _holds(self, before: Sensed, after: Sensed) -> bool:
+        """Return True if the fingers have held or touched an object in a servo period between two readings."""
+        return any(before.touch) or any(after.touch) or kept_apart(before.gap, self.state.gap)
 
     def put_out(self, tau: Array | None) -> None:
         """Command all devices of the cell for the next servo period."""

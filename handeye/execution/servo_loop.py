@@ -26,7 +26,7 @@ from handeye.execution.compliance import Course
 from handeye.execution.servo import Motion, Servo
 from handeye.ports.workcell import Sensed
 from handeye.program.diagnosis.cause_record import JointName
-from handeye.program.diagnosis.causes import Cause, HandAstray, HandStuck, JointBehind
+from handeye.program.diagnosis.causes import Cause, HandAstray, HandPushed, HandStuck, JointBehind
 from handeye.program.diagnosis.sense_causes import (
     DrivesUnlike,
     ForceInAir,
@@ -341,7 +341,8 @@ class ServoLoop(Servo):
         before = float(np.linalg.norm((jacobian(self.arm, self.state.q) @ on_the_way)[:3]))
         joint, _ = self._lagging(swing)
         name, swings = self.arm.joints[joint].name, bool((swing[:, joint] >= SWING).all())
-        cause = HandAstray(distance=round(off, 6), joint=name, swings=swings)
+        kind = HandPushed if self.state.tool else HandAstray
+        cause = kind(distance=round(off, 6), joint=name, swings=swings)
         astray = Outcome(error=errors.SERVO_LAG, cause=cause, off=before)
         return self._alone(met) or astray
 
@@ -374,7 +375,7 @@ class ServoLoop(Servo):
             sensors.begin_anew(sensed.q, sensed.qd)
             found = leapt or rested
         else:
-            found = leapt or rested or sensors.step(sensed.q, sensed.qd)
+            found = leapt or rested or sensors.step(sensed.q, sensed.qd, self._unseen)
         if found is None:
             return None
         self.state.q = self.state.here.copy()

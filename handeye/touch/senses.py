@@ -21,6 +21,10 @@ GAP_ERROR: Final = 0.1 * INCH
 The value is a placeholder.
 """
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
+SHIFT_NOISE: Final = 0.006 * INCH
+"""Greatest change (m) of the gap reading between two servo periods while the fingers stand still: one step of the
+converter (.001 in) for rounding, and five standard deviations of the noise (.0006 in per reading at the high level).
+"""
 FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force sensed in free air: 12.5 N.
 
@@ -84,6 +88,13 @@ def leapt(change: float, reach: float) -> bool:
     that time.
     """
     return abs(change) > reach + GAP_NOISE
+
+
+def work_of_fingers(change: float, force: float) -> float:
+    """Return the work (J) that fingers driven with a force (N) have done on the object between them, from a change
+    (m) of the gap. The work is 0 if the fingers may have stood still, or were pushed apart.
+    """
+    return -change * force if change < -SHIFT_NOISE else 0.0
 
 
 def thick(gap: float, thickness: float) -> bool:

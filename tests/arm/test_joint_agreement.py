@@ -6,7 +6,7 @@ import numpy as np
 
 from handeye.arm.converters import position_step
 from handeye.arm.dynamics import at_rest
-from handeye.arm.joint_agreement import Disagreement, JointAgreement, blown, jumped, scattered
+from handeye.arm.joint_agreement import Disagreement, JointAgreement, blown, jumped, scattered, thrown
 from handeye.arm.robots.stanford import STANFORD
 
 ROLL = 5
@@ -115,3 +115,35 @@ def test_a_blow_that_the_other_joints_show_may_have_moved_a_joint_that_reads_the
     said = jumped(STANFORD, radians(3.0) / 0.0087 * step, before, after, blow)
     assert said is not None
     assert said.joint == ROLL
+
+
+def test_a_part_that_shifts_in_the_fingers_may_have_thrown_the_hand_and_stopped_it_again() -> None:
+    """In the world of seed 970020, the fingers closed by .59 mm on a base that slid in them, and the hand roll moved by
+    .7 degrees. Its rates show less than a tenth of this motion.
+    """
+    here, step = at_rest(STANFORD, HELD), REST.copy()
+    before = np.array([-0.009, -0.013, -0.004, 0.006, 0.0, 0.05])
+    after = np.array([-0.006, -0.034, -0.006, -0.062, 0.015, -0.088])
+    throw = thrown(here.M, 80.0 * 0.59e-3, 1 / 60)
+    step[ROLL] = radians(0.7)
+    assert jumped(STANFORD, step, before, after) is not None
+    assert jumped(STANFORD, step, before, after, throw=throw) is None
+    said = jumped(STANFORD, radians(3.0) / radians(0.7) * step, before, after, throw=throw)
+    assert said is not None
+    assert said.joint == ROLL
+
+
+def test_all_the_work_of_the_fingers_can_turn_one_joint_for_a_whole_servo_period_at_most() -> None:
+    M = np.diag([2.0, 0.02])
+    way = thrown(M, 0.04, 1 / 60)
+    assert np.allclose(M.diagonal() * (60 * way) ** 2 / 2, 0.04)
+    assert not thrown(M, 0.0, 1 / 60).any()
+
+
+def test_a_throw_is_not_held_against_a_joint_for_the_rest_of_its_motion() -> None:
+    """And it covers no second jump of the same size, which nothing explains."""
+    sensors, q = JointAgreement(arm=STANFORD, start=REST, rate=REST), REST.copy()
+    q[ROLL] = radians(1.2)
+    assert sensors.step(q, REST, unseen=q) is None
+    assert sensors.step(q, REST) is None
+    assert sensors.step(2 * q, REST) is not None

@@ -307,6 +307,47 @@ def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:
     assert "boom has moved" in run.told
 
 
+def shifting(turn: float, closing: float) -> FakeRun:
+    """The hand lifts an object an inch thick. After .3 s the roll reads so much more (rad), and the gap so much less
+    (m), from one servo period to the next.
+    """
+    run = fake_run("OPEN 2\nCLOSE .5\nCHANGE [0 0 1] 1")
+    run.cell.hand.thickness = lambda _: 1.0 * INCH
+    run.executor.step()
+    run.executor.step()
+    late, right = run.cell.clock.now + 0.3, run.cell.hand.read
+    reading(
+        run, lambda read: replace(read, q=only(read.q, 5, read.q[5] + turn * (run.cell.clock.now > late)))
+    )
+    run.cell.hand.read = lambda: replace(  # type: ignore[method-assign]
+        right(), gap=right().gap - closing * (run.cell.clock.now > late)
+    )
+    return run.go()
+
+
+@pytest.mark.slow
+def test_an_object_that_shifts_in_the_fingers_may_throw_the_hand() -> None:
+    assert shifting(0.9 * DEGREE, 0.4e-3).errors == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("turn", "closing"),
+    [
+        (0.9, 0.0),  # the object did not shift
+        (0.9, 0.1e-3),  # the noise of the gap at the high level
+        (0.9, -0.4e-3),  # the fingers were pushed apart, so they did no work
+        (3.0, 0.4e-3),  # they did not do enough work
+    ],
+)
+def test_a_roll_that_jumps_further_than_a_shifting_object_can_throw_it_is_doubted(
+    turn: float, closing: float
+) -> None:
+    run = shifting(turn * DEGREE, closing)
+    assert run.errors == [errors.JOINT_SENSE_WRONG]
+    assert f"hand roll has moved {turn} degrees by its potentiometer" in run.told
+
+
 def resting(told: Callable[[float], float]) -> FakeRun:
     """An arm that has stood a minute under its brakes; by then its column read so much more (rad), by the time (s)."""
     run = fake_run("MOVE T")

@@ -19,7 +19,7 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.servo import Halted
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import DriveState
-from handeye.program.diagnosis.causes import HandAstray, JointBehind
+from handeye.program.diagnosis.causes import HandAstray, HandPushed, JointBehind
 from handeye.program.diagnosis.sense_causes import JointAlone
 from handeye.program.guards import Force
 from handeye.touch.guards import monitor
@@ -100,12 +100,16 @@ def test_a_joint_that_lags_too_far_behind_stops_the_motion() -> None:
     np.testing.assert_array_equal(drive.state.q, drive.state.here)
 
 
-def test_a_hand_that_is_held_up_short_of_its_goal_is_an_error() -> None:
+@pytest.mark.parametrize(("tool", "cause"), [(0.0, HandAstray), (-20.0, HandPushed)])
+def test_a_hand_that_is_held_up_short_of_its_goal_is_an_error(tool: float, cause: type[HandAstray]) -> None:
+    """If the screwdriver turns, a screw may have pushed the hand."""
     cell, drive = driving(with_servo(short=0.001))
+    drive.state.tool = tool
     cell.arm.walls.append(Wall(point=(0.0, 0.0, cell.arm.tcp[2] - 0.1 * INCH)))
     outcome = going(drive, 0.2)
     assert outcome.error == SERVO_LAG
     assert isinstance(outcome.cause, HandAstray)
+    assert type(outcome.cause) is cause
     assert outcome.cause.distance > 0.001
 
 

@@ -43,6 +43,10 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.HandAstray(distance=0.2 * INCH, joint="boom", of="BASE"),
         "the hand is 0.20 in from its set-point; boom lags most",
     ),
+    (
+        c.HandPushed(distance=0.2 * INCH, joint="boom"),
+        "the hand is 0.20 in from its set-point; a turning screw may have pushed it; boom lags most",
+    ),
     (s.PictureNoisy(picture="A", noise=2.23, most=1.6), "picture A has noise of 2.2 levels; allowed: 1.6"),
     (c.HandStuck(moved=0.5 * INCH), "the hand stopped after 0.50 in"),
     (c.GuardsUnmet(guards=(GuardKind.FORCE,)), ""),

@@ -43,7 +43,8 @@ def cause_sentence(cause: Cause) -> str:
             return f"{cause.joint} {_SWINGS if cause.swings else 'lags behind its set-point'}"
         case c.HandAstray():
             lags = f"; {cause.joint} {_SWINGS if cause.swings else 'lags most'}" if cause.joint else ""
-            return f"the hand is {inches(cause.distance)} from its set-point{lags}"
+            turning = "; a turning screw may have pushed it" if isinstance(cause, c.HandPushed) else ""
+            return f"the hand is {inches(cause.distance)} from its set-point{turning}{lags}"
         case c.HandStuck():
             return f"the hand stopped after {inches(cause.moved)}"
         case c.GuardsUnmet():

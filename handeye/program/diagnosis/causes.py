@@ -66,6 +66,12 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
     of: str = ""
 
 
+class HandPushed(HandAstray, frozen=True, kw_only=True):
+    """The hand is off its set-point at the end of a motion in which the screwdriver turned. A screw that turns in or
+    out of its thread, faster than the hand moves, pushes or pulls the screwdriver.
+    """
+
+
 class HandStuck(CauseRecord, frozen=True, kw_only=True):
     """The hand moved by only `moved` (m) while it pressed."""
 
@@ -294,7 +300,7 @@ SightCause = (
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong | CallersVision
 Cause = (
-    BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside | HeightOutside | HeightUnknown
-    | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
-    | PartAstray | NoSearch | PlacesTried | Looping | UndoCause
+    BeyondArm | JointBehind | HandAstray | HandPushed | HandStuck | GuardsUnmet | TravelOutside | HeightOutside
+    | HeightUnknown | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause
+    | InspectionCause | PartAstray | NoSearch | PlacesTried | Looping | UndoCause
 )  # fmt: skip
