@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from handeye.core.faults import ExpectedDetection, Fault, FaultKind, Size
+from handeye.core.faults import ExpectedDetection, Fault, FaultKind, Size, SpoiledWork
 
 B = TypeVar("B")
 
@@ -24,11 +24,18 @@ def declared(
     size: Size | None = None,
     *,
     stage: int | None = None,
+    spoils: SpoiledWork | None = None,
 ) -> PumpFault[B]:
     """Declare a fault that begins during a run. By default it begins with `stage`, or at the start of the run
-    if `stage` is None."""
+    if `stage` is None. `spoils` is the finished work that it spoils by itself, if any."""
     return PumpFault(
-        name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
+        name=name,
+        meaning=meaning,
+        size=size,
+        usual_stage=stage,
+        expected=expected,
+        spoils=spoils,
+        breaks=breaks,
     )
 
 
