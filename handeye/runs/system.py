@@ -209,6 +209,7 @@ class RunningSystem(Protocol):
         """Bring the machine to rest in a safe state, for example with its brakes on, because the run cannot continue.
         A system without such a state does nothing.
         """
+        return
 
     def answer(self, choice: Choice) -> None:
         """Continue after a call to the operator."""
