@@ -18,6 +18,9 @@ rest. Contacts may begin and end in middle steps, except those of the hand. The 
 which need short steps, and the joints that must be at rest in middle steps. For example, a screw clamps with less
 force if it is tightened in middle steps.
 
+If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
+short steps. The same time is then computed again in fine steps.
+
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. For a free
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
 step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
@@ -47,6 +50,10 @@ still holds joints and parts.
 """
 MIDDLE: Final = 2
 """Number of short steps in a middle step."""
+FINER: Final = 8
+"""Number of fine steps in a short step. Our choice: a hand that runs into a fixture at 3 m/s goes .4 mm in a fine step.
+"""
+_WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
 """Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint that friction holds creeps at less than 1e-4."""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
@@ -136,6 +143,7 @@ class PhysicsStepper:
         self._option, self._contacts = model.opt, ContactMemo(data, self._judged)
         self._moves = (data.qpos, data.qvel, data.act, data.qacc_warmstart)
         self._kept = [values.copy() for values in self._moves]
+        self._warnings, self._before = data.warning.number, np.empty(mujoco.mj_stateSize(model, _WHOLE_STATE))
         self._hand = 0 if carrying is None else model.body(carrying.hand).id
         self._carried = self._marked(() if carrying is None else carrying.pairs)
         self._handled = self._marked(() if carrying is None else ((carrying.hand,),))
@@ -169,7 +177,16 @@ class PhysicsStepper:
         return table
 
     def step(self, steps: int) -> None:
-        """Advance by `steps` short steps, or by longer steps that cover the same time."""
+        """Advance by `steps` short steps, or by longer steps that cover the same time. If the computation diverges,
+        cover this time again in fine steps.
+        """
+        mujoco.mj_getState(self._model, self._data, self._before, _WHOLE_STATE)
+        broken = self._warnings.any()
+        self._advance(steps)
+        if self._warnings.any() and not broken:
+            self._again(steps)
+
+    def _advance(self, steps: int) -> None:
         touching = self._contacts.now()
         if touching.carried and not steps % LONGER:
             done = self._smoothly(steps, touching)
@@ -181,6 +198,21 @@ class PhysicsStepper:
     def _closely(self, steps: int) -> None:
         """Make short steps. A subclass may watch them."""
         mujoco.mj_step(self._model, self._data, steps)
+
+    def _again(self, steps: int) -> None:
+        """Go back to the beginning of the last `steps` short steps, and make fine steps instead. A simulator that has
+        given a warning may have reset its state, and even its controls.
+        """
+        model, data = self._model, self._data
+        mujoco.mj_setState(model, data, self._before, _WHOLE_STATE)
+        self._warnings[:] = 0
+        began = data.time
+        self._option.timestep = self._short / FINER
+        try:
+            self._closely(steps * FINER)
+        finally:
+            self._option.timestep = self._short
+        data.time = began + steps * self._short
 
     def _judged(self, geoms: NDArray[np.int32]) -> _Contacts:
         bodies = np.sort(self._model.geom_bodyid[geoms], axis=1)

@@ -68,6 +68,17 @@ UNKNOWN: Final = ExpectedDetection()  # no expectation stated
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SpoiledWork:
+    """Finished work that a fault spoils by itself, without a motion of the arm. If the fault does so after the last
+    step of a program that senses this work, the program cannot notice it.
+    """
+
+    findings: tuple[str, ...]  # beginnings of the names of the referee's findings on this work
+    where: str = ""  # its place, as the claims of the task's obligations name it; empty: no single place
+    delay: float = 0.0  # s from the beginning of the fault until it spoils the work
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FaultKind:
     """A fault that a catalogue offers: its name, meaning, possible sizes, and how a program is expected to detect
     it.
@@ -82,6 +93,7 @@ class FaultKind:
     """
     usual_stage: int | None = None  # stage at which the fault begins by default, from 1; None for the start
     expected: ExpectedDetection = UNKNOWN
+    spoils: SpoiledWork | None = None  # None: the fault spoils no finished work by itself
 
     @property
     def from_start(self) -> bool:  # the fault cannot begin during the work

@@ -251,7 +251,12 @@ class Runner:
         except Halted:
             self._emit(PanicStopped(time=self.time))
             raise
-        except (PhysicsFailed, Deadlock) as error:
+        except PhysicsFailed as error:
+            self.rollback()  # the state within the step is meaningless
+            self.system.halt()
+            self._broken = str(error)
+            return
+        except Deadlock as error:
             self._broken = str(error)
             return
         finally:

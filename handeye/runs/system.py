@@ -207,6 +207,12 @@ class RunningSystem(Protocol):
     def step(self) -> None:
         """Execute one step. After an interruption, the whole step is repeated. Raises Halted or PhysicsFailed."""
 
+    def halt(self) -> None:
+        """Bring the machine to rest in a safe state, for example with its brakes on, because the run cannot continue.
+        A system without such a state does nothing.
+        """
+        return
+
     def answer(self, choice: Choice) -> None:
         """Continue after a call to the operator."""
 

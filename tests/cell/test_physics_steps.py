@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from handeye.cell.physics_stepper import LONGER, MIDDLE, Carrying, PhysicsStepper, stiffened
+from handeye.cell.physics_stepper import FINER, LONGER, MIDDLE, Carrying, PhysicsStepper, stiffened
 from handeye.core.pose import Array
 
 SHORT = 1 / 960
@@ -289,3 +289,23 @@ def test_a_load_that_friction_does_not_hold_slips_off_as_in_short_steps() -> Non
     short, long = (slipped(carries=carries, grip=0.03, periods=30)[0] for carries in (False, True))
     assert short > 0.02
     assert long == pytest.approx(short, rel=0.05)
+
+
+SPRING = """<mujoco><option timestep="{short}"/><worldbody><body>
+<joint name="spring" type="slide" axis="0 0 1" stiffness="1.6e7"/><geom size=".05" mass="1"/></body></worldbody>
+<actuator><motor joint="spring"/></actuator></mujoco>"""
+"""A spring that swings with 640 Hz: too fast for short steps, but not for fine ones."""
+
+
+def test_what_diverges_in_short_steps_is_computed_again_in_fine_ones(steps: list[float]) -> None:
+    model = mujoco.MjModel.from_xml_string(SPRING.format(short=SHORT))
+    data = mujoco.MjData(model)
+    data.qpos[0], data.ctrl[0] = 1e-4, 2.0
+    stepper = PhysicsStepper(model, data)
+    mujoco.mj_forward(model, data)
+    stepper.step(PERIOD)
+    assert steps == [SHORT] * PERIOD + [SHORT / FINER] * (PERIOD * FINER)
+    assert data.time == pytest.approx(PERIOD * SHORT)
+    assert abs(data.qpos[0]) < 2e-4
+    assert data.ctrl[0] == 2.0
+    assert not data.warning.number.any()

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from short_runs import GRASP, begin, history, through
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import InvalidInput, PhysicsFailed
 from handeye.execution.servo import Halted
 from handeye.program.events import ExperimentMade, OperatorCalled, PanicStopped, Restored
 from handeye.runs.runner import Runner
+from handeye.trials.assembly import brakes_hold
 
 pytestmark = pytest.mark.slow
 
@@ -38,6 +39,26 @@ def test_a_checkpoint_leads_to_the_same_end_in_a_new_cell(whole: Runner, positio
     again = through(Runner(runner.checkpoint()))
     assert history(again.events) == history(whole.events)
     assert state(again) == state(whole)
+
+
+def test_a_run_whose_physics_breaks_down_stops_before_that_step_with_the_brakes_on(
+    whole: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def breaks_down(*_: object) -> None:
+        monkeypatch.undo()
+        raise PhysicsFailed("the simulated cell broke down")
+
+    runner = Runner(begin())
+    while runner.position < 2:
+        runner.step()
+    time, events = runner.time, list(runner.events)
+    monkeypatch.setattr("handeye.cell.simulated.check_physics", breaks_down)
+    runner.step()
+    assert (runner.trouble, runner.position, runner.events) == ("the simulated cell broke down", 2, events)
+    assert runner.time >= time
+    assert brakes_hold(runner.arm_cell)
+    runner.back_to(2)
+    assert history(through(runner).events) == history(whole.events)
 
 
 def test_going_back_and_forward_again_leads_to_the_same_end(whole: Runner) -> None:

@@ -1,6 +1,7 @@
 """Schedules of faults and interruptions are drawn, told, carried out and shrunk; what is planted is found."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -9,13 +10,17 @@ from conftest import Command
 from short_runs import begin
 
 from handeye.core.errors import InvalidInput
+from handeye.core.faults import SpoiledWork
 from handeye.core.variation import WorldSpec
 from handeye.execution.drive import ArmDrive
-from handeye.judge.finding import at_most
+from handeye.judge.finding import Finding, at_least, at_most
+from handeye.program.events import StepStarted
 from handeye.program.system_state import SystemState
+from handeye.proof.proof import ClaimProof
 from handeye.systems.stanford.executor_run import RunningPlan
 from handeye.tasks import task
 from handeye.trials.chaos import trials as trial
+from handeye.trials.chaos.last_look import LastLook
 from handeye.trials.chaos.schedule import Break, Schedule, draw, parse_schedule
 from handeye.trials.chaos.trials import ScheduleResult, Violation, shrunk, try_schedule, wrong
 from handeye.trials.sound_run import SoundRun, sound_run
@@ -92,11 +97,58 @@ def test_a_schedule_is_shrunk_to_what_it_fails_by() -> None:
 
 def test_a_finding_counts_from_the_stage_on_that_it_must_hold_from() -> None:
     findings = {name: at_most(2.0, 1.0, "mm", "") for name in ("base_yaw", "gasket_height", "rack")}
-    told = [
-        [sentence.partition(":")[0] for sentence in wrong(findings, stage, 12, task().holds_from)]
-        for stage in (2, 3, 5, 12)
-    ]
+    told = [[*wrong(findings, stage, 12, task().holds_from)] for stage in (2, 3, 5, 12)]
     assert told == [[], ["base_yaw"], ["base_yaw", "gasket_height"], ["base_yaw", "gasket_height", "rack"]]
+
+
+# -- after the last look ------------------------------------------------------------------------------
+
+CLAMP, DEPTH = at_least(0.0, 40.0, "N", "clamping force"), at_most(0.3, 0.2, "mm", "gap under the head")
+LOOSE = SpoiledWork(findings=("screws_depth", "screws_clamp"), where="hole 2")
+LOOKS = LastLook(
+    claims={
+        "screws_clamp": (
+            ClaimProof(says="driven", where="hole 1", verdict="shown", phases=((8,),)),
+            ClaimProof(says="driven", where="hole 2", verdict="shown", phases=((3, 7),)),
+        ),
+        "screws_depth": (ClaimProof(says="felt", where="hole 2", verdict="shown", phases=((9,),)),),
+    },
+    unnoticed={"screws_depth": 0.5},
+)
+
+
+def unseen(finding: Finding, *steps: int, work: SpoiledWork = LOOSE, looks: LastLook = LOOKS) -> bool:
+    """The fault began at 100 s, and these steps followed, 10 s apart."""
+    events = [StepStarted(time=110.0 + 10 * k, step=step, line=1, text="") for k, step in enumerate(steps)]
+    name = "screws_clamp" if finding.relation == "at least" else "screws_depth"
+    return looks.passed(name, finding, [work], events, 100.0)
+
+
+def test_a_screw_that_works_loose_after_its_last_drive_is_unseen() -> None:
+    assert unseen(CLAMP, 8, 9)
+    assert not unseen(CLAMP, 6, 7, 8)
+
+
+def test_a_fault_that_acts_late_is_unseen_if_the_last_look_came_before() -> None:
+    late = replace(LOOSE, delay=25.0)
+    assert unseen(CLAMP, 6, 7, 8, work=late)
+    assert not unseen(CLAMP, 6, 8, 7, work=late)
+
+
+def test_a_look_overlooks_only_what_its_claim_says() -> None:
+    assert unseen(DEPTH, 9)
+    assert not unseen(replace(DEPTH, value=0.6), 9)
+
+
+def test_only_work_that_the_fault_spoils_is_unseen() -> None:
+    elsewhere = replace(LOOSE, where="hole 1")
+    assert not unseen(CLAMP, 8, work=elsewhere)
+    assert not unseen(CLAMP, work=replace(LOOSE, findings=("rotor",)))
+
+
+def test_nothing_is_unseen_by_a_program_that_need_not_look() -> None:
+    claims = {"screws_clamp": (ClaimProof(says="driven", where="hole 2", verdict="avoided"),)}
+    assert not unseen(CLAMP, looks=LastLook(claims=claims, unnoticed={}))
 
 
 # -- on a short program -------------------------------------------------------------------------------

@@ -186,6 +186,9 @@ class RunningRelay(RunningSystem):
         self._state.undoing = self._state.undoing if self._undoing else None
         self._go_on(undoing=undoing)
 
+    def halt(self) -> None:
+        self._running.halt()
+
     def answer(self, choice: Choice) -> None:
         if self._state.refused:
             self._answer_refusal(choice)

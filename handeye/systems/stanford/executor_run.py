@@ -144,8 +144,7 @@ class RunningPlan(RunningSystem):
         else:
             seconds = self._measure_joints()
         if self.trouble is not None:
-            with suppress(PhysicsFailed):  # if the physics has failed, the brakes cannot be set either
-                self.context.drive.stop()
+            self.halt()
         self._set_clock()
         return [self._started(), *self._friction(seconds)]
 
@@ -213,6 +212,10 @@ class RunningPlan(RunningSystem):
         assert self.state.at is not None
         self._cell.begin_stage(self.plan.program.steps[self.state.at].stage + 1)
         self.executor.step()
+
+    def halt(self) -> None:
+        with suppress(PhysicsFailed):  # if the physics has failed, the brakes cannot be set either
+            self.context.drive.stop()
 
     def answer(self, choice: Choice) -> None:
         self.executor.answer(choice)

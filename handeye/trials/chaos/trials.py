@@ -3,7 +3,7 @@ long as the schedule still fails.
 """
 
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -14,6 +14,7 @@ from handeye.core.errors import InvalidInput
 from handeye.core.record import Record
 from handeye.core.variation import Level, WorldSpec
 from handeye.judge.finding import Findings
+from handeye.planfile.plan import Plan
 from handeye.program.events import OperatorAnswered, StageFinished
 from handeye.results.judging import findings_so_far
 from handeye.results.result import Result
@@ -25,10 +26,11 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.systems import listing_of
 from handeye.tasks import any_task
-from handeye.tasks.interface import AnyTask
+from handeye.tasks.interface import AnyTask, Task
 from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
 from handeye.trials.chaos.carrying_out import ReachedPosition, ScheduleRun, ScheduleRunner
+from handeye.trials.chaos.last_look import last_look
 from handeye.trials.chaos.schedule import MOST_STEPS, Schedule, draw, parse_schedule
 from handeye.trials.sound_run import SoundRun, sound_run, with_faults
 from handeye.trials.sweep import Case, Sweep, TrialRow
@@ -73,17 +75,16 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
         yield f"the run ended with {carried.pause.kind}; without interruptions, it ended with {kind}"
 
 
-def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> list[str]:
+def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> Findings:
     """Return the findings that should hold after the first `done` stages of the program, but do not hold. All findings
     must hold after the last stage; `holds_from` names the findings that must already hold after an earlier stage.
     """
-    return [
-        f"{name}: {finding.subject} {finding.value:.3g} {finding.unit}"
+    return {
+        name: finding
         for name, finding in findings.items()
-        if not finding.ok
-        and not finding.caution
+        if finding.refuses
         and done >= next((stage for words, stage in holds_from.items() if name.startswith(words)), stages)
-    ]
+    }
 
 
 def _bytes(folder: Path) -> bytes:
@@ -122,6 +123,10 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     schedule: str
     ended: str  # The kind of its last pause; `error`: an exception that should never occur
     broken: tuple[Violation, ...]
+    unseen: tuple[Violation, ...] = ()
+    """Failed findings on a pump that the program reported as right, if the schedule's faults spoiled the pump only
+    after the program's last look.
+    """
 
     @property
     def names(self) -> frozenset[str]:
@@ -134,18 +139,22 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
     begin at the start of the schedule."""
     begun = sound.at(schedule.start)
     start = with_faults(begun, schedule.given(any_task(begun.setup.task).faults(begun.setup.world)))
-    ended, broken = "error", list[Violation]()
+    ended, broken, unseen = "error", list[Violation](), list[Violation]()
     with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
         try:
             unbroken = _carried(schedule, start, Path(name) / "unbroken", broken=False)
             ended = unbroken.pause.kind
-            broken += [*_sound(unbroken), *_named("silent", _silent(unbroken, start))]
+            silent, late = _silent(schedule, unbroken, start)
+            broken += [*_sound(unbroken), *_named("silent", silent)]
+            unseen += _named("silent", late)
             if schedule.breaks:
                 carried = _carried(schedule, start, Path(name) / "broken", broken=True)
                 broken += [*_sound(carried), *_named("resume", after_resuming(carried, unbroken))]
         except Exception as error:
             broken.append(Violation("error", f"{type(error).__name__}: {error}"))
-    return ScheduleResult(schedule=str(schedule), ended=ended, broken=tuple(dict.fromkeys(broken)))
+    return ScheduleResult(
+        schedule=str(schedule), ended=ended, broken=tuple(dict.fromkeys(broken)), unseen=tuple(unseen)
+    )
 
 
 def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: bool) -> ScheduleRun:
@@ -156,7 +165,7 @@ def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: boo
     return ScheduleRunner(schedule, start, folder).carry_out(stops, broken=broken)
 
 
-def _named(invariant: str, sentences: Iterator[str]) -> Iterator[Violation]:
+def _named(invariant: str, sentences: Iterable[str]) -> Iterator[Violation]:
     return (Violation(invariant, sentence) for sentence in sentences)
 
 
@@ -170,26 +179,47 @@ def _sound(carried: ScheduleRun) -> Iterator[Violation]:
 # -- silence ------------------------------------------------------------------------------------------
 
 
-def _silent(carried: ScheduleRun, start: Checkpoint) -> Iterator[str]:
-    """Yield the failed findings on work that the program considers right.
+def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tuple[list[str], list[str]]:
+    """Return sentences on the failed findings on work that the program considers right: first those that it should
+    have noticed, and then those that faults of the schedule made fail after the program's last look.
 
     A completed stage is judged by the findings that must hold from its end on. If such a finding fails, the run
     continues, because a later check of the program may notice the failure. The failure is silent only if the
     program ends with a wrong pump.
     """
-    happened = carried.runner.events[len(start.events) :]
+    runner = carried.runner
+    happened = runner.events[len(start.events) :]
     overruled = any(isinstance(event, OperatorAnswered) and event.choice != "retry" for event in happened)
     done = [e.stage for e in happened if isinstance(e, StageFinished) and e.status == "done"]
-    if overruled or not done or not (carried.runner.between_stages or carried.pause.kind == "end"):
-        return
-    stages = len(carried.runner.listing.stages)
-    number = carried.runner.listing.stages.index(done[-1]) + 1
-    if carried.pause.kind == "end":
-        yield from wrong(findings_so_far(carried.runner), stages, stages, {})
-    elif wrong(findings_so_far(carried.runner), number, stages, carried.runner.task.holds_from):
-        runner = Runner(carried.runner.checkpoint())
-        if advance(runner).kind == "end":
-            yield from wrong(findings_so_far(runner), stages, stages, {})
+    if overruled or not done or not (runner.between_stages or carried.pause.kind == "end"):
+        return [], []
+    stages = len(runner.listing.stages)
+    number = runner.listing.stages.index(done[-1]) + 1
+    if carried.pause.kind != "end":
+        if not wrong(findings_so_far(runner), number, stages, runner.task.holds_from):
+            return [], []
+        runner = Runner(runner.checkpoint())
+        if advance(runner).kind != "end":
+            return [], []
+    failed = wrong(findings_so_far(runner), stages, stages, {})
+    late = _late(failed, schedule, runner, start)
+    told = {name: f"{name}: {each.subject} {each.value:.3g} {each.unit}" for name, each in failed.items()}
+    return [told[name] for name in failed if name not in late], [
+        told[name] for name in failed if name in late
+    ]
+
+
+def _late(failed: Findings, schedule: Schedule, runner: Runner, start: Checkpoint) -> set[str]:
+    """Return the names of the failed findings that faults of the schedule made fail after the program's last look."""
+    task, plan, world = runner.task, runner.setup.plan, runner.setup.world
+    kinds = [task.faults(world).kind(fault.name) for fault in schedule.given(task.faults(world))]
+    spoiled = [kind.spoils for kind in kinds if kind.spoils is not None]
+    if not failed or not spoiled or not isinstance(task, Task) or not isinstance(plan, Plan):
+        return set()
+    look = last_look(plan.program, task.obligations(world))
+    begun = start.events[-1].time if start.events else 0.0
+    since = runner.events[len(start.events) :]
+    return {name for name, each in failed.items() if look.passed(name, each, spoiled, since, begun)}
 
 
 # -- shrinking ----------------------------------------------------------------------------------------
@@ -221,11 +251,15 @@ class ChaosRow(TrialRow, frozen=True, kw_only=True):
 
     @property
     def outcome(self) -> str:
-        return "did not hold" if self.drawn is None or self.drawn.broken else "held"
+        if self.drawn is None or self.drawn.broken:
+            return "did not hold"
+        return "unseen" if self.drawn.unseen else "held"
 
     @property
     def detail(self) -> str:
-        return super().detail if self.shrunk is None else "; ".join(map(str, self.shrunk.broken))
+        if self.shrunk is not None:
+            return "; ".join(map(str, self.shrunk.broken))
+        return super().detail if self.drawn is None else "; ".join(map(str, self.drawn.unseen))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -274,7 +308,8 @@ def _sentence(row: ChaosRow) -> str:
     if row.drawn is None:
         return f"{row.condition}: {row.detail}"
     if row.shrunk is None:
-        return ""
+        told = "\n".join(f"after the last look, {each}" for each in row.drawn.unseen)
+        return f'{told}\n  handeye trials chaos --schedule "{row.condition}"' if told else ""
     whole = "" if row.shrunk.schedule == row.condition else f"\n  shrunk from: {row.condition}"
     told = "\n".join(map(str, row.shrunk.broken))
     return f'{told}\n  handeye trials chaos --schedule "{row.shrunk.schedule}"{whole}'
@@ -284,6 +319,7 @@ def _more(rows: Sequence[ChaosRow]) -> dict[str, object]:
     failing = sorted((row for row in rows if row.drawn and row.drawn.broken), key=lambda row: row.condition)
     return {
         "broken": len(failing),
+        "unseen": sum(row.outcome == "unseen" for row in rows),
         "failing": [{"drawn": row.drawn, "shrunk": row.shrunk} for row in failing],
     }
 
@@ -291,7 +327,7 @@ def _more(rows: Sequence[ChaosRow]) -> dict[str, object]:
 CHAOS: Final = Sweep(
     kind="chaos",
     row=ChaosRow,
-    outcomes={"held": "right", "did not hold": "silent"},
+    outcomes={"held": "right", "unseen": "wrong", "did not hold": "silent"},
     success="held",
     noun="schedule",
     sentence=_sentence,

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from handeye.core.faults import ExpectedDetection, Fault, FaultKind, Size
+from handeye.core.faults import ExpectedDetection, Fault, FaultKind, Size, SpoiledWork
 
 B = TypeVar("B")
 
@@ -24,12 +24,19 @@ def declared(
     size: Size | None = None,
     *,
     stage: int | None = None,
+    spoils: SpoiledWork | None = None,
 ) -> PumpFault[B]:
     """Declare a fault that begins during a run. By default, the fault begins with `stage`, or at the start of the run
-    if `stage` is None.
+    if `stage` is None. `spoils` is the finished work that the fault spoils by itself, if any.
     """
     return PumpFault(
-        name=name, meaning=meaning, size=size, usual_stage=stage, expected=expected, breaks=breaks
+        name=name,
+        meaning=meaning,
+        size=size,
+        usual_stage=stage,
+        expected=expected,
+        spoils=spoils,
+        breaks=breaks,
     )
 
 

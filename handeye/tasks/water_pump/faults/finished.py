@@ -10,7 +10,7 @@ import numpy as np
 
 from handeye.cell.physics_stepper import wake
 from handeye.core.errors import FORCE_WRONG, GASKET_WRONG, NOTHING_HELD, SERVO_LAG, WRONG_HEIGHT
-from handeye.core.faults import ExpectedDetection, Size
+from handeye.core.faults import ExpectedDetection, Size, SpoiledWork
 from handeye.tasks.water_pump.faults import shared_expectations as detect
 from handeye.tasks.water_pump.faults.declaration import declared
 from handeye.tasks.water_pump.faults.mishap import ON_BASE_M, Mishap, MishapFault, MishapState, Scene, always
@@ -21,6 +21,7 @@ LATER_S: Final = 150.0
 """Time after the last stage began (s). The screws have then been driven again, but no picture has been taken."""
 JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
 STICKING_N: Final = 50.0  # vertically; more than the weight of the screwdriver and fingers that press on it
+_FALLING: Final = ("floor", "still", "rest")  # findings on a part that falls onto the tray under the floor
 _FREE_RAD: Final = 1e3  # beyond any turn of the rotor
 
 
@@ -147,8 +148,9 @@ def _screws() -> Iterator[MishapFault]:
         )
         meaning = f"Screw {number} works loose by this number of turns after it was driven."
         yield declared(
-            f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE
-        )
+            f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE,
+            spoils=_screw(number),
+        )  # fmt: skip
     size = Size(unit="", usual=1.5, limits=(0.05, 6.0))
     for number in range(1, len(detect.SCREWED) + 1):
         expected = ExpectedDetection(
@@ -160,8 +162,9 @@ def _screws() -> Iterator[MishapFault]:
             "the last stage, the program has by then already driven the screw again."
         )
         yield declared(
-            f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE
-        )
+            f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE,
+            spoils=_screw(number, delay=LATER_S),
+        )  # fmt: skip
     for number in range(1, len(detect.SCREWED) + 1):
         expected = ExpectedDetection(
             calls=(detect.missing_head(number), detect.untight_screw(number), detect.unfelt_head(number))
@@ -173,12 +176,18 @@ def _screws() -> Iterator[MishapFault]:
         )  # fmt: skip
 
 
+def _screw(number: int, delay: float = 0.0) -> SpoiledWork:
+    loose = ("screws_depth", "screws_thread", "screws_clamp")
+    return SpoiledWork(findings=loose, where=f"hole {detect.SCREWED[number - 1]}", delay=delay)
+
+
 def _rotors() -> Iterator[MishapFault]:
+    turning = SpoiledWork(findings=("rotor", "as_drawn"))
     hard = ExpectedDetection(calls=(detect.STIFF_ROTOR,))
-    yield declared("rotor.jammed", "The rotor does not turn.", always(Mishap(_jam)), hard)
+    yield declared("rotor.jammed", "The rotor does not turn.", always(Mishap(_jam)), hard, spoils=turning)
     size = Size(unit="deg", usual=75.0, limits=(-170.0, 170.0))
     meaning = "The rotor meets a stop at this angle from its present position."
-    yield declared("rotor.stops", meaning, _stop, hard, size, stage=LAST_STAGE)
+    yield declared("rotor.stops", meaning, _stop, hard, size, stage=LAST_STAGE, spoils=turning)
     expected = ExpectedDetection(
         errors=(FORCE_WRONG, SERVO_LAG),
         calls=(detect.CRANK_ASTRAY,),
@@ -198,16 +207,20 @@ def _taken() -> Iterator[MishapFault]:
         meaning = f"A person removes aligning pin {number}."
         yield declared(
             f"pin.{number}.removed", meaning, always(Mishap(partial(_take, f"pin{number - 1}"))), expected,
-            stage=LAST_STAGE,
+            stage=LAST_STAGE, spoils=SpoiledWork(findings=("pins", *_FALLING), where=f"pin {number}"),
         )  # fmt: skip
-    expected = ExpectedDetection(calls=(detect.NO_DRIVER,))
+    expected, racked = (
+        ExpectedDetection(calls=(detect.NO_DRIVER,)),
+        SpoiledWork(findings=("rack", "as_drawn", *_FALLING)),
+    )
     meaning = "The screwdriver falls from its rack."
     yield declared(
-        "driver.fallen", meaning, always(Mishap(partial(_take, "driver"))), expected, stage=LAST_STAGE
-    )
+        "driver.fallen", meaning, always(Mishap(partial(_take, "driver"))), expected, stage=LAST_STAGE,
+        spoils=racked,
+    )  # fmt: skip
     size = Size(unit="mm", usual=6.0, limits=(4.5, 10.0))
     meaning = "The screwdriver sticks in its rack, too high by this distance."
-    yield declared("driver.raised", meaning, _raise, expected, size, stage=LAST_STAGE)
+    yield declared("driver.raised", meaning, _raise, expected, size, stage=LAST_STAGE, spoils=racked)
     for part, expected, stage in (
         (
             "gasket",

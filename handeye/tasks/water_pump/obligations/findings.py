@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Final
 
+from handeye.core.units import INCH, MILLIMETRE
 from handeye.proof.obligation import Obligation
 from handeye.tasks.water_pump.obligations.claims import PumpClaims
 
@@ -57,6 +58,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(
             finding="screws_depth", claims=heads,
             rests="A head that stands too high by less than .02 in may remain unnoticed; the referee allows .008 in.",
+            unnoticed=0.02 * INCH / MILLIMETRE,
         ),
         Obligation(
             finding="screws_thread", claims=threaded,
