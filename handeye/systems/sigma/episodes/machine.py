@@ -5,6 +5,7 @@ their answers are there when the period is over.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from typing import Final
 
 import numpy as np
@@ -100,7 +101,8 @@ class GantryControls(Controls):
         self._counts, self._stopped = [0] * len(AXES), [0] * len(AXES)  # steps
         self._statuses = self._shown()
         self._unasked = {*AXES}  # axes that have moved since they were asked for their counts
-        self._pass(())
+        with suppress(MachineStopped):  # the first action raises it again
+            self._pass(())
 
     def act(self, values: Values) -> None:
         if values["report"] > SWITCHED:

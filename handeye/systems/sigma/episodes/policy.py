@@ -72,7 +72,7 @@ class _SeenBus(MicrobusPort):
 
     @property
     def now(self) -> int:
-        return round(self._episode.observation["clock"][0] * 1e6)
+        return round(float(self._episode.observation["clock"][0]) * 1e6)
 
     @property
     def next_event(self) -> int | None:
@@ -155,4 +155,4 @@ class _SeenBus(MicrobusPort):
 
     def _reading(self, name: str, number: int) -> int:
         """Return a count that an axis has answered (steps)."""
-        return round(self._episode.observation[name][_ORDER.index(number)] / STEP_MM)
+        return round(float(self._episode.observation[name][_ORDER.index(number)]) / STEP_MM)
