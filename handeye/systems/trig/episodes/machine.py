@@ -7,6 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from handeye.core.pose import Array
 from handeye.core.units import MILLIMETRE
 from handeye.env.controls import ControlledMachine, Controls, Values
 from handeye.env.policies import Facts
@@ -36,9 +37,11 @@ _UPPER: Final = np.array([spec.upper for spec in _AXES])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaughtFacts(Facts):
-    """What a policy may know of the taught program."""
+    """What a policy may know of what the arm was taught."""
 
-    program: TrigProgram  # its steps, and its positions with the errors of teaching
+    taught: Mapping[str, Array]  # the positions by name, with the errors of teaching: six numbers, m and rad
+    places: Array  # of the blocks on the pallet, computed from the positions: x and y, shape (blocks, 2), m
+    program: TrigProgram
     arm: ArmMemory  # the commanded place and opening at the beginning
 
 
@@ -106,7 +109,7 @@ class PurbrickControls(Controls):
 
     def facts(self, common: Mapping[str, Any]) -> TaughtFacts:
         program = deepcopy(self._job.session.program)
-        return TaughtFacts(**common, program=program, arm=self._job.arm.memory)
+        return TaughtFacts(**common, **self.known, program=program, arm=self._job.arm.memory)
 
     def _pass(self) -> None:
         self._job.axes.put(self._goal)
