@@ -129,30 +129,43 @@ def test_set_points_of_the_axes_move_the_arm_at_its_greatest_speed_and_stay_in_i
     assert {*first} == {"q", "gap", "goal", "force", "clock"}
     assert info["places"].shape == (5, 2)
     assert {"STACK", "PALLET", "DONE"} <= {*info["taught"]}
+    fastest = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.5, -1.0, 0.0])  # x, yaw, and the hand
     for _ in range(50):
-        seen = env.step(action(env, move__x=0.002, move__hand=-0.002))[0]
-    assert (seen["goal"] - first["goal"])[0] == pytest.approx(0.1)
-    assert seen["q"][0] - first["q"][0] == pytest.approx(0.1, abs=0.005)  # the servos lag by .02 s
+        seen = env.step(fastest)[0]
+    moved = seen["q"] - first["q"]
+    assert (seen["goal"] - first["goal"])[[0, 5]] == pytest.approx((0.1, 0.25))  # .2 m/s, half of 1 rad/s
+    assert moved[[0, 5]] == pytest.approx((0.1, 0.25), abs=0.02)  # the servos lag by .02 s
     assert (seen["goal"][-1], seen["gap"][0]) == (-0.02, pytest.approx(0.0, abs=0.002))
     for _ in range(130):
-        seen = env.step(action(env, move__x=0.002))[0]
+        seen = env.step(fastest)[0]
     assert seen["goal"][0] == 0.2
 
 
 @pytest.mark.slow
-def test_the_taught_program_acts_through_the_actions_as_it_acts_on_the_ports() -> None:
+def test_the_taught_program_acts_through_the_actions_as_it_acts_on_the_ports(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     start = StartStates("palletise", "ray").before(0, WorldSpec(seed=7))
     assert start is not None
-    runner = Runner(start)
+    runner, here, there = Runner(start), list[Array](), list[Array]()
+    job = runner.system.job  # type: ignore[attr-defined]
+    job.bench.after_period.append(lambda: here.append(job.axes.read().q))
     while runner.next is not None and runner.time < 3.5:  # to the stack, and close the hand
         runner.step()
     env = AssemblyEnv(BLOCKS, limit_s=runner.time)
+    step = env.step
+
+    def watched(action: Array) -> Any:
+        seen, *rest = step(action)
+        there.append(np.append(seen["q"], seen["gap"]))
+        return seen, *rest
+
+    monkeypatch.setattr(env, "step", watched)
     found = play(env, policy_maker("program", BLOCKS), 7)
     assert (found.referee["outcome"], found.seconds) == ("not done", round(runner.time, 6))
-    assert env._controls is not None
-    seen, read = env._controls.seen(), runner.system.job.axes.read()  # type: ignore[attr-defined]
-    assert np.append(seen["q"], seen["gap"]) == pytest.approx(read.q, abs=1e-6)
-    assert abs(seen["q"] - env.facts().taught["STACK"]).max() < 2e-3  # type: ignore[attr-defined]
+    assert len(here) == len(there) == found.steps
+    assert np.array(there) == pytest.approx(np.array(here), abs=1e-6)
+    assert abs(there[-1][:6] - env.facts().taught["STACK"]).max() < 2e-3  # type: ignore[attr-defined]
 
 
 # -- chess ----------------------------------------------------------------------------------------------------------

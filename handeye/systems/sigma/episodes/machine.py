@@ -39,9 +39,7 @@ RAILS: Final = tuple(TRAVEL[axis[0]] * STEP_MM for axis in AXES)  # mm: from end
 PERIOD_US: Final = 20_000  # microseconds: length of a step. The program of the job sends 19 commands a second
 HEIGHT: Final = 100.0  # mm: greatest height that can be reported; no piece is higher than 93.5 mm
 LINES: Final = 3  # on which pieces stand at first
-_ASKING: Final = (
-    4_000  # microseconds at the end of a period: the seven questions together take 1.9 ms
-)
+_ASKING: Final = 4_000  # microseconds at the end of a period: the seven questions together take 1.9 ms
 _LONGEST: Final = 20_000_000  # microseconds: longer than any motion of an axis
 _FARTHEST: Final = (protocol.LONGEST_MOVE // 2 + 1) * STEP_MM  # mm: the greatest count; it has 16 bits
 
