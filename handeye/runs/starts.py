@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from handeye import tasks
 from handeye.core.entries import entries
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.faults import Fault
 from handeye.core.files import write_whole
 from handeye.core.processor import processor
@@ -80,7 +80,10 @@ class StartStates:
         kept = self._read(setup, stage)
         if kept is not None:
             return kept
-        runner = Runner(Checkpoint(setup=setup))
+        try:
+            runner = Runner(Checkpoint(setup=setup))
+        except BadFile:  # the program cannot be taught in this world
+            return None
         while not runner.ended:
             at = runner.next
             if runner.between_stages and at is not None:

@@ -168,6 +168,12 @@ def test_the_taught_program_acts_through_the_actions_as_it_acts_on_the_ports(
     assert abs(there[-1][:6] - env.facts().taught["STACK"]).max() < 2e-3  # type: ignore[attr-defined]
 
 
+@pytest.mark.slow
+def test_a_world_in_which_the_program_cannot_be_taught_has_no_start() -> None:
+    env = AssemblyEnv(BLOCKS, world={"set": {"taught": 5.0}})
+    assert env._start(env._spec(2, env._settings)) is None  # a person misses a height of 2 mm by 7 mm
+
+
 # -- chess ----------------------------------------------------------------------------------------------------------
 
 
