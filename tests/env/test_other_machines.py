@@ -210,7 +210,7 @@ def test_a_rail_that_ends_or_a_force_stops_an_axis_and_shows_for_one_step(
 
 @pytest.mark.slow
 def test_the_program_finds_measures_and_reports_a_piece_through_the_actions() -> None:
-    env = AssemblyEnv(CHESS, limit_s=9.0)
+    env = AssemblyEnv(CHESS, limit_s=7.0)
     play(env, policy_maker("program", CHESS), 28)
     assert env._runner is not None
     heard = env._runner.cell.truth.states["heard"]
