@@ -36,6 +36,7 @@ EXAMPLES |= {"site/"}  # what `python3 run.py docs` builds
 EXAMPLES |= {"solution.al", "solution.toml", "brief.md", "task.toml", "feedback.md"}
 EXAMPLES |= {"pallet.trig.json", "job.json", ".trig.json", "FILE.toml", "languages.toml", "scene.xml"}
 EXAMPLES |= {f"handeye/{job}-v0" for job in ("Pin", "Screw", "GasketAndTop", "Pump", "Resume", "Mend")}
+EXAMPLES |= {"handeye/Blocks-v0", "handeye/Chess-v0"}
 """Files that an example, a user or a run makes; and ids of environments, which look like paths."""
 ELSEWHERE = (".venv/", "stanford/", "base/")
 """What the first start makes; names in the scene, which look like paths."""

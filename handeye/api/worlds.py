@@ -81,13 +81,13 @@ class World:
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._scale = dict(scale or {})
         self._faults = given_names(faults, "`faults`")
-        self._table, self._task = tasks.task(task).variation(), task
+        self._table, self._task = tasks.any_task(task).variation(), task
         settings = [f"{name}={value}" for name, value in self._set.items()]
         scales = [f"{name}={factor}" for name, factor in self._scale.items()]
         wanted = overrides(self._table, self._without, settings, scales)
         spec = WorldSpec(seed=number, level=level, overrides=wanted)
         self._table.check(spec)
-        broken = world_options.faults(tasks.task(task).faults(spec), self._faults, by_number)
+        broken = world_options.faults(tasks.any_task(task).faults(spec), self._faults, by_number)
         self._spec = replace(spec, faults=broken)
 
     @property

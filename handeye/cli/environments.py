@@ -17,14 +17,17 @@ PIN: Final = "handeye/Pin-v0"
 
 def environments(*, json: Json = False) -> int:
     """List the Gymnasium environments: their ids, jobs and time limits."""
-    from handeye.env.jobs import JOBS
+    from handeye.env.jobs import jobs
 
     if json:
         put_json(
-            [{"id": job.id, "task": job.task, "limit_s": job.limit_s, "meaning": job.meaning} for job in JOBS]
+            [
+                {"id": job.id, "task": job.task, "limit_s": job.limit_s, "meaning": job.meaning}
+                for job in jobs()
+            ]
         )
         return 0
-    for job in JOBS:
+    for job in jobs():
         say(f"{job.id:25} {job.limit_s:5.0f} s  {job.meaning}")
     return 0
 
@@ -78,7 +81,7 @@ def evaluate(
 
     positive(n, "episode")
     options.check()
-    maker = policy_maker(policy)
+    maker = policy_maker(policy, env)
     chosen = action or usual_action(maker)
     check_policy(policy, maker, env, chosen)
     settings = {"level": level, "limit_s": limit}

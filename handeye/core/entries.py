@@ -90,6 +90,8 @@ class Entry(Record, frozen=True, kw_only=True):
     leg: str = (
         ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can do a leg of a relay
     )
+    environments: dict[str, str] = field(default_factory=dict)
+    """`module:NAME` of the `handeye.env.jobs.Job` of each of its Gymnasium environments, by id."""
     exercises: tuple[str, ...] = ()  # `module:NAME` of each `Exercise` for students
     files: tuple[str, ...] = ()  # files that its finished runs add to their folders
 

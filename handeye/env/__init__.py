@@ -1,8 +1,8 @@
 """Gymnasium environments of the work cell. Importing this package registers them.
 
-An environment runs at the servo's 60 Hz. The observations are the readings of the sensors, and "done" is a part of the
-action: only the referee, at the end of the episode, says whether the work is right. docs/environments.md describes
-observations, actions and rewards.
+Each step is a control period of the machine. The observations are the readings of the sensors, and "done" is a part of
+the action: only the referee, at the end of the episode, says whether the work is right. docs/environments.md
+describes observations, actions and rewards.
 """
 
 try:
@@ -12,10 +12,8 @@ except ImportError:
 
     raise MissingExtra("handeye.env", "gymnasium", "env") from None
 
-from handeye.env.jobs import JOBS
+from handeye.env.jobs import ids
 
-for _job in JOBS:
-    if _job.id not in gymnasium.registry:
-        gymnasium.register(
-            id=_job.id, entry_point="handeye.env.environment:AssemblyEnv", kwargs={"job": _job.id}
-        )
+for _id in ids():
+    if _id not in gymnasium.registry:
+        gymnasium.register(id=_id, entry_point="handeye.env.environment:AssemblyEnv", kwargs={"job": _id})

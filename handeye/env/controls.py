@@ -1,70 +1,91 @@
-"""Carries out the actions of an episode, one servo period each, through the devices of the cell."""
+"""What an environment needs of a machine: it takes commands for periods of equal length, and its sensors are read
+at the end of each period.
 
-from collections.abc import Callable, Mapping
-from typing import Final
+Every kind of machine implements this interface. The environment knows nothing else of a machine.
+"""
 
-import numpy as np
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Any, ClassVar
 
-from handeye.arm.model import constants
-from handeye.core.pose import Array, displaced
-from handeye.env.spaces import SWITCHED, ActionKind
-from handeye.execution.drive import ArmDrive
-from handeye.execution.servo import ServoPeriod
-
-_STANDS: Final = 6
-"""Servo periods in which the brakes bring the arm to rest: .1 s, as when a program stops."""
+from handeye.core.entries import loaded
+from handeye.core.errors import HandeyeError, NoSuchName, Refused
+from handeye.env.jobs import Job
+from handeye.env.policies import Facts
+from handeye.env.spaces import ActionKind, Component, Observation, ObservationSpace
+from handeye.runs.runner import Runner
 
 Values = Mapping[str, float]  # components of an action, in their units
 
 
-class Controls:
-    """Drives arm, hand and screwdriver. `drive` is the servo with which the program worked until the episode began."""
+class MachineStopped(HandeyeError):
+    """Raised if a machine has stopped for good, so that no command can reach it."""
 
-    def __init__(self, drive: ArmDrive, kind: ActionKind) -> None:
-        self.torque = np.zeros(len(drive.arm.joints))  # commanded in the last servo period, shape (n,)
-        self._drive, self._effort = drive, constants(drive.arm).effort
-        self._act: Callable[[Values], None] = {"torques": self._torques, "hand": self._hand}[kind]
-        drive.watch = self._noted
 
+class Controls(ABC):
+    """The machine of one episode. Its time passes only in `act` and `stop`."""
+
+    @abstractmethod
     def act(self, values: Values) -> None:
-        """Let a servo period pass with these commands. Raises PhysicsFailed if the simulation breaks down."""
-        state = self._drive.state
-        state.gap, state.grip, state.tool = values["gap"], values["grip"], values["driver"]
-        state.magnet = values["magnet"] > SWITCHED
-        self._act(values)
+        """Let a period pass with these commands. Raises PhysicsFailed if the simulation breaks down, or
+        MachineStopped.
+        """
 
+    @abstractmethod
     def stop(self) -> None:
-        """Set the brakes, switch the screwdriver off, and wait until the arm stands."""
-        self._drive.state.tool = 0.0
-        for _ in range(_STANDS):
-            self._pass(None)
+        """Bring the machine to rest, because the policy says that the work is done. Raises the same as `act`."""
 
-    def _torques(self, values: Values) -> None:
-        if values["brake"] > SWITCHED:
-            self._pass(None)
-            return
-        wanted = np.array([values[f"torque.{number}"] for number in range(1, len(self._effort) + 1)])
-        self._pass(wanted.clip(-self._effort, self._effort))
+    @abstractmethod
+    def seen(self) -> Observation:
+        """Return the readings at the end of the last period."""
 
-    def _hand(self, values: Values) -> None:
-        drive = self._drive
-        drive.state.load = values["load"]
-        if values["brake"] > SWITCHED:
-            drive.brake(drive.period)
-            return
-        moved = np.array([values[f"move.{axis}"] for axis in "xyz"])
-        turned = np.array([values[f"turn.{axis}"] for axis in "xyz"])
-        goal = displaced(drive.chain.forward(drive.state.q), moved, turned)
-        before = drive.cell.clock.now
-        drive.shift(drive.dynamics(), goal)
-        if drive.cell.clock.now == before:
-            drive.hold(1)  # the goal is out of reach, so the set-point stays
+    @property
+    def known(self) -> Mapping[str, Any]:
+        """What the machine has measured of itself, or was taught, before the episode, for the `info` of `reset`."""
+        return {}
 
-    def _pass(self, torque: Array | None) -> None:
-        """Let a servo period pass with torques (shape (n,)), or with the brakes set."""
-        self._drive.put_out(torque)
-        self._drive.cell.clock.advance(self._drive.period)
-        self.torque = np.zeros(len(self._effort)) if torque is None else torque
+    def facts(self, common: Mapping[str, Any]) -> Facts:
+        """Return what a policy may know. `common` are the arguments of `Facts`."""
+        return Facts(**common)
 
-    def _noted(self, period: ServoPeriod) -> None:
-        self.torque = period.effort
+
+class ControlledMachine(ABC):
+    """The machine of a job, before an episode begins: how it is commanded and read."""
+
+    period: float  # s: length of a step of the environment
+    actions: ClassVar[tuple[ActionKind, ...]] = ("hand",)  # the kinds of action that it takes
+
+    def __init__(self, job: Job) -> None:
+        self.job = job
+
+    @property
+    def sees(self) -> bool:
+        """True if a policy can take pictures with a television camera."""
+        return False
+
+    @abstractmethod
+    def components(self, action: ActionKind, *, pictures: bool) -> tuple[Component, ...]:
+        """Return the components of an action, in order; the last one is `done`."""
+
+    @abstractmethod
+    def observations(self, *, pictures: bool) -> ObservationSpace:
+        """Return the space of the observations."""
+
+    @abstractmethod
+    def begin(self, runner: Runner, action: ActionKind, *, pictures: bool) -> Controls:
+        """Return the controls of an episode that begins in the present state of a run."""
+
+    def check(self, action: ActionKind, *, pictures: bool) -> None:
+        """Raise InvalidInput if the machine does not take a kind of action, or has no camera for pictures."""
+        if action not in self.actions:
+            raise NoSuchName(
+                f"{self.job.id} has no action {action!r}; its only action is {' or '.join(self.actions)}"
+            )
+        if pictures and not self.sees:
+            raise Refused(f"{self.job.id} has no television camera")
+
+
+def machine_of(job: Job) -> ControlledMachine:
+    """Return the machine of a job. Raises InvalidInput if its module cannot be imported."""
+    found: ControlledMachine = loaded(job.machine)(job)
+    return found

@@ -1,4 +1,4 @@
-"""The environment: one job in many worlds; each step is one servo period."""
+"""The environment: one job in many worlds; each step is one control period of the job's machine."""
 
 from collections.abc import Mapping
 from typing import Any, Final, cast
@@ -6,30 +6,18 @@ from typing import Any, Final, cast
 import gymnasium
 import numpy as np
 
-from handeye import tasks
 from handeye.api.worlds import World
 from handeye.core.distributions import random_numbers
 from handeye.core.errors import BadArgument, NoSuchName, PhysicsFailed, Refused
 from handeye.core.faults import Fault
-from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.core.variation import Level, WorldSpec, checked_seed
-from handeye.env.controls import Controls
+from handeye.env.controls import Controls, MachineStopped, machine_of
 from handeye.env.jobs import job_named
 from handeye.env.policies import Facts
 from handeye.env.privileged import potential
-from handeye.env.spaces import (
-    SWITCHED,
-    ActionKind,
-    Observation,
-    action_space,
-    components,
-    named,
-    observation,
-    observation_space,
-)
-from handeye.env.television import Television
+from handeye.env.spaces import SWITCHED, ActionKind, Observation, action_space, named
 from handeye.env.verdict import Verdict, verdict
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -42,7 +30,7 @@ _PASSED_OVER: Final = 20  # worlds in a row in which no episode can start
 class AssemblyEnv(gymnasium.Env[Observation, Array]):
     """A job in the work cell. Each episode takes place in a world of its own.
 
-    The policy sees what the working phase of a program sees: the readings of the sensors. The last component of the
+    The policy sees what a program in the cell sees: the readings of the sensors. The last component of the
     action says that the work is done; then, or at the time limit, the referee judges the true state of the cell.
     """
 
@@ -65,7 +53,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
 
         Args:
             job: id of the environment, such as `handeye/Pin-v0`.
-            action: `hand`: each step moves the set-point of the hand; `torques`: each step sets the joint torques.
+            action: `hand`: each step moves the set-point of the hand; `torques`: each step sets the joint torques. Not
+                every machine takes torques.
             level: size of the errors of the worlds: `low`, `nominal` or `high`.
             world: further arguments of `handeye.World` (`without`, `set`, `scale`, `faults`) for every world.
             pictures: add the last television picture to the observation, and the commands to the camera to the
@@ -92,17 +81,17 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         self.render_mode, self.shaped = render_mode, shaped
         self._settings = {"level": level, **_settings("world", world)}
         self._spec(0, self._settings)  # refuses wrong names now
-        self._work = tasks.task(self.job.task)
-        if pictures and self._work.eye is None:
-            raise Refused(f"{self.job.id} has no television camera")
-        self.components = components(action, self._work.arm, pictures=pictures)
+        self._machine = machine_of(self.job)
+        self._machine.check(action, pictures=pictures)
+        self.metadata = self.metadata | {"render_fps": round(1 / self._machine.period)}
+        self.components = self._machine.components(action, pictures=pictures)
         self._actions = action_space(self.components)
-        self._observations = observation_space(self._work.arm, pictures=pictures)
+        self._observations = self._machine.observations(pictures=pictures)
         self.action_space = cast(gymnasium.Space[Array], self._actions)
         self.observation_space = self._observations
         self._action, self._starts = action, StartStates(self.job.task, camera)
         self._pictures = pictures
-        self._television: Television | None = None
+        self._controls: Controls | None = None
         self._runner: Runner | None = None
         self._over = True
 
@@ -116,9 +105,10 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         Args:
             options: arguments of `handeye.World` for this episode only, such as `{"level": "high"}`.
 
-        Returns: the first observation, and a dictionary with the world, the stage of the program that begins, what the
-            arm has measured of itself, and the seeds of worlds that were passed over because, in them, the program
-            does not reach the start of the job.
+        Returns:
+            the first observation, and a dictionary with the world, the stage of the program that begins, what
+            the machine has measured of itself or was taught, and the seeds of worlds that were passed over
+            because the program does not reach the start there.
 
         Raises:
             InvalidInput: the seed or an option cannot be used.
@@ -137,37 +127,37 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             drawn = self._drawn()
             start = self._start(self._spec(drawn, settings))
         self._runner = runner = Runner(start)
-        self._controls = Controls(runner.context.drive, self._action)
-        self._television = self._switched_on(runner)
-        if runner.next is not None:
-            runner.arm_cell.begin_stage(runner.next.stage + 1)
-        self._began, self._over = runner.arm_cell.now, False
+        self._controls = self._machine.begin(runner, self._action, pictures=self._pictures)
+        self._began, self._over = runner.time, False
         self._height = self._potential()
-        return self._seen(), self._beginning(runner, passed_over)
+        return self._controls.seen(), self._beginning(runner, self._controls, passed_over)
 
     def step(self, action: Array) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Let a servo period pass with an action, or end the episode if the action says that the work is done.
+        """Let a control period pass with an action, or end the episode if the action says that the work is done.
         Values outside of the action space are clipped.
 
         Raises:
             InvalidInput: the action has the wrong size or is not finite, or the episode has ended.
         """
-        if self._over or self._runner is None:
+        if self._over or self._runner is None or self._controls is None:
             raise Refused("the episode has ended; `reset` begins the next one")
         values, stopped = named(self.components, self._checked(action)), ""
         done = values["done"] > SWITCHED
         try:
-            self._passed(values, done=done)
-        except PhysicsFailed as error:
+            if done:
+                self._controls.stop()
+            else:
+                self._controls.act(values)
+        except (PhysicsFailed, MachineStopped) as error:
             stopped = str(error)
-        late = self._runner.arm_cell.now - self._began >= self.limit_s - 1e-9
+        late = self._runner.time - self._began >= self.limit_s - 1e-9
         terminated = done or bool(stopped)
         self._over = terminated or late
         reward, info = self._progress(stopped), {}
         if self._over:
             found = self._judged(done=done, stopped=stopped)
             reward, info = reward + found.reward, {"referee": found.shown()}
-        return self._seen(), reward, terminated, late and not terminated, info
+        return self._controls.seen(), reward, terminated, late and not terminated, info
 
     def render(self) -> Any:
         """Return a photograph of the cell, shape (height, width, 3), if the render mode is `rgb_array`.
@@ -190,27 +180,24 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         Raises:
             InvalidInput: no episode has begun.
         """
-        if self._runner is None:
+        if self._controls is None:
             raise Refused("there are no facts before the first `reset`")
-        memory = self._runner.context.state
-        links = memory.drive.links
-        return Facts(
-            environment=self.job.id,
-            task=self.job.task,
-            action=self._action,
-            components=self.components,
-            action_space=self._actions,
-            observation_space=self._observations,
-            arm=self._work.arm,
-            friction=memory.drive.friction.copy(),
-            links=np.ones(len(memory.drive.q)) if links is None else links.copy(),
-            memory=copied(memory),
-            seed=seed,
+        return self._controls.facts(
+            {
+                "environment": self.job.id,
+                "task": self.job.task,
+                "period": self._machine.period,
+                "action": self._action,
+                "components": self.components,
+                "action_space": self._actions,
+                "observation_space": self._observations,
+                "seed": seed,
+            }
         )
 
     def close(self) -> None:
         """Let go of the cell."""
-        self._runner, self._over = None, True
+        self._runner, self._controls, self._over = None, None, True
 
     # -- inside ---------------------------------------------------------------------------------------
 
@@ -238,13 +225,12 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         name = job.plants[int(drawn.integers(len(job.plants)))]
         return planted(start, Fault(name=name, value=float(drawn.uniform(*job.sizes)), stage=stage + 1))
 
-    def _beginning(self, runner: Runner, passed_over: list[int]) -> dict[str, Any]:
-        world, facts = runner.setup.world, self.facts()
+    def _beginning(self, runner: Runner, controls: Controls, passed_over: list[int]) -> dict[str, Any]:
+        world = runner.setup.world
         return {
             "world": {"seed": world.seed, "level": world.level},
             "stage": "" if runner.next is None else runner.listing.stages[runner.next.stage],
-            "friction": facts.friction,
-            "links": facts.links,
+            **controls.known,
             "passed_over": list(passed_over),
             "privileged": self.shaped,
         }
@@ -260,28 +246,6 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
                 f"an action of {self.job.id} must have {counted(size, 'finite number')}, not {action!r}"
             )
         return values
-
-    def _switched_on(self, runner: Runner) -> Television | None:
-        """Return the television camera of an episode, or None if no pictures are wanted."""
-        drive, camera = runner.context.drive, runner.arm_cell.devices.camera
-        wanted = self._pictures and camera is not None
-        return Television(drive, camera, runner.context.state.camera_ready) if wanted and camera else None
-
-    def _passed(self, values: Mapping[str, float], *, done: bool) -> None:
-        """Let a servo period pass with the commands of an action, or bring the arm to rest if the work is done."""
-        if done:
-            self._controls.stop()
-            return
-        if self._television is not None:
-            self._television.command(values)
-        self._controls.act(values)
-        if self._television is not None:
-            self._television.expose()
-
-    def _seen(self) -> Observation:
-        assert self._runner is not None
-        seen = observation(self._runner.arm_cell.devices.sense(), self._controls.torque)
-        return seen if self._television is None else seen | self._television.seen()
 
     def _judged(self, *, done: bool, stopped: str) -> Verdict:
         assert self._runner is not None

@@ -4,10 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from handeye import tasks
 from handeye.core.distributions import random_numbers
 from handeye.core.pose import Array
 from handeye.core.record import Record
+from handeye.env.controls import machine_of
 from handeye.env.environment import AssemblyEnv
 from handeye.env.jobs import job_named
 from handeye.env.policies import Episode, PolicyMaker, played, policy_maker
@@ -95,8 +95,8 @@ class Evaluation:
     settings: Mapping[str, Any] = field(default_factory=dict)  # further arguments of the environment
 
     def __call__(self, case: Case) -> list[EpisodeRow]:
-        """Play the episode of a case. Raises InvalidInput, or any exception that the policy raises."""
-        maker = policy_maker(self.policy)
+        """Play the episode of a case. Raises InvalidInput, or what the policy raises."""
+        maker = policy_maker(self.policy, self.environment)
         env = AssemblyEnv(self.environment, action=self.action, pictures=self._sees(maker), **self.settings)
         found = play(env, maker, case.seed)
         said = found.referee
@@ -118,7 +118,7 @@ class Evaluation:
     def _sees(self, maker: PolicyMaker) -> bool:
         """Return True if the policy uses pictures, and the cell has a camera."""
         seeing: bool = getattr(maker, "pictures", False)
-        return seeing and tasks.task(job_named(self.environment).task).eye is not None
+        return seeing and machine_of(job_named(self.environment)).sees
 
 
 class OutcomeShare(Record, frozen=True, kw_only=True):

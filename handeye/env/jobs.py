@@ -1,4 +1,7 @@
-"""The jobs of the environments: where each episode starts, and what the referee requires at its end."""
+"""The jobs of the environments: where each episode starts, and what the referee requires at its end.
+
+Here are the jobs of tasks with planned programs. The other systems name theirs in their entries.
+"""
 
 from collections.abc import Mapping
 from typing import Final
@@ -6,6 +9,7 @@ from typing import Final
 import msgspec
 
 from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.entries import entries, loaded
 from handeye.core.errors import NoSuchName
 from handeye.core.record import Record
 
@@ -30,6 +34,10 @@ class Job(Record, frozen=True, kw_only=True):
     id: str  # name of the environment
     meaning: str  # sentence that says what has to be done
     task: str
+    machine: str = "handeye.env.controlled_arm:ControlledArm"
+    """`module:NAME` of the class of the job's machine, derived from `handeye.env.controls.ControlledMachine`."""
+    policies: Mapping[str, str] = msgspec.field(default_factory=dict)
+    """`module:NAME` of the makers of included policies that only this job has, by the names of the policies."""
     stages: tuple[int, ...] = (0,)
     """Numbers of the stages before which an episode may start; the first stage of the program is 0. If there are
     several numbers, the seed chooses one.
@@ -70,7 +78,7 @@ _PUMP: Final = {
 _PART: Final = ("base", "gasket", "top", "rack", "dispenser")
 """Findings that must hold for an unfinished pump: those on its layers, on the rack and on the dispenser."""
 
-JOBS: Final = (
+PLANNED: Final = (
     Job(
         id="handeye/Pin-v0",
         meaning="The hand holds a pin over a hole whose place is not exactly known. Insert the pin.",
@@ -130,11 +138,30 @@ JOBS: Final = (
 )
 
 
+def ids() -> tuple[str, ...]:
+    """Return the ids of all environments. No system is loaded."""
+    return (*(job.id for job in PLANNED), *_elsewhere())
+
+
+def jobs() -> tuple[Job, ...]:
+    """Return the jobs of all environments. Raises InvalidInput if a system's job cannot be imported."""
+    return tuple(map(job_named, ids()))
+
+
 def job_named(name: str) -> Job:
-    """Return the job of an environment. Raises NoSuchName if there is no such job."""
-    found = {job.id: job for job in JOBS}
-    if not isinstance(name, str) or name not in found:
-        name = str(name)
-        near = suggestion(name, found) or f"the environments are {', '.join(map(quoted, found))}"
+    """Return the job of an environment. Raises NoSuchName if there is none."""
+    found = next((job for job in PLANNED if job.id == name), None)
+    if found is not None:
+        return found
+    places = _elsewhere()
+    if not isinstance(name, str) or name not in places:
+        name, known = str(name), ids()
+        near = suggestion(name, known) or f"the environments are {', '.join(map(quoted, known))}"
         raise NoSuchName(f"there is no environment {quoted(name)}; {near}")
-    return found[name]
+    job: Job = loaded(places[name])
+    return job
+
+
+def _elsewhere() -> Mapping[str, str]:
+    """For each environment that a system names in its entry, return where its job is imported from."""
+    return {name: place for entry in entries().values() for name, place in entry.environments.items()}

@@ -14,6 +14,7 @@ from handeye.core.diagnostics import quoted
 from handeye.core.entries import loaded
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.pose import Array
+from handeye.env.jobs import job_named
 from handeye.env.spaces import ActionKind, Component, Observation
 from handeye.execution.state import ExecutionState
 
@@ -28,16 +29,23 @@ class Facts:
 
     environment: str  # its id
     task: str
+    period: float  # s: length of a step
     action: ActionKind
     components: tuple[Component, ...]  # of an action
     action_space: spaces.Box
     observation_space: spaces.Dict
+    seed: int  # for the policy's own random numbers; it says nothing about the world
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArmFacts(Facts):
+    """What a policy may know of the arm of a task with planned programs."""
+
     arm: ArmModel  # as its drawing describes it
     friction: Array  # Coulomb friction of each joint as the arm has measured it, shape (n,), N m or N
     links: Array  # measured weight of each link, divided by the weight in the model, shape (n,)
     memory: ExecutionState
     """What the program remembers when the episode starts: positions that it has measured, and the calibrated camera."""
-    seed: int  # for the policy's own random numbers; it says nothing about the world
 
 
 @dataclass(slots=True, kw_only=True)
@@ -50,7 +58,7 @@ class Episode:
     steps: int = field(default=0, init=False)  # done so far
 
     def step(self, action: Array) -> Observation:
-        """Carry out an action for a servo period, and return the next observation. Raises EpisodeOver at the end of
+        """Carry out an action for a period, and return the next observation. Raises EpisodeOver at the end of
         the episode.
         """
         self.observation, over = self.advance(action)
@@ -64,8 +72,8 @@ class Policy:
     """A policy for one episode: `MODULE:NAME` names the class of the policy, or a function that makes the policy from
     the facts.
 
-    A policy that answers each observation with an action has the method `act`. A policy that is written as a sequence
-    of motions overrides `play` instead, and calls `episode.step` once in each servo period.
+    A policy that answers each observation with an action has the method `act`. One that is written as a sequence of
+    motions overrides `play` instead, and calls `episode.step` once in each period.
     """
 
     actions: tuple[ActionKind, ...] = (
@@ -113,12 +121,13 @@ BUILT_IN: Final = {
 }
 
 
-def policy_maker(name: str) -> PolicyMaker:
-    """Return the maker of a policy. `name` is the name of an included policy, or MODULE:NAME for a maker in a module
-    on Python's path or in the current folder. Raises InvalidInput if there is no such policy.
+def policy_maker(name: str, environment: str) -> PolicyMaker:
+    """Return the maker of a policy for an environment: one that is included, or MODULE:NAME in a module on Python's
+    path or in the current folder. Raises InvalidInput if there is none.
     """
-    if name in BUILT_IN:
-        found: PolicyMaker = loaded(BUILT_IN[name])
+    included = {**BUILT_IN, **job_named(environment).policies}
+    if name in included:
+        found: PolicyMaker = loaded(included[name])
         return found
     module, _, attribute = name.partition(":")
     if not attribute:
@@ -157,8 +166,8 @@ def check_policy(name: str, maker: PolicyMaker, environment: str, action: Action
 
 
 def played(policy: Any, episode: Episode) -> None:
-    """Let a policy play an episode to its end. If the policy ends before the episode, the arm holds still until the
-    time limit, because the policy has not reported that the work is done.
+    """Let a policy play an episode to its end. If the policy ends before the episode, the machine stands still until
+    the time limit: the policy has not reported that the work is done.
     """
     try:
         if hasattr(policy, "play"):
@@ -181,8 +190,5 @@ class _Function(Policy):
 
 
 def _still(episode: Episode) -> Array:
-    """Return the action that sets the brakes."""
-    names = [part.name for part in episode.facts.components]
-    action = np.zeros(len(names))
-    action[names.index("brake")] = 1.0
-    return action
+    """Return the action that commands no motion, and sets the brakes of a machine that has brakes."""
+    return np.array([float(part.name == "brake") for part in episode.facts.components])

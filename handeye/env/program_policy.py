@@ -2,8 +2,8 @@
 
 from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.mutable_records import copied
-from handeye.env.jobs import job_named
-from handeye.env.policies import Episode, Facts, Policy
+from handeye.env.jobs import PLANNED, job_named
+from handeye.env.policies import ArmFacts, Episode, Policy
 from handeye.env.seen_cell import seen_cell
 from handeye.env.spaces import ActionKind
 from handeye.execution.context import ExecutionContext
@@ -13,8 +13,8 @@ from handeye.tasks import task
 from handeye.vision.camera_model import CameraModel
 
 
-def _camera(facts: Facts) -> CameraModel | None:
-    """Return the camera as the program has calibrated it, or as the camera's drawing describes it."""
+def _camera(facts: ArmFacts) -> CameraModel | None:
+    """Return the camera as the program has calibrated it, or as its drawing describes it."""
     if facts.memory.calibration is not None:
         return facts.memory.calibration.model
     eye = task(facts.task).eye
@@ -28,7 +28,9 @@ class ProgramPolicy(Policy):
     the operator, the policy sets the brakes and waits for the time limit.
     """
 
+    facts: ArmFacts
     actions: tuple[ActionKind, ...] = ("torques",)
+    environments = tuple(job.id for job in PLANNED)
     pictures = True
 
     def play(self, episode: Episode) -> None:

@@ -13,7 +13,7 @@ from handeye.arm.ik.result import IKResult
 from handeye.arm.line import straight
 from handeye.cell.compiled_arm import CompiledArm
 from handeye.core.pose import Array
-from handeye.env.policies import Episode, Policy
+from handeye.env.policies import ArmFacts, Episode, Policy
 from handeye.env.seen_cell import seen_cell
 from handeye.env.spaces import ActionKind
 from handeye.execution.compliance import Course
@@ -40,6 +40,7 @@ _DOWN: Final = np.array([0.0, 0.0, -1.0])
 class ScriptedPin(Policy):
     """Searches for the hole on a square spiral by touch, and inserts the pin."""
 
+    facts: ArmFacts
     actions: tuple[ActionKind, ...] = ("torques",)
     environments = ("handeye/Pin-v0",)
 

@@ -119,7 +119,7 @@ class SeenClock(Clock):
         return float(self._commands.episode.observation["clock"][0])
 
     def advance(self, seconds: float) -> None:
-        for _ in range(round(seconds / self._commands.episode.facts.arm.servo.period)):
+        for _ in range(round(seconds / self._commands.episode.facts.period)):
             self._commands.step()
 
     def done(self) -> None:

@@ -15,6 +15,7 @@ from handeye.ports.workcell import Sensed
 
 ActionKind = Literal["torques", "hand"]
 Observation = dict[str, Any]  # see `observation_space`
+ObservationSpace = spaces.Dict
 
 STEP: Final = 0.002
 """Greatest displacement (m) of the hand's set-point along each axis in a servo period. The speed is then .12 m/s. Our
@@ -28,7 +29,9 @@ LOAD: Final = 50.0  # greatest weight in the hand that the servo compensates, N:
 SWITCHED: Final = 0.5  # a switch of the action is on above this value
 
 _RATE: Final = 1e3  # beyond any rate of a joint, rad/s or m/s
-_FAR: Final = 1e3  # beyond any reading of a position (rad or m) or of the screwdriver (N m)
+_FAR: Final = (
+    1e3  # beyond any reading of a position (rad, m or mm), of a force (N) or of the screwdriver (N m)
+)
 _LATE: Final = 1e6  # beyond any reading of the clock, s
 
 
@@ -98,30 +101,50 @@ def action_space(parts: tuple[Component, ...]) -> spaces.Box:
     return spaces.Box(low=low, high=np.ones(len(parts)), dtype=np.float64)
 
 
+def numbers(count: int, most: float | Array = _FAR) -> spaces.Box:
+    """Return the space of `count` readings, each between -most and most."""
+    high = np.broadcast_to(most, (count,))
+    return spaces.Box(low=-high, high=high, dtype=np.float64)
+
+
+def codes(count: int, most: int) -> spaces.Box:
+    """Return the space of `count` whole numbers, each between 0 and most."""
+    return spaces.Box(low=0, high=most, shape=(count,), dtype=np.int8)
+
+
+def switches(count: int) -> spaces.MultiBinary:
+    """Return the space of `count` switches."""
+    return spaces.MultiBinary(count)
+
+
+def clock() -> spaces.Box:
+    """Return the space of the clock's reading (s), shape (1,)."""
+    return spaces.Box(low=0.0, high=_LATE, shape=(1,), dtype=np.float64)
+
+
+def together(readings: Mapping[str, spaces.Space[Any]]) -> ObservationSpace:
+    """Return the space of observations with these readings, by name."""
+    return spaces.Dict(dict(readings))
+
+
 def observation_space(arm: ArmModel, *, pictures: bool) -> spaces.Dict:
     """Return the space of the observations: the readings of all ports at the end of a servo period."""
     n, effort = len(arm.joints), constants(arm).effort
-
-    def box(most: float | Array, shape: tuple[int, ...]) -> spaces.Box:
-        return spaces.Box(
-            low=-np.broadcast_to(most, shape), high=np.broadcast_to(most, shape), dtype=np.float64
-        )
-
     found: dict[str, spaces.Space[Any]] = {
-        "q": box(_FAR, (n,)),
-        "qd": box(_RATE, (n,)),
-        "torque": box(effort, (n,)),
-        "gap": box(_FAR, (1,)),
-        "touch": spaces.MultiBinary(2),
-        "screwdriver": box(_FAR, (1,)),
-        "braked": spaces.MultiBinary(1),
-        "clock": spaces.Box(low=0.0, high=_LATE, shape=(1,), dtype=np.float64),
+        "q": numbers(n),
+        "qd": numbers(n, _RATE),
+        "torque": numbers(n, effort),
+        "gap": numbers(1),
+        "touch": switches(2),
+        "screwdriver": numbers(1),
+        "braked": switches(1),
+        "clock": clock(),
     }
     if pictures:
-        found["camera"] = box(_FAR, (2,))
+        found["camera"] = numbers(2)
         found["picture"] = spaces.Box(low=0, high=15, shape=(ROWS, COLUMNS), dtype=np.uint8)
         found["picture_age"] = spaces.Box(low=-1.0, high=_LATE, shape=(1,), dtype=np.float64)
-    return spaces.Dict(found)
+    return together(found)
 
 
 def observation(sensed: Sensed, torque: Array) -> Observation:

@@ -15,7 +15,8 @@ import msgspec
 from msgspec.structs import replace
 
 from handeye import tasks
-from handeye.core.errors import InvalidInput
+from handeye.core.entries import entries
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.faults import Fault
 from handeye.core.files import write_whole
 from handeye.core.processor import processor
@@ -29,7 +30,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.scripts import default_script, plan_script
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.systems import digest_of
+from handeye.runs.systems import digest_of, system_named
 
 MOST: Final = 1 << 28  # bytes of all kept starts; beyond this the oldest are removed
 
@@ -75,11 +76,14 @@ class StartStates:
         """Return the state in which the program begins a stage in a world; None if the program stops before that stage
         in this world. Stages are numbered from 0.
         """
-        setup = Setup(plan=own_plan(self._task), world=world, camera=self._camera)
+        setup = own_setup(self._task, world, self._camera)
         kept = self._read(setup, stage)
         if kept is not None:
             return kept
-        runner = Runner(Checkpoint(setup=setup))
+        try:
+            runner = Runner(Checkpoint(setup=setup))
+        except BadFile:  # the program cannot be taught in this world
+            return None
         while not runner.ended:
             at = runner.next
             if runner.between_stages and at is not None:
@@ -133,6 +137,21 @@ def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
         kept, figures={**fresh.figures, **kept.figures}, mechanisms={**fresh.mechanisms, **kept.mechanisms}
     )
     return replace(start, setup=replace(setup, world=world), snapshot=replace(snapshot, cell=cell))
+
+
+def own_setup(task: str, world: WorldSpec, camera: str) -> Setup:
+    """Return the setup of a run of a task's own program, by the system to which the task belongs."""
+    system = next((entry.name for entry in entries().values() if task in entry.tasks), None)
+    if system is None:
+        return Setup(plan=own_plan(task), world=world, camera=camera)
+    return Setup(system=system, plan=_systems_plan(system, task), world=world, camera=camera)
+
+
+@cache
+def _systems_plan(system: str, task: str) -> Record:
+    """Return the plan of a system's own program for a task. It is made once, because plans are known by identity."""
+    plan: Record = system_named(system).own_plan(task)
+    return plan
 
 
 @cache

@@ -22,6 +22,13 @@ def test_values_are_in_their_own_units() -> None:
     assert (world.unit("camera.place.x"), world.values["camera.place.x"]) == ("in", pytest.approx(0.3))
 
 
+def test_the_tasks_of_all_systems_have_worlds() -> None:
+    world = handeye.World(seed=3, task="chess", set={"beams.height": "1 mm"})
+    assert (world.task, world["beams.height"], world.unit("beams.height")) == ("chess", 1.0, "mm")
+    with pytest.raises(InvalidInput, match="the task `chess` exports no scene"):
+        world.export("x")
+
+
 def test_nobody_changes_the_values_of_a_world() -> None:
     with pytest.raises(TypeError, match="does not support item assignment"):
         handeye.World().values["camera.place.x"] = 7.0

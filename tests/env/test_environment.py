@@ -16,7 +16,7 @@ import handeye.env
 from handeye.core.errors import InvalidInput, MissingExtra, PhysicsFailed
 from handeye.core.pose import Array
 from handeye.env.environment import AssemblyEnv
-from handeye.env.jobs import JOBS
+from handeye.env.jobs import ids
 from handeye.env.spaces import Observation
 from handeye.runs import starts
 from handeye.runs.runner import Runner
@@ -43,7 +43,7 @@ def test_gymnasiums_own_checker_finds_nothing(action: str) -> None:
     check_env(gymnasium.make(PIN, action=action).unwrapped, skip_render_check=True)
 
 
-@pytest.mark.parametrize("job", [job.id for job in JOBS])
+@pytest.mark.parametrize("job", ids())
 def test_an_environment_is_made_by_its_name_and_by_that_of_its_module(job: str) -> None:
     assert isinstance(gymnasium.make(job).unwrapped, AssemblyEnv)
     assert isinstance(gymnasium.make(f"handeye.env:{job}").unwrapped, AssemblyEnv)

@@ -14,7 +14,7 @@ from handeye.core.variation import WorldSpec
 from handeye.env import program_policy
 from handeye.env.environment import AssemblyEnv
 from handeye.env.evaluation import play
-from handeye.env.jobs import JOBS
+from handeye.env.jobs import PLANNED
 from handeye.env.spaces import components
 from handeye.env.television import NONE_YET, Television
 from handeye.env.verdict import REWARDS, verdict
@@ -24,8 +24,9 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.starts import planted
+from handeye.tasks import task
 
-PUMP_JOBS = [job for job in JOBS if job.task == "water_pump"]
+PUMP_JOBS = [job for job in PLANNED if job.task == "water_pump"]
 
 
 @pytest.fixture(scope="module")
@@ -130,5 +131,5 @@ def test_a_program_takes_its_pictures_through_the_actions(
 def test_commands_to_the_camera_are_there_only_with_pictures() -> None:
     with_, without = AssemblyEnv("handeye/Pump-v0", pictures=True), AssemblyEnv("handeye/Pump-v0")
     assert {"look", "pan"} <= {part.name for part in with_.components}
-    assert without.components == components("hand", with_._work.arm, pictures=False)
+    assert without.components == components("hand", task("water_pump").arm, pictures=False)
     assert {*with_.observation_space} - {*without.observation_space} == {"camera", "picture", "picture_age"}  # type: ignore[misc]

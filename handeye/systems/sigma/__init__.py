@@ -44,5 +44,6 @@ trials line = handeye.systems.sigma.cli.jobs:line_trials: Run an assembly line i
     faults="handeye.systems.sigma.run.fault_trials:fault_trials",
     orders="handeye.systems.sigma.mal.orders:order_problems",
     exercises=("handeye.systems.sigma.order_exercise:SHARE",),
+    environments={"handeye/Chess-v0": "handeye.systems.sigma.episodes.job:CHESS"},
     events="handeye.systems.sigma.mal.happenings:EVENTS",
 )

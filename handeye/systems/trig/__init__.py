@@ -33,5 +33,6 @@ trials pallet = handeye.systems.trig.cli.jobs:pallet_trials: Palletise in many w
     },
     programs="handeye.systems.trig.run.job:program_plan",
     sweeps={"pallet": "handeye.systems.trig.run.pallet_trials:PALLET"},
+    environments={"handeye/Blocks-v0": "handeye.systems.trig.episodes.job:BLOCKS"},
     files=("job.json", "program.trig.json"),
 )

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Final
 from handeye.core.units import MILLIMETRE
 from handeye.judge.finding import Findings, at_most
 from handeye.judge.measured import tilt
+from handeye.systems.sigma.chess.heights import ToldHeight
 from handeye.systems.sigma.chess.pieces import Piece, drawn, stand
-from handeye.systems.sigma.chess.witness import HeardHeights, ToldHeight
+from handeye.systems.sigma.chess.witness import HeardHeights
 from handeye.systems.sigma.gantries.job import JobTask
 from handeye.systems.sigma.gantries.machine import scene
 from handeye.systems.sigma.gantries.witness import HEARD, Witness

@@ -104,6 +104,15 @@ class RunningMal(NumberedRun):
     def time(self) -> float:
         return self.vm.time
 
+    @property
+    def machine(self) -> PerfectMotors | WiredBus:
+        """The machine of the plan, as the program commands it."""
+        return self._machine
+
+    def type_out(self, text: str) -> None:
+        """Print a line on the console, as a program does with PRINT."""
+        self._tell(Printed(time=self.time, task="", text=text))
+
     def _tell(self, event: SystemEvent) -> None:
         if self._witness is not None and isinstance(event, Printed):
             self._witness.hear(event.text)

@@ -1,0 +1,1 @@
+"""The chess experiment as a Gymnasium environment."""

@@ -1,0 +1,1 @@
+"""The palletiser as a Gymnasium environment."""
