@@ -32,7 +32,8 @@ GIVEN = {
     WorldModel: {"parts", "positions"},
 }
 """Given anew to each when a run is taken up; `vision` counts processor time, which differs from run to run, `track`
-is begun anew with each step, `_unseen` with each servo period, and `_chain` is made of what is given and what the arm has weighed."""
+is begun anew with each step, `_unseen` with each servo period, and `_chain` is made of what is given and what the arm
+has weighed."""
 
 
 def test_what_works_holds_what_it_is_given_and_its_state() -> None:
