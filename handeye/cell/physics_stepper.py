@@ -181,10 +181,13 @@ class PhysicsStepper:
         cover this time again in fine steps.
         """
         mujoco.mj_getState(self._model, self._data, self._before, _WHOLE_STATE)
-        broken = self._warnings.any()
+        broken = self._warned()
         self._advance(steps)
-        if self._warnings.any() and not broken:
+        if self._warned() and not broken:
             self._again(steps)
+
+    def _warned(self) -> bool:
+        return any(self._warnings.tolist())
 
     def _advance(self, steps: int) -> None:
         touching = self._contacts.now()
