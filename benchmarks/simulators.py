@@ -127,7 +127,7 @@ def lines(costs: list[Cost]) -> Iterator[str]:
 
 
 def _installed(library: Library, folder: Path) -> Path:
-    """Return the interpreter with which a library is used; install the library if it is not there yet."""
+    """Return the interpreter with which a library is used; install the library if it is missing."""
     if library.name == OURS:
         return Path(sys.executable)
     home = folder / library.name
