@@ -96,8 +96,8 @@ def test_the_list_says_what_is_off_and_what_is_set(command: Command) -> None:
     rows = {line.split()[0]: " ".join(line.split()[1:]) for line in out.splitlines() if line.startswith("  ")}
     assert rows["camera.pot_noise"] == "0 deg off (noise, sigma 0.14 deg)"
     assert rows["part_mass"] == "5 % set (sigma 2 %)"
-    assert rows["arm.friction.1"].endswith("N m within 0.1 N m about 0.4 N m")
-    assert rows["arm.friction.2"].endswith("N m within 0.4 N m about 0.8 N m")
+    assert rows["arm.friction.1"].endswith("N m within 0.1 N m of 0.4 N m")
+    assert rows["arm.friction.2"].endswith("N m within 0.4 N m of 0.8 N m")
 
 
 def test_the_page_on_worlds_shows_what_the_command_prints(command: Command) -> None:

@@ -92,8 +92,8 @@ class SimulatedCell(Clock, SnapshotCell):
             part.begin_stage(number)
 
     def restore(self, state: CellState) -> None:
-        """Restore the cell to a state; see `SnapshotCell.restore`. Bodies that slept need only one step to fall asleep
-        again.
+        """Restore the cell to a state; see `SnapshotCell.restore`. Bodies that were asleep in this state need only one
+        step to fall asleep again.
         """
         super().restore(state)
         let_rest(self._model, self._data)

@@ -148,8 +148,8 @@ notes = _Screen(stderr=True)
 def say(text: str, to: Console = screen, *, style: str | None = None, whole: bool = False) -> None:
     """Print plain text, which may come from an untrusted file.
 
-    On a terminal, lines are wrapped between words. A `whole` text is meant to be copied, so its lines are not
-    wrapped.
+    On a terminal, lines are wrapped between words. If `whole` is true, the text is meant to be copied, so its lines
+    are not wrapped.
     """
     shown = visible(text)
     if to.is_terminal and not whole:

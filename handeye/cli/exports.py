@@ -177,7 +177,7 @@ def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> in
 
 
 def _cut(recorded: "RecordedRun") -> int:
-    """1, and a printed note, if the trace was cut short; 0 if the trace is complete."""
+    """The exit code: 1, with a printed note, if the trace was cut short; 0 if the trace is complete."""
     name = recorded.trace.name
     if recorded.whole or name.endswith(".part"):  # a .part file has a note of its own
         return 0

@@ -112,6 +112,6 @@ def _edit(words: Callable[[], Iterable[str]]) -> None:
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:
-    """The completion with this number, from 0, of a word that begins with `start`; None after the last completion."""
+    """One of the completions of the typed text `start`: the one with this number, counted from 0. None after the last."""
     found = sorted({word for word in words if word.upper().startswith(start.upper())})
     return f"{found[number]} " if number < len(found) else None

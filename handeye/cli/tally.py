@@ -29,8 +29,8 @@ class Tally:
         silent: bool = False,
         kept: int = 0,
     ) -> None:
-        """Count `total` trials, of which `kept` are finished already. With `silent`, no lines are printed for trials,
-        because the caller reports each trial.
+        """Start counting. `total` is the number of trials, and `kept` is the number of trials that have already
+        finished. If `silent` is true, no lines are printed for trials, because the caller reports each trial.
         """
         self._silent, self._kept = silent, kept
         self._total, self._what, self._console, self._clock = total, what, console, clock

@@ -110,8 +110,9 @@ class ErrorOptions:
         replace(self, without=None).spec(seed)
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """Split `--without`. The first value has these options, with only the errors of the world in `--without`. The
-        second value has the senses and macros that the program must do without, each once.
+        """Split the names in `--without`. The first value is a copy of these options; its `--without` keeps only the
+        errors of the world. The second value contains the senses and macros that the program must do without, each
+        once.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -223,8 +224,8 @@ class WorldOptions:
         return given.world
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """Split `--without`. The first value has these options, with only the errors of the world in `--without`. The
-        second value has the senses and macros that the program must do without.
+        """Split the names in `--without`. The first value is a copy of these options; its `--without` keeps only the
+        errors of the world. The second value contains the senses and macros that the program must do without.
         """
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared

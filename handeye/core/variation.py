@@ -96,7 +96,9 @@ class Overrides(Record, frozen=True, kw_only=True):
 
 
 class WorldSpec(Record, frozen=True, kw_only=True):
-    """The complete specification of a world, as runs record it; equal specifications give equal worlds."""
+    """The complete specification of a world, which the record of a run contains. Equal specifications give equal
+    worlds.
+    """
 
     seed: Seed
     level: Level = "nominal"

@@ -91,7 +91,7 @@ class Stepper:
         return self._reply("", told, len(runner.events))
 
     def _reply(self, line: str, told: CommandResult, happened: int, error: str | None = None) -> Reply:
-        """Return the reply to a line, with the events that followed the first `happened` events of the run."""
+        """Return the reply to a line, with the events of the run after the first N, where N is `happened`."""
         session = self.session
         runner, step, stage = session.runner, session.runner.next, session.stage
         events = runner.events[happened:]

@@ -54,8 +54,8 @@ class Job(Record, frozen=True, kw_only=True):
     """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work in their order, each with the beginnings of the names of the findings that show that the step
-    is done.
+    """Steps of the work, in their order. A step is done if certain findings hold; its value gives the beginnings of
+    the names of these findings.
     """
 
     def requires(self, finding: str) -> bool:

@@ -33,8 +33,8 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     verdict: Verdict
     phases: tuple[tuple[int, ...], ...] = ()  # for each phase, the steps that show it
     passed: tuple[int | None, ...] = ()
-    """For each phase, the last step that shows it and that every path to the end passes, before the steps of the later
-    phases. It is None if different paths show the phase at different steps. Empty unless the claim is shown.
+    """For each phase, a step that shows the phase on every path to the end: the last such step before that of the next
+    phase. None for a phase that different paths show at different steps. Empty unless the claim is shown.
     """
     way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None

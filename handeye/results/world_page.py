@@ -114,16 +114,17 @@ def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
 def how(quantity: QuantityReport) -> str:
     """Describe the distribution of a quantity in words."""
     unit = quantity.unit and f" {quantity.unit}"
-    about = f" about {quantity.nominal:g}{unit}" if quantity.nominal else ""
+    nominal = f"{quantity.nominal:g}{unit}"
+    mean, of = (f"mean {nominal}, ", f" of {nominal}") if quantity.nominal else ("", "")
     match quantity.spread:
         case tuple(values) if quantity.distribution == Choice.name:
             return " or ".join(f"{value:g}{unit}" for value in values)
         case (low, high):
             return f"{low:g} to {high:g}{unit}"
         case float(spread) if quantity.distribution == Normal.name:
-            return f"sigma {spread:g}{unit}{about}"
+            return f"{mean}sigma {spread:g}{unit}"
         case float(spread) if quantity.distribution == Uniform.name:
-            return f"within {spread:g}{unit}{about}"
+            return f"within {spread:g}{unit}{of}"
         case float(spread) if quantity.distribution == Noise.name:
             return f"noise, sigma {spread:g}{unit}"
         case float(spread):

@@ -93,7 +93,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 
 
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
-    """Report what was done after the first `happened` events of the present plan."""
+    """Report what was done after the first N events of the present plan, where N is `happened`."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
     did = tuple(step for step in told if step.line is not None)

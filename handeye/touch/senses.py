@@ -51,8 +51,8 @@ STALLED_TORQUE: Final = 0.37
 STARTING_PERIODS: Final = 4
 """Servo periods that a motor takes to reach the speed of driving. We measured 4.2 periods."""
 FAST_PERIODS: Final = 6
-"""Servo periods after which a free motor of the usual speed has certainly started. A motor that turns at 1.4 times
-this speed is then still starting.
+"""Servo periods after which a free motor of the usual speed has certainly started. By then, a motor whose full speed
+is 1.4 times the usual speed is still starting.
 """
 WIND_UP: Final = 0.2
 """Longest time (s) for which the torque rises after the head of a screw has met the top. The value is our choice; the

@@ -40,7 +40,7 @@ class _Teller:
     _camera: float = 0.0  # part of the stage that the camera's mechanism took, s
     _shift: Array | None = None  # offset of the goal of the present step from its planned place, m
     _off: Array = field(default_factory=lambda: np.zeros(3))
-    """Offset (m) of the place where the last motion ended from the planned place. If the next motion is straight, it
+    """Offset (m) from the planned end of the last motion to its actual end. If the next motion is straight, it
     begins with this offset.
     """
     _tested: str | None = None  # the answer to a test, until it is known where the program continues

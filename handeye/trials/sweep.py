@@ -39,7 +39,8 @@ not check the limit.
 """
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
-"""Ends of a trial that this computer causes, and not the program. If such a trial is repeated, it may end differently.
+"""The ways in which this computer, and not the program, ends a trial. If such a trial is repeated, it may end
+differently.
 """
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",

@@ -79,7 +79,7 @@ class EarlyContact:
 
 RAMP: Final = 8
 """Number of servo periods for speeding up and for slowing down. Our choice. The path needs both, because a motion that
-a force ended did not slow down at its end.
+was ended by a force did not slow down at its end.
 """
 JOIN: Final = 5e-4
 """Speed (rad or m per servo period) at which the joints first move to the end of the path, because brakes and

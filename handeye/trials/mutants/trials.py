@@ -33,8 +33,8 @@ Outcome = Literal["refused", "caught", "unnoticed", "silent", "not run"]
 - caught: the mutant stopped in at least one run, and was silent in none
 - unnoticed: in all runs, the mutant went on to its end, and the work is right
 - silent: in a run, the work is wrong, but the mutant reported success
-- not run: the proof does not refuse the mutant, and it was not tried. Either no known fault is what the changed check
-  should notice, or no runs were requested
+- not run: the proof does not refuse the mutant, and it was not tried. Either we know no fault that the changed check
+  is meant to notice, or no runs were requested
 """
 
 

@@ -53,7 +53,7 @@ class Margin:
     """The margin of a run, and the part that determines the margin."""
 
     value: float
-    """A value of 1 means that the run had as much left as runs usually have. A value of 0 or less means that the run
+    """A value of 1 means that the run had the reserve that runs usually have. A value of 0 or less means that the run
     failed in this way. An infinite value means that the run gives no information about this kind of failure.
     """
     part: str

@@ -92,7 +92,7 @@ def _box(name: str, mass: float, at: str, size: str = ".05 .04 .03", joint: str 
 
 
 def _press(stiffness: float, at: str, axis: str) -> str:
-    """A stamp of .5 kg on a slide, pressed by a spring that is 10 mm short."""
+    """A plunger of .5 kg on a slide, pressed by a spring that is 10 mm short."""
     joint = f'<joint name="press" type="slide" axis="{axis}" stiffness="{stiffness}" springref="-.01" damping="20"/>'
     return _box("press", 0.5, at, size=".02 .02 .02", joint=joint)
 
@@ -153,16 +153,19 @@ def slider() -> Iterator[Force]:
 
 
 def spring() -> Iterator[Force]:
-    """A stamp that a spring presses on a block."""
+    """A plunger that a spring presses on a block."""
     rig = Rig(TABLE + _box("block", 0.5, "0 0 .03") + _press(2000, "0 0 .08", "0 0 1")).run()
     reckoned, simulated = rig.squeeze("press") + 0.5 * GRAVITY, rig.on("press", "block")[2]
     yield Force(
-        rig="a stamp of .5 kg and a spring of 2 N/mm", what="stamp", reckoned=reckoned, simulated=simulated
+        rig="a plunger of .5 kg and a spring of 2 N/mm",
+        what="plunger",
+        reckoned=reckoned,
+        simulated=simulated,
     )
 
 
 def clamped() -> Iterator[Force]:
-    """A block that hangs between a wall and a stamp, held by friction."""
+    """A block that hangs between a wall and a plunger, held by friction."""
     name = "2 kg between a wall and a spring of 10 N/mm"
     wall = _body("wall", "-.06 0 .2", "", 'type="box" size=".01 .1 .1"')
     rig = Rig(wall + _box("block", 2.0, "0 0 .2") + _press(10000, ".07 0 .2", "1 0 0")).run(0.5)

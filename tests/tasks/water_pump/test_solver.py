@@ -44,7 +44,9 @@ FOUR_HINGES = """
 </worldbody>
 <equality><joint joint1="b" joint2="a"/><joint joint1="c" joint2="d"/></equality></mujoco>
 """
-"""The smallest pattern found that MuJoCo 4.0.0 factorises wrongly: two tied to links of one chain."""
+"""The smallest pattern found that MuJoCo 4.0.0 factorises wrongly: a chain of two hinges, each of which is coupled to
+another hinge.
+"""
 
 
 def test_the_cell_takes_the_sparse_path() -> None:

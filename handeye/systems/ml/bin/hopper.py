@@ -30,7 +30,7 @@ THICK: Final = (
 PADS: Final = [0.999, 0.999, 0.0005, 0.5, 2.0]
 """Impedance of the contacts of fingers that hold light parts firmly.
 
-In MuJoCo, a contact that friction holds creeps. With the arm's usual impedance of .95 to .99, a part that is held
+In MuJoCo, contacts held by friction creep. With the arm's usual impedance of .95 to .99, a part that is held
 aslant turns, and the fingers, which a freeze has stopped, lose a quarter to a third of their force each half second.
 With this impedance, the fingers lose 1 percent. But they shake out a part of .5 kg; with an impedance of .9999, they
 shake out even a part of 26 g.

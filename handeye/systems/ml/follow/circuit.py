@@ -19,7 +19,7 @@ from handeye.core.record import Record
 STEP: Final = 1000.0  # units of the slides
 ROUND: Final = 4  # left turns minus right turns in a circuit
 NEAR: Final = 1.5 * STEP  # greatest distance from the first touch to the touch that closes a circuit
-IDLE: Final = 40  # squares without a touch after which a follower is lost
+IDLE: Final = 40  # a follower is lost after this number of squares without a touch
 ALONE: Final = 19  # statements (eight steps) without any touch; a plate is at most six steps ahead
 NOTHING: Final = (
     "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"

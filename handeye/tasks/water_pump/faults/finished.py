@@ -18,7 +18,9 @@ from handeye.tasks.water_pump.faults.scene_changes import METAL
 
 LAST_STAGE: Final = 12
 LATER_S: Final = 150.0
-"""Time after the last stage began (s). The screws have then been driven again, but no picture has been taken."""
+"""Time (s) since the beginning of the last stage. By then, the screws have been driven again, but no picture has been
+taken.
+"""
 JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
 STICKING_N: Final = 50.0  # vertically; more than the weight of the screwdriver and fingers that press on it
 _FALLING: Final = ("floor", "still", "rest")  # findings on a part that falls onto the tray under the floor

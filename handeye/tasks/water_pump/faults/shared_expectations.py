@@ -81,7 +81,7 @@ ONCE: Final = {
 }
 """Each of these errors counts the same as the calls listed with it. The careful program names the fault with one of
 these calls; a program that tries every step only once, like the program of 1973, reports the fault with the error.
-Error and call count as one name.
+An error and its calls are treated as the same name.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"

@@ -125,8 +125,8 @@ class PumpClaims:
         here = Contact(where=places.socket(hole), force=force)
         others = [places.socket(other) for other in range(places.screws) if other != hole]
         return Claim(
-            says="before the screw is driven, the height of its head over the thread is right, with a tolerance of "
-            ".12 inch, compared with the screw's place in the dispenser or with another screw",
+            says="before the screw is driven, its head is at the right height over the thread, to within .12 inch, "
+            "as measured from the screw's place in the dispenser or from another screw",
             where=f"hole {hole + 1}",
             phases=(
                 Phase(

@@ -95,7 +95,9 @@ stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The g
 If it were displaced by 6.4 mm, the fingers of the next run would not fit into its holes.
 """
 APART_TURN: Final = 3.0
-"""Turn (degrees) of a part. If the part is as long as the base, its end moves by half of the fingers' clearance."""
+"""Greatest turn (degrees) of a part. At this turn, the end of a part as long as the base has moved by half of the
+fingers' clearance.
+"""
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0

@@ -57,9 +57,9 @@ LOOKS: Final = (
     *_looks(_ALL, CLOSE_UP, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
     *_looks(_TRIANGLE, CLOSE_UP, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
 )
-"""Views through both lenses over the belt, and through the close-up lens also between the belt and the standard
-position. Between belt and standard position, half as many views suffice, because the other views give most of the
-information.
+"""Views of the lamp over the belt, through both lenses; and views of the lamp between the belt and the standard
+position, through the close-up lens only. Between belt and standard position, half as many views suffice, because the
+other views give most of the information.
 
 The fingers reach 3.5 in below the lamp, and must stay clear of the base on the belt, which is 2.75 in high.
 """

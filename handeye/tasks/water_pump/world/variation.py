@@ -24,7 +24,7 @@ STOOD: Final = ("gasket", "top")
 """The parts that a person puts on a stand, where only friction holds them."""
 SCREWS: Final = "pump.screws"
 MAKES: Final = (6, 7)
-"""How many screws a pump may have; it has as many tapped holes."""
+"""Numbers of screws that a pump may have. It has a tapped hole for each screw."""
 USUAL: Final = 6
 
 _VISION: Final = "Vision study, section 3."
