@@ -48,7 +48,7 @@ still holds joints and parts.
 MIDDLE: Final = 2
 """Number of short steps in a middle step."""
 RESTING: Final = 1e-2
-"""Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint that friction holds creeps at less than 1e-4."""
+"""Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint held by friction creeps at less than 1e-4."""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 

@@ -72,9 +72,9 @@ def touches_page(touches: Sequence[Touch]) -> bytes:
         element(
             "main",
             note(
-                f"The hand of the rectilinear arm descends on a block. A limit of {touches[0].limit} g on a strain "
-                "gauge in a finger guards the motion. The sensors are read once per period. When a reading is "
-                "beyond the limit, the present position of the slide becomes the goal of the slide. For each "
+                "The hand of the rectilinear arm descends on a block. A strain gauge in a finger has a limit of "
+                f"{touches[0].limit} g, which ends the motion. The sensors are read once per period. When a reading "
+                "is beyond the limit, the present position of the slide becomes the goal of the slide. For each "
                 "period, bandwidth and speed, contacts at four phases of the period were simulated; the page shows "
                 "the contact with the greatest force."
             ),
