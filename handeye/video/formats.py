@@ -34,7 +34,7 @@ _BLOCK: Final = 8  # side of an ignored block, points
 
 
 def webp(frames: Frames, held: int) -> bytes:
-    """Encode an animated WebP file that loops. `held` is the number of frame periods for which the last frame is held."""
+    """Encode an animated WebP file that loops. `held` is the number of frame periods for which the last frame stays."""
     animation = cv2.Animation()
     animation.frames = [bgr(frame) for frame in settled(frames)]
     ends = np.arange(1, len(animation.frames) + 1)

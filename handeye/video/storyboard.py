@@ -130,7 +130,7 @@ class Frame:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Storyboard:
-    """The frames of a video in order. `held` is the number of further frame periods for which the last frame is held."""
+    """The frames of a video in order. `held` is the number of further frame periods for which the last frame stays."""
 
     frames: tuple[Frame, ...]
     held: int

@@ -187,8 +187,8 @@ class PictureBlank(CauseRecord, frozen=True, kw_only=True):
 
 
 class PictureNoisy(CauseRecord, frozen=True, kw_only=True):
-    """A picture has more noise than a sound camera gives. `noise` is the noise of the picture, and `most` is the greatest
-    noise of a sound camera; both are standard deviations, in levels.
+    """A picture has more noise than a sound camera gives. `noise` is the noise of the picture, and `most` is the
+    greatest noise of a sound camera; both are standard deviations, in levels.
     """
 
     picture: str
