@@ -246,7 +246,7 @@ class _Phrases:
         return next((span for span in found if span is not None), self.word_span(number))
 
     def find(self, words: Step | SourcePlace, word: str, *, behind: int = 0) -> Span | None:
-        """Find the span of a word, searching after the first `behind` tokens."""
+        """Find the span of a word. `behind` is the number of tokens to skip first."""
         span = self.span(words)
         text, start = self.whole.find(span.start)
         lines = scan(text.text[start : start + span.end - span.start], span.start)

@@ -47,9 +47,9 @@ def torque_step(arm: ArmModel) -> Array:
 
 
 def followed(arm: ArmModel, here: Array, moved: Array, reading: Array) -> Array:
-    """Return joint positions with a finer resolution than the potentiometers give. The positions `here` advance by
-    `moved`, which is integrated from the tachometers. The result is kept within half a step of the potentiometers'
-    `reading`.
+    """Return joint positions with a finer resolution than the potentiometers give. To the previous positions, `here`,
+    the function adds `moved`, the displacements integrated from the tachometers. The result is kept within half a step
+    of the potentiometers' `reading`.
     """
     half = _half_step(arm)
     return np.minimum(np.maximum(here + moved, reading - half), reading + half)

@@ -76,9 +76,9 @@ def move(
     """Plan the free motion to a hand pose on the nearest branch. The motion lasts a whole number of servo periods.
     Returns the trajectory, or the reason why the motion is impossible.
 
-    The motion passes the configurations `via` without stopping. `departure` and `approach` are the heights (m) of
-    the lift-off point above the start and of the set-down point above the goal; a height of 0 leaves the point out.
-    A point out of reach is lowered by quarters of its height. `speed` is a fraction of the joints' rate limits;
+    The motion passes through the configurations in `via` without stopping. `departure` and `approach` are the heights
+    (m) of the lift-off point above the start and of the set-down point above the goal; a height of 0 leaves the point
+    out. A point out of reach is lowered by quarters of its height. `speed` is a fraction of the joints' rate limits;
     accelerations are scaled by its square.
     """
     height = float(X_WT_goal[2, 3])

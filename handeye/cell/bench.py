@@ -162,7 +162,9 @@ class Bench(Clock, Mechanism[BenchTime]):
         )
 
     def _pass(self, most: int) -> None:
-        """Let at most `most` physics steps pass: if everything sleeps, all of them; if not, one stretch of steps."""
+        """Let physics steps pass; `most` is the greatest number of steps. If everything sleeps, let all of them pass;
+        if not, one stretch of steps.
+        """
         steps = min(most, self._stretch)
         for part in self._parts:
             part.before(float(steps * self.tick))

@@ -129,8 +129,8 @@ class Carriers:
         mujoco.mju_normalize4(model.body_quat[body])
 
     def _move(self, hole: int, along: float, rate: float) -> None:
-        """Set the two joints of a carrier to `along` (m) above the mouth and to `rate` (rad/s). The pitch couples
-        these joints.
+        """Set the two joints of a carrier: its height above the mouth to `along` (m), and its rotation rate to `rate`
+        (rad/s). The pitch couples these joints.
         """
         model, data = self._model, self._data
         slide, turn = self._slide[hole], self._turn[hole]

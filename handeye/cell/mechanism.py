@@ -43,8 +43,8 @@ class Mechanism(ABC, Generic[S]):
         """Prepare for the next `seconds`."""
 
     def rested(self, seconds: float) -> None:
-        """Let `seconds` pass at once, because everything sleeps. These seconds are not part of the seconds that
-        `before` announced.
+        """Let `seconds` pass at once, because everything sleeps. These seconds are not part of the seconds that the
+        method `before` announced.
         """
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -55,7 +55,7 @@ FINER: Final = 8
 """
 _WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
-"""Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint that friction holds creeps at less than 1e-4."""
+"""Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint held by friction creeps at less than 1e-4."""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 
@@ -77,8 +77,8 @@ class Carrying:
 def stiffened(
     impedances: NDArray[np.float64], time_constants: NDArray[np.float64], short: float, times: int
 ) -> NDArray[np.float64]:
-    """Return impedances, shape (n, 5), for steps that are `times` as long as short steps. With these impedances, the
-    constraints are as stiff as they are in short steps.
+    """Return impedances, shape (n, 5), for steps that are longer than short steps by the factor `times`. With these
+    impedances, the constraints are as stiff as they are in short steps.
 
     MuJoCo raises the time constant T (s) of a constraint to at least two timesteps. At impedance d, and at the largest
     impedance D, the stiffness is proportional to d**2 / (D**2 * T**2 * (1 - d)) (MuJoCo's documentation, "Solver
@@ -266,8 +266,8 @@ class PhysicsStepper:
         allowed: Callable[[], bool],
         at_the_end: Callable[[], bool] = lambda: True,
     ) -> bool:
-        """Make steps that are `times` as long as a short step and together cover the time of `steps` short steps. If
-        the contacts of a step are not allowed, undo all steps and return False.
+        """Make steps that are longer than a short step by the factor `times`, and that together cover the time of
+        `steps` short steps. If the contacts of a step are not allowed, undo all steps and return False.
         """
         model, data, began = self._model, self._data, self._data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
@@ -353,7 +353,7 @@ def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
 
 
 def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Let the trees of bodies whose velocities are all zero fall asleep after one step, if they then still rest.
+    """Let each tree of bodies without any velocity fall asleep after one step, if it is still at rest then.
 
     MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity has slept before.
     """

@@ -84,7 +84,7 @@ def _primitive(model: mujoco.MjModel, geom: mujoco.MjsGeom, name: str) -> Solid:
 
 
 def _mesh(geom: mujoco.MjsGeom, mesh: str, shape: trimesh.Trimesh, colours: Array, *, again: int) -> Solid:
-    """Make a solid from a mesh that the body has already used `again` times."""
+    """Make a solid from a mesh. `again` is how many times the body has already used this mesh."""
     name = f"{mesh}{again}" if again else mesh
     return Solid(name=name, mesh=mesh, shape=shape, X_BS=_pose(geom.quat, geom.pos), colours=colours)
 

@@ -92,7 +92,7 @@ def converse(
     *,
     echo: bool = False,
 ) -> int:
-    """Execute the lines of `typed`, then the lines that the user enters at the prompt. Returns the exit code.
+    """Execute the lines in `typed`, and then the lines that the user enters at the prompt. Returns the exit code.
 
     Args:
         begin: function that begins the session. `begin` receives two functions: one asks the user a question, and the

@@ -21,9 +21,9 @@ Off = Callable[[Rows, Rows, Rows], Array]
 
 def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
     """Find the rows from which all other rows can be interpolated within the tolerance. The result includes the rows
-    `always`, which must be sorted and contain the first and last row.
+    in `always`, which must be sorted and contain the first and last row.
 
-    The search starts with the segments between the rows `always`. A segment with a row too far from the
+    The search starts with the segments between the rows in `always`. A segment with a row too far from the
     interpolation is split at the farthest row. All segments are handled at once.
     """
     kept = [np.asarray(always, dtype=np.int64)]
@@ -49,8 +49,8 @@ def _worst(off: Off, first: Rows, last: Rows) -> tuple[Rows, Array]:
 
 
 def off_values(values: Array, at: Array, allowed: Array) -> Off:
-    """Make a function that returns how far values deviate from linear interpolation, divided by the tolerance. The
-    values, the time `at` of each row and the tolerance `allowed` have shape (n,).
+    """Make a function that returns how far values deviate from linear interpolation, divided by the tolerance. Each
+    row has a value, a time in `at` and a tolerance in `allowed`; all three arrays have shape (n,).
     """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:

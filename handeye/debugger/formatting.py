@@ -39,8 +39,9 @@ def as_json(reply: Reply) -> str:
 
 
 def as_text(reply: Reply, most: int | None = None) -> str:
-    """Return the reply as text without a final newline. If more than `most` steps were executed, only the last
-    `most` are shown."""
+    """Return the reply as text without a final newline. If more than N steps were executed, only the last N are shown,
+    where N is `most`.
+    """
     if reply.error is not None:
         return reply.error
     lines = [*summary_lines(reply.did, most), _standing(reply)]
@@ -65,7 +66,9 @@ def _standing(reply: Reply) -> str:
 
 
 def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[str]:
-    """Return the executed steps as lines of text. Of more than `most` steps, only the last `most` are shown."""
+    """Return the executed steps as lines of text. If there are more than N steps, only the last N are shown, where N
+    is `most`.
+    """
     left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {counted(left_out, 'line')} before these" if left_out else ""][: left_out and 1]
     return head + [told_row(step) for step in did[left_out:]]

@@ -91,8 +91,9 @@ def excerpt(
     file: str = "",
     tasks: Sequence[TaskView] = (),
 ) -> tuple[SourceLine, ...]:
-    """Return `around` lines of a text before and after `line`. The line `here` and the present lines of the
-    tasks are marked."""
+    """Return the line with the number `line`, and N lines before and after it, where N is `around`. Two kinds of lines
+    are marked: the line with the number `here`, and the present lines of the tasks.
+    """
     standing: dict[int, list[str]] = {}
     for each in tasks:
         if each.file == file:

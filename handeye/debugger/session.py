@@ -93,8 +93,8 @@ class DebugSession:
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
-        """Let the arm undo steps until `left` executed steps remain. If `halts` is True, the run then ends. Raises
-        InvalidInput if the arm cannot undo these steps.
+        """Let the arm undo steps until N executed steps remain, where N is `left`. If `halts` is True, the run then
+        ends. Raises InvalidInput if the arm cannot undo these steps.
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")

@@ -23,8 +23,8 @@ def repeated(periods: Sequence[CommandedPeriod]) -> Controller:
 
 
 def controlled(run: ExecutionContext, controller: Controller, most: int) -> tuple[CommandedPeriod, ...]:
-    """Let a controller command servo periods until the controller ends, but at most `most` periods. Then set the
-    brakes until the arm stands still. Returns the commands.
+    """Let a controller command servo periods until the controller ends; `most` is the greatest number of periods. Then
+    set the brakes until the arm stands still. Returns the commands.
 
     Earlier steps can no longer be undone, because a reversal would begin where the last step ended. The program no
     longer assumes that nothing touches the hand.

@@ -169,8 +169,8 @@ def _driven(start: float, goal: float) -> float:
 
 
 def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
-    """Check that the gap changed while the fingers were driven by `driven` (m). If touch is switched off, nothing
-    is checked.
+    """Check that the gap changed while the fingers were driven by the distance `driven` (m). If touch is switched off,
+    nothing is checked.
     """
     if "touch" in run.without or not stood_still(start - run.drive.sensed.gap, driven):
         return None

@@ -216,7 +216,8 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
 
 
 def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow | MotorFast | None:
-    """Compare the current of the screwdriver's motor with the known torques of starting and of the clutch.
+    """Compare the torque of the screwdriver's motor, measured by its current, with two known torques: the starting
+    torque, and the torque of the clutch.
 
     If the motor starts against a resistance, it takes more torque than usual. The motor never takes less torque than
     usual, and never more than its clutch transmits.

@@ -53,7 +53,7 @@ class ExecutedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class ReversalOrder(Record, frozen=True, kw_only=True):
-    """An order to reverse executed steps until `left` steps remain."""
+    """An order to reverse executed steps until only `left` of them remain."""
 
     left: Natural
     halts: bool = False  # the run ends there

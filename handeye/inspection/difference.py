@@ -52,8 +52,8 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """Return True if two edges, to the steps `old` and `new`, lead to the same step when removed and added steps are
-    skipped. None stands for the end of the program.
+    """Two edges lead to the steps `old` and `new`. Return True if both lead to the same step once removed and added
+    steps are skipped. None stands for the end of the program.
     """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:
@@ -256,8 +256,8 @@ def _change(
 
 
 def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
-    """Yield the differences between two paired steps, without their branch targets: subject, value before, value
-    after.
+    """Yield the differences between two paired steps. Each difference has its subject, the value before and the value
+    after. Branch targets are not compared.
     """
     texts = [one_line(step.text) for step in (one, other)]
     guards = ["; ".join(conditions(step.operation)) or "none" for step in (one, other)]

@@ -76,8 +76,9 @@ class SettledState:
         return float(mujoco.mj_geomDistance(self.model, self.data, *ids, 0.5, ends))
 
     def nearest(self, geoms: NDArray[np.intp], others: NDArray[np.intp], most: float) -> float:
-        """Return the least distance between two groups of geoms (m). Distances are measured up to `most` (m),
-        which is also the greatest value returned."""
+        """Return the least distance between two groups of geoms (m). Distances are measured up to the limit `most`
+        (m), which is also the greatest value returned.
+        """
         model, ends = self.model, np.zeros(6)
         between = self.data.geom_xpos[geoms][:, None] - self.data.geom_xpos[others]
         reach = model.geom_rbound[geoms][:, None] + model.geom_rbound[others]

@@ -153,7 +153,9 @@ class Demand:
 
 
 def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
-    """Return the forces and moments for which the guards of a motion along the vector `along` wait."""
+    """Return the least forces and moments that trip the guards of a motion. `along` is the direction of the motion, if
+    the motion is straight.
+    """
     waited = (guard.exerted(along) for guard in guards)
     return [Demand(exerted, guard=True) for exerted in waited if exerted is not None]
 

@@ -116,7 +116,9 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def begin(self, command: Command, answer: int = 0) -> None:
-        """Begin to send a command that is answered by `answer` bytes. Raises Refused unless the bus is free."""
+        """Begin to send a command. `answer` is the number of bytes in its answer. Raises Refused unless the bus is
+        free.
+        """
 
     @abstractmethod
     def answer(self) -> bytes:

@@ -327,8 +327,8 @@ class PanicStopped(Event, frozen=True, kw_only=True):
 
 
 class WentBack(Event, frozen=True, kw_only=True):
-    """All events after the first `events` events were undone. This event occurs only in a journal; a trace leaves
-    out the undone events.
+    """`events` is the number of events that remain; all later events were undone. This event occurs only in a journal;
+    a trace leaves out the undone events.
     """
 
     events: int
@@ -336,7 +336,7 @@ class WentBack(Event, frozen=True, kw_only=True):
 
 
 class UndoOrdered(Event, frozen=True, kw_only=True):
-    """A reversal was ordered: the arm undoes executed steps until `left` steps remain."""
+    """A reversal was ordered: the arm undoes executed steps until only `left` of them remain."""
 
     left: int
     halts: bool  # True if the run ends there; False if the program can continue

@@ -34,8 +34,8 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 
 class Test(Operation, frozen=True, kw_only=True):
-    """Test for error `number` of the last action, and clear the error. If the error was raised, the next step is
-    `raised`; if `raised` is None, the program ends.
+    """Test for error `number` of the last action, and clear the error. `raised` is the next step if the error was
+    raised; if `raised` is None, the program then ends.
     """
 
     __test__ = False
@@ -64,8 +64,8 @@ class Assign(Operation, frozen=True, kw_only=True):
 
 
 class Countdown(Operation, frozen=True, kw_only=True):
-    """Decrement a counter (SOJG). While the counter is positive, the next step is `positive`; if `positive` is None,
-    the program ends.
+    """Decrement a counter (SOJG). `positive` is the next step while the counter is positive; if `positive` is None,
+    the program then ends.
     """
 
     branches: ClassVar = True

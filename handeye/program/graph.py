@@ -72,8 +72,8 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Consider the last step of one of these kinds before a given step. Return the reachable steps that can be
-        this last step. The list is empty if some path has no such step, or if the search takes too long.
+        """Return the reachable steps that can be the last step of one of these kinds before a given step. The list is
+        empty if some path has no such step, or if the search takes too long.
         """
         found: list[int] = []
         seen: set[int] = set()

@@ -115,8 +115,8 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
 
 
 def touches(guards: Guards, along: Vector3, force: Limits) -> bool:
-    """Return True if there is at least one guard, and if all guards trip on a force against a motion along `along`,
-    within the limits `force`.
+    """Return True if there is at least one guard, and if all guards trip on a force, within the limits `force`, that
+    opposes a motion in the direction `along`.
     """
     felt = [guard.exerted(along) for guard in guards if isinstance(guard, Force | Against)]
     return bool(felt) and len(felt) == len(guards) and all(

@@ -154,8 +154,8 @@ def advance(
     steps: int | None = None,
     asked: Callable[[], bool] = lambda: False,
 ) -> Pause:
-    """Execute `steps` steps (at least one). If `steps` is not given, continue until the run ends. `asked` is called
-    after each step, and the run pauses if it returns True. Returns the reason why the run paused.
+    """Execute a number of steps, `steps` (at least one). If `steps` is not given, continue until the run ends. `asked`
+    is called after each step, and the run pauses if it returns True. Returns the reason why the run paused.
     """
     done = 0
     while not runner.ended:

@@ -15,7 +15,7 @@ class Observer:
         """Called when a servo period has passed."""
 
     def undone(self, events: int) -> None:
-        """Called when the run has gone back to an earlier state. The first `events` events of the run remain; all
+        """Called when the run has gone back to an earlier state. `events` is the number of events that remain; all
         later events are undone.
         """
 

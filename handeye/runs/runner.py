@@ -54,7 +54,9 @@ RECENT: Final = 400  # steps whose states stay in memory; older states only at t
 
 
 def reach(first: int) -> str:
-    """Say in a sentence that a run cannot go back beyond its earliest state, in which `first` steps are done."""
+    """Say in a sentence that a run cannot go back beyond its earliest state. `first` is the number of steps done in
+    this state.
+    """
     return (
         f"this run begins with {counted(first, 'step')} already done: there is no earlier state to go back to"
     )
@@ -195,7 +197,7 @@ class Runner:
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The position of each unfinished task in the program. The task whose next step is `at` runs next."""
+        """The position of each unfinished task in the program. `at` is the next step of the task that runs next."""
         return self.system.state.places
 
     @property
@@ -270,8 +272,8 @@ class Runner:
         self._settle()
 
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
-        """Order the arm to undo one executed step in each following step, until `left` executed steps remain.
-        With `halts`, the run then ends.
+        """Order the arm to undo one executed step in each following step, until only `left` of the executed steps
+        remain. If `halts` is True, the run then ends.
         """
         self.require("undo")
         self.system.reverse(ReversalOrder(left=left, halts=halts, asked_by=asked_by))
@@ -282,8 +284,9 @@ class Runner:
         return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
-        """Continue until the run has as many events as `events`, and repeat the operator's actions among those
-        events."""
+        """Continue until the run has as many events as the list `events`, and repeat the operator's actions in that
+        list.
+        """
         while len(self.events) < len(events):
             then = events[len(self.events)]
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
@@ -362,8 +365,9 @@ class Runner:
         self._settle()
 
     def control(self, by: str, controller: Controller, most: int) -> int:
-        """Let a controller, called `by`, command the arm for at most `most` servo periods. Returns the number of
-        periods that it commanded. After an exception, `rollback` reverts these periods.
+        """Let a controller command the arm. `by` is the name of the controller, and `most` is the greatest number of
+        servo periods. Returns the number of periods that the controller commanded. After an exception, `rollback`
+        reverts these periods.
 
         Raises:
             InvalidInput: the run's system does not execute plans of motions.

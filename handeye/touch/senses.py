@@ -160,8 +160,8 @@ def at_most(gap: float, thickness: float) -> bool:
 
 
 def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME_HOLD) -> bool:
-    """Return True if the gap (m) agrees with the gap of an earlier hold: at most `closer` less and at most `wider`
-    more (m).
+    """Return True if the gap (m) agrees with the gap `kept` of an earlier hold (m). The gap may be smaller than `kept`
+    by up to `closer` (m), and greater than `kept` by up to `wider` (m).
     """
     return -closer <= gap - kept <= wider
 

@@ -132,7 +132,7 @@ class Recorder:
         self._writing.file.sync()
 
     def cut(self, events: int) -> None:
-        """Remove everything after the first `events` events."""
+        """Remove everything after the events that remain. `events` is the number of these events."""
         old = self._writing
         if not old.file.broken:
             old.file.sync()

@@ -202,7 +202,7 @@ def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[
 
 
 def trials_in_world(condition: Condition, last: InsertionTrial) -> list[InsertionTrial]:
-    """Execute the trials of a condition in one world: all up to the trial `last`."""
+    """Execute the trials of a condition in one world, from number 0 to the number of `last`."""
     begun = fetched(condition.plan, last.seed)
     return [tried(condition, begun, replace(last, number=number)) for number in range(last.number + 1)]
 

@@ -34,7 +34,7 @@ _BLOCK: Final = 8  # side of an ignored block, points
 
 
 def webp(frames: Frames, held: int) -> bytes:
-    """Encode an animated WebP file that loops. The last frame is held for `held` frame periods."""
+    """Encode an animated WebP file that loops. `held` is the number of frame periods for which the last frame stays."""
     animation = cv2.Animation()
     animation.frames = [bgr(frame) for frame in settled(frames)]
     ends = np.arange(1, len(animation.frames) + 1)
@@ -75,7 +75,9 @@ random.
 
 
 def webm(frames: Frames, held: int) -> bytes:
-    """Encode a WebM file (VP8). Equal frames give equal bytes. The last frame is held for `held` frame periods."""
+    """Encode a WebM file (VP8). Equal frames give equal bytes. `held` is the number of frame periods for which the
+    last frame is held.
+    """
     frame = next(frames)
     height, width = frame.shape[:2]
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder:
@@ -123,8 +125,8 @@ _MP4_QUALITY: Final = "23"  # quality of x264: 0 is lossless, 51 is the worst
 
 
 def mp4(frames: Frames, held: int) -> bytes:
-    """Encode an MP4 file (H.264), which nearly all video players and presentation programs can play. The last
-    frame is held for `held` frame periods.
+    """Encode an MP4 file (H.264), which nearly all video players and presentation programs can play. `held` is the
+    number of frame periods for which the last frame is held.
     """
     import av
 

@@ -104,7 +104,9 @@ def _still(shown: tuple[Passage, ...]) -> Array:
 
 
 def _shares(took: Array, least: float) -> Array:
-    """Return shares, shape (n,), that are proportional to `took`, but not less than `least`, and add up to 1."""
+    """Return shares, shape (n,), that are proportional to the durations `took`, but not less than the share `least`,
+    and add up to 1.
+    """
     short = np.zeros(len(took), dtype=bool)
     while True:
         rest = 1 - least * short.sum()

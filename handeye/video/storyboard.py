@@ -130,7 +130,7 @@ class Frame:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Storyboard:
-    """The frames of a video in order. The last frame is held for a further `held` frame periods."""
+    """The frames of a video in order. `held` is the number of further frame periods for which the last frame stays."""
 
     frames: tuple[Frame, ...]
     held: int
@@ -165,7 +165,9 @@ def storyboard(trace: Trace, wanted: VideoRequest) -> Storyboard:
 
 
 def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
-    """Return the times of the run (s) at which a fraction `over` of each passage has been shown."""
+    """Return, for each passage, the time of the run (s) at which a fraction of the passage has been shown. `over`
+    gives these fractions.
+    """
     spans = np.array([(passage.begin, passage.end) for passage in chosen])
     return list((spans[:, 0] + over * np.ptp(spans, axis=1)).tolist())
 

@@ -28,8 +28,8 @@ Points = NDArray[np.bool_]  # mask, (256, 333)
 
 
 def aligned(picture: Picture, to: Picture) -> Levels:
-    """Shift a picture so that its unchanged parts coincide with those of the picture `to`. Points on the border are
-    repeated outwards.
+    """Shift a picture so that its unchanged parts coincide with those of another picture, `to`. Points on the border
+    are repeated outwards.
     """
     return moved(picture.astype(np.float32), -shift(to, picture))
 

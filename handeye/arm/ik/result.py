@@ -61,12 +61,12 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
 
 
 def shared(first: Joint, last: Joint, sense: float, one: float, other: float) -> list[tuple[float, float]]:
-    """Return all pairs of positions of two joints, each within its limits, that together turn the hand as far as
-    `one` and `other` do. The axes of the two joints are in line.
+    """Return all pairs of positions of two joints, each within its limits, that together turn the hand as far as the
+    positions `one` and `other`. The axes of the two joints are in line.
 
-    If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions.
-    There is one pair for each possible number of whole turns. The first joint stays at `one` if the last joint can
-    do the rest.
+    If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions. There
+    is one pair for each possible number of whole turns. The first joint stays at the position `one` if the last joint
+    can do the rest.
     """
     sign, ends, found = math.copysign(1.0, sense), (last.lower, last.upper), []
     turns = math.ceil((first.upper - first.lower + last.upper - last.lower) / (2 * math.pi))

@@ -127,7 +127,7 @@ class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
 
 
 class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The motor of the screwdriver showed the torque `torque` (N m) at a moment when the torque should be `known`
+    """The motor of the screwdriver showed the torque `torque` (N m), but its known torque at that moment is `known`
     (N m).
     """
 
@@ -151,7 +151,9 @@ class MotorSlow(CauseRecord, frozen=True, kw_only=True):
 
 
 class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor runs free, but was still speeding up after `times` times the usual time, so it turns too fast."""
+    """The motor runs free, but was still speeding up after the multiple `times` of the usual time, so it turns too
+    fast.
+    """
 
     times: float
 
@@ -185,7 +187,9 @@ class PictureBlank(CauseRecord, frozen=True, kw_only=True):
 
 
 class PictureNoisy(CauseRecord, frozen=True, kw_only=True):
-    """A picture has more noise (standard deviation, in levels) than `most`, the greatest noise of a sound camera."""
+    """A picture has more noise than a sound camera gives. `noise` is the noise of the picture, and `most` is the
+    greatest noise of a sound camera; both are standard deviations, in levels.
+    """
 
     picture: str
     noise: float

@@ -79,9 +79,8 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
 
 
 def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
-    """Return the part of an order that the program with the arm can execute: to undo some or all of the steps that
-    this program has executed since it took the arm over. The order has this program's own step numbers. Returns None
-    if there are no such steps.
+    """Limit an order to undo steps to the program that has the arm: to steps that this program has executed since it
+    took the arm over. The returned order has this program's own step numbers. Returns None if there are no such steps.
     """
     own, done = own_legs(plan, state), executed(plan, state)
     before = sum(each.step < own[0].first for each in done)

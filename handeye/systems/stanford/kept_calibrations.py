@@ -109,7 +109,9 @@ class KeptCalibrations:
         return len(files)
 
     def _trim(self) -> None:
-        """Remove the oldest files that exceed the limit, and unfinished files whose writer has ended."""
+        """Remove the oldest files until the others together are within the limit. Also remove unfinished files whose
+        writer has ended.
+        """
         together = 0
         for path in self.files():
             together += _size(path)

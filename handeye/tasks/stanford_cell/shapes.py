@@ -118,8 +118,8 @@ class Shaper:
         return body.add_body(name=f"{body.name}_lands")
 
     def hole(self, body: mujoco.MjsBody, name: str, mouth: Vector, radius: float) -> None:
-        """Mark a hole with a site at its mouth: the centre of the hole in the upper face (m). The first size of
-        the site is the radius of the hole.
+        """Mark a hole with a site at its mouth. `mouth` is the centre of the hole in the upper face (m). The first
+        size of the site is the radius of the hole.
         """
         body.add_site(name=name, type=CYLINDER, pos=mouth, size=[radius, _MARK_HALF_HEIGHT_M, 0.0], group=5)
 

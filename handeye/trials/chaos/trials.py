@@ -76,8 +76,9 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> Findings:
-    """Return the findings that should hold after the first `done` stages of the program, but do not hold. All findings
-    must hold after the last stage; `holds_from` names the findings that must already hold after an earlier stage.
+    """Return the findings that should hold after a number of stages of the program (`done`), but do not hold. All
+    findings must hold after the last stage; `holds_from` names the findings that must already hold after an earlier
+    stage.
     """
     return {
         name: finding

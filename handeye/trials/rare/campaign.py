@@ -89,7 +89,9 @@ class Campaign:
         return self._first
 
     def estimated(self, kind: FailureKind, most: int, told: Callable[[Level], None]) -> Estimated:
-        """Estimate the probability of a kind of failure in at most `most` levels; `told` is called for each level."""
+        """Estimate the probability of a kind of failure. `most` is the greatest number of levels; `told` is called for
+        each level.
+        """
         known = usual(self.first())
         measured = _Measured(self, kind, known)
         levels = []
@@ -110,8 +112,8 @@ class Campaign:
         self, places: Sequence[tuple[str, int]], points: Sequence[Point], *, kept: bool = True
     ) -> tuple[RareRow, ...]:
         """Run the worlds of some points. `places` gives the condition of each point, and its number within this
-        condition. With `kept`, worlds in which the program fails are kept. Raises InvalidInput if a run ended because
-        this computer failed, so that its margin is unknown.
+        condition. If `kept` is True, worlds in which the program fails are kept. Raises InvalidInput if a run ended
+        because this computer failed, so that its margin is unknown.
         """
         cases = [
             RareCase(

@@ -80,7 +80,8 @@ def subset_simulation(
     stream: Callable[[int], np.random.Generator],
     most: int,
 ) -> Iterator[Level]:
-    """Yield one level after the other, until the failure is reached, no level is left, or `most` levels are done.
+    """Yield one level after the other, until the failure is reached, no level is left, or the number of levels reaches
+    `most`.
 
     Args:
         first: worlds drawn independently; every level has the same number of worlds.

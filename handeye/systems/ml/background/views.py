@@ -1,4 +1,4 @@
-"""The tables that the background level keeps. In these tables, GET, QUERY and the dashboard see the program, its
+"""The tables that the background level keeps. GET, QUERY and the dashboard use these tables to read the program, its
 points, the trace and the host.
 """
 

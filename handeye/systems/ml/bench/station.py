@@ -100,7 +100,7 @@ class Station:
 
 
 def _nothing(value: float) -> None:
-    """Switch a tool that the station lacks."""
+    """Do nothing when a tool is switched that the station lacks."""
 
 
 def _stand(bench: Bench, at: Mapping[int, float]) -> None:

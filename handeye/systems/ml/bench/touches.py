@@ -72,11 +72,11 @@ def touches_page(touches: Sequence[Touch]) -> bytes:
         element(
             "main",
             note(
-                f"The hand of the rectilinear arm descends on a block. A limit of {touches[0].limit} g on a strain "
-                "gauge in a finger guards the motion. The sensors are read once per period. When a reading is "
-                "beyond the limit, the present position of the slide becomes the goal of the slide. For each "
-                "period, bandwidth and speed, contacts at four phases of the period were simulated; the page shows "
-                "the contact with the greatest force."
+                f"The hand of the rectilinear arm descends on a block. A reading of more than {touches[0].limit} g "
+                "on a strain gauge in a finger ends the motion. The sensors are read once per period. When a "
+                "reading is beyond this limit, the present position of the slide becomes the goal of the slide. "
+                "For each period, bandwidth and speed, contacts at four phases of the period were simulated; the "
+                "page shows the contact with the greatest force."
             ),
             _controls(),
             element("p", id="said", role="status"),

@@ -220,7 +220,7 @@ def try_program(file: MlFile, /) -> int:
 
 
 def _session(file: Path | None, *typed: str, left: bool = False) -> int:
-    """Execute the lines of `typed`, then the lines that the user enters at the prompt. Returns the exit code."""
+    """Execute the lines in `typed`, and then the lines that the user enters at the prompt. Returns the exit code."""
     from handeye.systems.ml.cli.console import Console
 
     def begin(ask: Ask, halted: Callable[[], bool]) -> Console:

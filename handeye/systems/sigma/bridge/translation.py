@@ -74,7 +74,7 @@ _CURE: Final = (
 
 
 class _Stop(NamedTuple):
-    """Where a step leads: to a line or, if `here` is given, to the step that is `here` steps farther on."""
+    """Where a step leads: to a line, or forward by a number of steps. `here` is this number."""
 
     line: int | None = None
     here: int | None = None

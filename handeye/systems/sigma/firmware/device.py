@@ -34,8 +34,9 @@ class Crystal:
         return picoseconds * _TICKS // (PS + self.ppm)
 
     def after(self, since: int, micros: int, at: int) -> int:
-        """Return the first time from `at` on that is a whole number of intervals of `micros` microseconds after
-        `since`."""
+        """Times follow one another at equal intervals, beginning with `since`. The interval is `micros`
+        (microseconds). Return the first of these times that is not before `at`.
+        """
         step = self.micros(micros)
         return since + max(0, -(-(at - since) // step)) * step
 

@@ -437,8 +437,8 @@ def _gauges(model: mujoco.MjModel, rig: Rig, gain: Array, left: float) -> tuple[
     scene's sensors to the force along each axis. An axis without a wrist has the force 0.
 
     A strain gauge measures the force in the wrist. The signal of an accelerometer cancels the part of this force that
-    accelerates the hand itself, so that the sum is the external force. A fraction `left` of the force of acceleration
-    remains uncorrected.
+    accelerates the hand itself, so that the sum is the external force. A fraction of the force of acceleration remains
+    uncorrected. `left` is this fraction.
     """
     size, wrists = len(rig.axes), [f"wrist_{axis}" for axis in rig.wrists]
     bent = _sensors(model, mujoco.mjtSensor.mjSENS_JOINTPOS, wrists)

@@ -174,7 +174,9 @@ class _Check:
             yield from self._variables()
 
     def _near(self, name: str, known: Collection[str]) -> SimilarName | KnownNames | None:
-        """Return names that may be intended. Returns None if as many mistakes as are shown have already been found."""
+        """Return names that may be intended. Returns None after `LIMIT` calls, because no more than `LIMIT` mistakes
+        are shown.
+        """
         self._told += 1
         return alternatives(name, known) if self._told <= LIMIT else None
 

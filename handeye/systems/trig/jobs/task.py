@@ -114,8 +114,8 @@ class Bucket(_BlocksTask):
 
 
 class Arrange(_BlocksTask):
-    """Place blocks as a user's script says. Only a referee that the user provides can judge the work. This referee
-    judges only whether the reversal has undone the work.
+    """Place blocks as a user's script says. Only a referee that the user provides can judge the work. The task's own
+    referee judges only whether the reversal has undone the work.
     """
 
     name = "arrange"

@@ -33,8 +33,8 @@ grasped the object too high, by the same distance.
 """
 AGAIN: Final = 1.5
 """Permitted force during a reversal, as a multiple of the force met in the move itself. The factor is the same as for
-the pump. When a hand that has pressed an object onto a support rises, the sensed force changes by about the force met
-in the move.
+the pump. When the hand has pressed an object onto a support and then rises, the sensed force changes by about the
+force met in the move.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 

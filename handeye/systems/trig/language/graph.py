@@ -1,10 +1,10 @@
 """The graph of a program's steps, with its loops and deletions. Each step has one or two sons, which are the steps
 that may follow it, and any number of fathers, from which it is reached.
 
-One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other
-edges to the step are links. The own edges form a tree that starts at the top and contains every step. A loop
-has a partner (bloop) above its target step, so that the loop can also be reversed. If several loops return to
-one step, the nearest loop below the step owns the nearest bloop above the step, whichever loop was made first.
+One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other edges
+to the step are links. Together, the steps' own edges form a tree that starts at the top and contains every step. A
+loop has a partner (bloop) above its target step, so that the loop can also be reversed. If several loops return to one
+step, the nearest loop below the step owns the nearest bloop above the step, whichever loop was made first.
 """
 
 from collections import deque
@@ -287,8 +287,8 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """Place all nodes that can be reached from a node along own edges. An edge to a node that is already placed
-    becomes a link.
+    """From a node, follow the nodes' own edges, and place all nodes that they reach. An edge to a node that is already
+    placed becomes a link.
     """
     waiting = [start]
     while waiting:

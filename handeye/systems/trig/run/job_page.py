@@ -183,7 +183,7 @@ def job_files(done: JobReport, program: TrigProgram) -> dict[str, bytes]:
 
 
 def kept_job_page(path: Path) -> bytes | None:
-    """Build the report of the job in a folder again. Returns None if the folder has no finished job."""
+    """Rebuild the report of a job from the folder of its run. Returns None if the folder has no finished job."""
     if not (path / JOB).is_file():
         return None
     return job_page(_read_account(path / JOB), read_program(path / TAUGHT))

@@ -71,7 +71,7 @@ def tried(blocks: int, interrupt: bool, seed: int, world: WorldSpec) -> JobRepor
 
 
 def broken_off_after(seed: int, blocks: int) -> int:
-    """Draw a random number of steps before the reversal, for the world of a seed."""
+    """Return after how many steps the job is reversed in the world of a seed. The number is random."""
     most = 3 + STEPS * min(blocks, PLACES)
     return int(random_numbers(seed, "pallet.interrupt").integers(1, most, endpoint=True))
 
