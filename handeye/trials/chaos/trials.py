@@ -147,7 +147,7 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> ScheduleResult:
             ended = unbroken.pause.kind
             silent, late = _silent(schedule, unbroken, start)
             broken += [*_sound(unbroken), *_named("silent", silent)]
-            unseen += _named("silent", late)
+            unseen += _named("unseen", late)
             if schedule.breaks:
                 carried = _carried(schedule, start, Path(name) / "broken", broken=True)
                 broken += [*_sound(carried), *_named("resume", after_resuming(carried, unbroken))]
@@ -309,7 +309,7 @@ def _sentence(row: ChaosRow) -> str:
     if row.drawn is None:
         return f"{row.condition}: {row.detail}"
     if row.shrunk is None:
-        told = "\n".join(f"after the last look, {each}" for each in row.drawn.unseen)
+        told = "\n".join(map(str, row.drawn.unseen))
         return f'{told}\n  handeye trials chaos --schedule "{row.condition}"' if told else ""
     whole = "" if row.shrunk.schedule == row.condition else f"\n  shrunk from: {row.condition}"
     told = "\n".join(map(str, row.shrunk.broken))
