@@ -112,6 +112,6 @@ def _edit(words: Callable[[], Iterable[str]]) -> None:
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:
-    """Return the completion of the typed text `start` with a number, counted from 0. Returns None after the last one."""
+    """Return a completion of the typed text `start` by its number, counted from 0. Returns None after the last one."""
     found = sorted({word for word in words if word.upper().startswith(start.upper())})
     return f"{found[number]} " if number < len(found) else None

@@ -150,7 +150,7 @@ def view(way: Course, lacking: str, opening: float = 0.0) -> Iterator[Markup]:
 
 
 def _side(letter: str, name: str) -> Markup:
-    told = f"the cell of run {letter} at the displayed time; arrows turn the view, plus and minus zoom"
+    told = f"the cell of run {letter} at the displayed time; the arrow keys turn the view, and the keys + and - zoom"
     canvas = element("canvas", id=f"view-{name}", hidden=True, tabindex="0", role="img", aria_label=told)
     clock = element("output", id=f"clock-{name}", for_="time")
     line = element("span", id=f"line-{name}")

@@ -34,8 +34,8 @@ NORMAL_95: Final = 1.96  # standard deviations
 FAILED: Final = 0.0  # a run whose margin is not above this has failed
 
 Margins = Callable[[int, Sequence[Point]], Sequence[float]]
-"""Function that runs the worlds of some points, which belong to the level with the given number. The function returns
-the margin of each run.
+"""Function that takes the number of a level and points of this level, and runs the world of each point. The function
+returns the margin of each run.
 """
 
 

@@ -14,8 +14,8 @@ from handeye.tasks.stanford_cell.dimensions import dimensions
 
 
 class Station(StrEnum):
-    """Names of the stations that do not consist only of boxes. The bodies and the errors of these stations have
-    the same names.
+    """Names of the stations that do not consist only of boxes. The body and the error of each station have the same
+    name as the station.
     """
 
     BLOCKS = "blocks"
