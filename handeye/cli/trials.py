@@ -42,7 +42,11 @@ class AttemptOptions:
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     worlds: Annotated[
         WholeNumber | None,
-        Parameter(help="Number of worlds, from --seed on. Default: as many as trials (--n)."),
+        Parameter(
+            help=(
+                "Number of worlds. The first world has the seed of --seed. Default: as many worlds as trials (--n)."
+            )
+        ),
     ] = None
     eye: Annotated[
         Known,

@@ -137,7 +137,7 @@ class _Frames:
         self._told = np.full_like(self._poses[0], np.nan)
 
     def moved(self, row: int, time: int) -> Iterator[RawMessage]:
-        """Yield the message for a servo period, unless no body has moved."""
+        """Yield the message for a servo period, if any body has moved."""
         now = self._poses[row]
         which = np.flatnonzero(~np.isnan(now[:, 0]) & (now != self._told).any(axis=1))
         if which.size:

@@ -101,7 +101,7 @@ def go_line(mos: "Interpreter", one: int, other: int) -> None:
 
 
 def joy(mos: "Interpreter", number: int) -> None:
-    """Begin to guide the arm with the joystick; the wait ends when a function key is pressed."""
+    """Begin to guide the arm with the joystick. The guiding ends when a function key is pressed."""
     mos.program.check_point(number)
     if mos.level.flags:
         start(mos, {})
