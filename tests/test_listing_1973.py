@@ -45,4 +45,6 @@ def test_each_line_says_what_the_page_says(column: int, script: str, least: int)
         for number in numbers.split(", ")
     ]
     assert len(told) >= least
-    assert [(number, text, lines[number]) for number, text in told if not lines[number].startswith(text)] == []
+    assert [
+        (number, text, lines[number]) for number, text in told if not lines[number].startswith(text)
+    ] == []
