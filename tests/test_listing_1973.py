@@ -48,3 +48,13 @@ def test_each_line_says_what_the_page_says(column: int, script: str, least: int)
     assert [
         (number, text, lines[number]) for number, text in told if not lines[number].startswith(text)
     ] == []
+
+
+def test_the_page_of_1973_sets_each_step_beside_a_stage_of_the_program() -> None:
+    page = (ROOT / "docs" / "1973.md").read_text(encoding="utf-8")
+    steps = re.findall(
+        r"^\| (\d+) \| [^|]* \| `([^`]*)` \|", page.partition("### The eleven steps")[2], re.MULTILINE
+    )
+    stages = re.findall(r'^ *STAGE +"(.*)"', plan("water_pump_1973"), re.MULTILINE)
+    assert [stage for _, stage in steps[:11]] == stages
+    assert [int(number) for number, _ in steps[:11]] == list(range(1, 12))
