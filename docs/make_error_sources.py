@@ -3,6 +3,7 @@
 python docs/make_error_sources.py
 """
 
+import re
 import sys
 from collections.abc import Iterator
 from itertools import groupby, takewhile
@@ -17,6 +18,8 @@ from handeye.results.world_page import how, report  # noqa: E402
 from handeye.tasks.water_pump.world.variation import variation  # noqa: E402
 
 PAGE: Final = ROOT / "docs" / "error_sources.md"
+OURS: Final = re.compile(r"\bstudy\b|\bour notes\b|\binferred from\b", re.IGNORECASE)
+"""How the source of a size says that the size comes from the project itself."""
 MARK: Final = "<!-- Below: docs/make_error_sources.py -->\n"
 
 
@@ -30,17 +33,28 @@ def _tables() -> Iterator[str]:
     world = table.draw(WorldSpec(seed=0))
     told = {quantity.name: how(quantity) for quantity in report(table, world).quantities}
     there = list(table.present({}).values())
-    without = sum(bool(quantity.unsourced) for quantity in there)
+    without = [quantity for quantity in there if quantity.unsourced]
+    ours = [quantity for quantity in there if not quantity.unsourced and OURS.search(quantity.source)]
+    rest = [quantity for quantity in there if not quantity.unsourced and quantity not in ours]
     yield (
-        f"\nThe world of a pump has {len(there)} uncertain quantities. For {without} of these quantities, no source "
-        "gives the size of the error.\n"
+        f"\nThe world of a pump has {len(there)} uncertain quantities. For {len(without)} of these quantities, no "
+        f"source gives the size of the error. For {len(ours)} more, the size comes from a study of ours, from our "
+        f"notes, or from an inference of ours. The other {len(rest)} have a size from a document, or one that needs "
+        "no source.\n"
     )
     yield "\n## Without a source\n\n| quantities | size | what | why there is none, and a bound |\n|---|---|---|---|\n"
-    for those in _rows([quantity for quantity in there if quantity.unsourced]):
+    for those in _rows(without):
         yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} | {_sentence(those[0].unsourced)} |\n"
-    yield "\n## With a source, or with a size that needs none\n\n"
-    yield "| quantities | size | what, and where from |\n|---|---|---|\n"
-    for those in _rows([quantity for quantity in there if not quantity.unsourced]):
+    yield "\n## From a study or an inference of ours\n\nNo document gives these sizes. The [studies](studies.md) mark "
+    yield "theirs as chosen, as fitted to a figure of 1973, or as placeholders.\n"
+    yield from _sourced(ours, told)
+    yield "\n## From a document, or with a size that needs no source\n"
+    yield from _sourced(rest, told)
+
+
+def _sourced(quantities: list[Quantity], told: dict[str, str]) -> Iterator[str]:
+    yield "\n| quantities | size | what, and where from |\n|---|---|---|\n"
+    for those in _rows(quantities):
         yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} |\n"
 
 

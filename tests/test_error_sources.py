@@ -30,7 +30,8 @@ def test_a_size_without_a_source_has_a_reason_and_a_bound() -> None:
 
 def test_every_page_gives_the_number_of_sizes_without_a_source() -> None:
     told = re.search(
-        r"has (\d+) uncertain quantities. For (\d+) of these quantities", PAGE.read_text(encoding="utf-8")
+        r"has (\d+) uncertain quantities. For (\d+) of these quantities.*? For (\d+) more,",
+        PAGE.read_text(encoding="utf-8"),
     )
     assert told is not None
     for page in ("README.md", "docs/figures.md"):
@@ -38,3 +39,4 @@ def test_every_page_gives_the_number_of_sizes_without_a_source() -> None:
         assert re.search(
             rf"\b{told[2]} of (the )?{told[1]}\b|\b{told[1]} quantities. For {told[2]} of these\b", text
         ), page
+        assert re.search(rf"\b(and {told[3]} are from our studies|For {told[3]} more)\b", text), page

@@ -51,6 +51,16 @@ class Refers(StrEnum):
     NEW = "new name"
 
 
+class Document(Enum):
+    """Where an instruction or an operand was found. `docs/sources.md` describes the documents."""
+
+    PAPER_1973 = "paper 1973"
+    MANUAL_1973 = "manual 1973"
+    MANUAL_1976 = "manual 1976"
+    LISTING_1977 = "listing 1977, from memory"
+    MEMORY = "from memory, unverified"
+
+
 class Operand(Record, frozen=True, kw_only=True):
     """One operand of an instruction, and the values that it accepts."""
 
@@ -70,6 +80,7 @@ class Operand(Record, frozen=True, kw_only=True):
     refers: Refers = Refers.NEW
     word: str = ""  # keyword, alone or before the operand (`OF part`)
     ours: bool = False
+    document: Document | None = None  # if it is not that of the instruction
 
     @property
     def is_vector(self) -> bool:
@@ -86,6 +97,10 @@ class Operand(Record, frozen=True, kw_only=True):
         """The operand as the manual shows it; in parentheses if it is optional."""
         text = f"{self.word} {self.name}".strip()
         return f"({text})" if self.optional else text
+
+
+def _name(document: Document | None) -> str:
+    return "handeye" if document is None else document.value
 
 
 class Role(Enum):
@@ -115,15 +130,28 @@ class Instruction(Record, frozen=True, kw_only=True):
     role: Role = Role.STEP
     axes: bool = False  # accepts a number of axes and their letters
     fits: tuple[str, ...] = ()  # motions that a modifier applies to
-    ours: bool = False
+    document: Document | None = None  # None for an addition of handeye
+
+    @property
+    def ours(self) -> bool:
+        """True for an addition of handeye."""
+        return self.document is None
 
     @property
     def origin(self) -> str:
-        """`1970s` for an instruction in documents of the 1970s, or `handeye` for an addition of handeye. If handeye
-        adds operands to an instruction of the 1970s, these operands are named too.
+        """The document in which the instruction was found, or `handeye` for an addition of handeye. Operands of
+        another origin are named too.
         """
-        added = ", ".join(f"`{operand.shown}`" for operand in self.operands if operand.ours)
-        return "handeye" if self.ours else f"1970s; {added}: handeye" if added else "1970s"
+        own, others = _name(self.document), dict[str, list[str]]()
+        for operand in self.operands:
+            origin = self.origin_of(operand)
+            if origin != own:
+                others.setdefault(origin, []).append(f"`{operand.shown}`")
+        return "; ".join([own, *(f"{', '.join(shown)}: {origin}" for origin, shown in others.items())])
+
+    def origin_of(self, operand: Operand) -> str:
+        """The document in which an operand was found, or `handeye` for an addition of handeye."""
+        return _name(None if operand.ours else operand.document or self.document)
 
     @property
     def usage(self) -> str:

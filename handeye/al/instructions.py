@@ -1,8 +1,7 @@
 """The table of instructions, from which the parser, the checks, the formatter and the manual are derived.
 
-Words and meanings of the period are from Bolles and Paul, AIM-220 (1973), and from the surviving parts of the
-manual of the arm program. The additions of handeye, which no document of the period
-contains, have `ours` set.
+Each word has the document in which it was found; `docs/sources.md` describes these documents, and says which of them
+are known only from memory. The words without a document are additions of handeye.
 """
 
 from typing import Final
@@ -26,6 +25,7 @@ from handeye.al.definition import (
     SEARCH_STEP,
     STEPS,
     TIMES,
+    Document,
     Instruction,
     Operand,
     Refers,
@@ -42,7 +42,7 @@ from handeye.al.syntax import Name, Number, Text, Vector
 from handeye.program.motion_operations import VIAS
 
 MAX_COUNT: Final = 1000
-_NIL = word(NIL, ours=False)
+_NIL = replace(word(NIL, ours=False), document=Document.LISTING_1977)
 _COUNTER = Operand(name="counter", takes=(Name,), refers=Refers.COUNTER)
 _LABEL = name_of("label", Refers.LABEL)
 _NEW = name_of("name", Refers.NEW)
@@ -53,6 +53,7 @@ _PART = name_of("part", Refers.PART)
 _VALUE = count("value", 0, MAX_COUNT, f"a counter can be set to a value from 0 to {MAX_COUNT}")
 _ZERO_WHY = "write 0, which has no effect: we do not know what other numbers meant in 1977"
 _ZERO = Operand(name="0", takes=(Number,), units=(ONE,), low=0.0, high=0.0, why=_ZERO_WHY, optional=True)
+_ZERO = replace(_ZERO, document=Document.LISTING_1977)
 _FORCE = Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR)
 _STOP_FORCE = replace(
     _FORCE,
@@ -154,7 +155,7 @@ _OPERANDS: Final[dict[str, tuple[Operand, ...]]] = {
         _ZERO,
     ),
     "TURN": (_POSITION, replace(number("angle", DEG), nonzero=True)),
-    "STOP": (_STOP_FORCE, MOMENT),
+    "STOP": (_STOP_FORCE, replace(MOMENT, document=Document.MEMORY)),
     "FORCE": (_FORCE, MOMENT),
     "FREE": (_AXES,),
     "SPIN": (_AXES,),
@@ -164,7 +165,7 @@ _OPERANDS: Final[dict[str, tuple[Operand, ...]]] = {
     "RESTORE": (name_of("name", Refers.SAVED), word("LEVEL")),
     "OPEN": (gap("gap"),),
     "CLOSE": (gap("minimum", optional=True), gap("maximum", optional=True, ours=True)),
-    "CENTER": (gap("minimum", optional=True),),
+    "CENTER": (replace(gap("minimum", optional=True), document=Document.MEMORY),),
     "SKIPE": (ERROR,),
     "SKIPN": (ERROR,),
     "SEARCH": (SEARCH_STEP, ALONG, STEPS),
@@ -211,7 +212,29 @@ _FITS: Final = {
     "VIA": ("MOVE", "PARK"),
 }
 _GROUP_OF: Final = {op: group for group, ops in _GROUPS.items() for op in ops}
-_OURS = ("TURN", "VIA", "TORQUE", "UNDO", "TRAVEL", "HEIGHT", "STAGE", *_GROUPS[TOOL], *_GROUPS[VISION])
+_DOCUMENTS: Final = {
+    **dict.fromkeys(
+        (
+            "MOVE",
+            "CHANGE",
+            "RESTORE",
+            "STOP",
+            "OPEN",
+            "CLOSE",
+            "CENTER",
+            "SKIPE",
+            "SKIPN",
+            "SEARCH",
+            "AOJ",
+            "SAVE",
+        ),
+        Document.PAPER_1973,
+    ),
+    **dict.fromkeys(("PARK", "FREE", "REQUIRE", "DEFINE"), Document.MANUAL_1973),
+    **dict.fromkeys(("TRANS", "VECT", "HERE", "WHERE"), Document.MANUAL_1976),
+    **dict.fromkeys(("SPIN", "ASSIGN", "SOJG", "JUMP", "WAIT"), Document.LISTING_1977),
+    **dict.fromkeys(("PLACE", "FORCE", "TOUCH"), Document.MEMORY),
+}  # of the instructions that are not additions of handeye
 
 EXPLAINED: Final = {
     op: Instruction(
@@ -222,7 +245,7 @@ EXPLAINED: Final = {
         role=_ROLES.get(op, Role.STEP),
         axes=op in ("FREE", "SPIN"),
         fits=_FITS.get(op, ()),
-        ours=op in _OURS,
+        document=_DOCUMENTS.get(op),
     )
     for op, help in _MEANINGS.items()
 }

@@ -2,7 +2,16 @@
 
 from typing import Final
 
-from handeye.al.definition import DECLARATION, MAX_NUMBER, MODIFIER, MOTION, Instruction, Operand, Refers
+from handeye.al.definition import (
+    DECLARATION,
+    MAX_NUMBER,
+    MODIFIER,
+    MOTION,
+    Document,
+    Instruction,
+    Operand,
+    Refers,
+)
 from handeye.al.syntax import Name, Number, Text, Vector
 
 _CALLED: Final = {
@@ -10,6 +19,15 @@ _CALLED: Final = {
     Refers.LABEL: "a label",
     Refers.TARGET: "the name of a position or a part",
     Refers.SAVED: "the name of a saved difference",
+}
+
+_FOUND_IN: Final = {
+    None: "handeye adds this {}.",
+    Document.PAPER_1973: "The paper of 1973 has this {}.",
+    Document.MANUAL_1973: "The arm program's manual of 1973 has this {}.",
+    Document.MANUAL_1976: "A manual of 1976, of a later arm program, has this {}.",
+    Document.LISTING_1977: "The listing of 1977 has this {}. We know this listing only from memory.",
+    Document.MEMORY: "We remember this {} from a later publication, and have not verified it.",
 }
 
 
@@ -27,16 +45,11 @@ def takes(definition: Instruction, operand: Operand) -> str:
     return "; ".join([said, *_limits(operand)]) + counted
 
 
-def origin(definition: Instruction, operand: Operand) -> str:
-    """Return the origin of an operand: `1970s`, or `handeye` for an addition of handeye."""
-    return "handeye" if operand.ours or definition.ours else "1970s"
-
-
 def part(definition: Instruction) -> str:
     """Describe the role of an instruction, with its origin."""
     named = definition.role in (MOTION, MODIFIER, DECLARATION)
     role = definition.role.value if named else "instruction"
-    said = f"handeye adds this {role}." if definition.ours else f"Documents of the 1970s contain this {role}."
+    said = _FOUND_IN[definition.document].format(role)
     modified = ", ".join(f"`{word}`" for word in definition.fits)
     return f"{said} `{definition.op}` can modify {modified}." if modified else said
 

@@ -36,8 +36,8 @@ from handeye.program.diagnosis.reach import (
 from handeye.program.program import Program, SourcePlace, Step
 
 RIDDLE: Final = (
-    "in the listing printed in 1973, the second stop of the pin insertion can be read as 60 or as 600 oz; it must be "
-    "60 oz, because at 600 oz the search would never end"
+    "in the listing printed in 1973, the second stop of the pin insertion can be read as 60 or as 600 oz; we read "
+    "60 oz, because the simulated arm cannot press with 600 oz, so the search would never end"
 )  # reference D1
 _TOLERANCE: Final = 0.004
 _EIGHTHS: Final = 8

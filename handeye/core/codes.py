@@ -72,7 +72,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "extension-used": Code(
         severity="error",
-        meaning="a word or an operand is an extension by handeye, but only the language of the 1970s is allowed",
+        meaning="a word or an operand is an extension by handeye, and `--strict-1973` refuses such extensions",
         example="LOAD 4",
         phase="strict",
     ),

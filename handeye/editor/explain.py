@@ -12,7 +12,7 @@ from handeye.al.definition import Instruction
 from handeye.al.formatter import format_text
 from handeye.al.includes import sewn_of
 from handeye.al.instructions import EXPLAINED
-from handeye.al.operand_help import origin, part, takes
+from handeye.al.operand_help import part, takes
 from handeye.core import errors
 from handeye.core.codes import CODES
 from handeye.core.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
@@ -70,7 +70,7 @@ def listing() -> str:
 def _instruction(definition: Instruction) -> str:
     width = max((len(operand.shown) for operand in definition.operands), default=0)
     operands = [
-        f"  {operand.shown:{width}}  {takes(definition, operand)} ({origin(definition, operand)})"
+        f"  {operand.shown:{width}}  {takes(definition, operand)} ({definition.origin_of(operand)})"
         for operand in definition.operands
     ]
     more = f"More and examples: {page(f'language/reference/{definition.op.lower()}.md')}"

@@ -48,6 +48,7 @@ class HistoricalTiming(Record, frozen=True, kw_only=True):
     year: int
     program: str  # the program that was timed
     times: Mapping[str, float]  # durations by the names `planning`, `manipulation`, `lens` and `vision`
+    differs: str = ""  # how the program differs from the work that was timed, in one or two sentences
 
 
 class ExportedScene(Record, frozen=True, kw_only=True):

@@ -8,7 +8,7 @@ from suites import MANUAL, Case, cases, compiled, shown
 from handeye.al.definition import Instruction, Operand
 from handeye.al.formatter import format_text
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.operand_help import origin, part, takes
+from handeye.al.operand_help import part, takes
 from handeye.core.codes import CODES, Code
 from handeye.core.diagnostics import render
 from handeye.core.errors import ERRORS
@@ -77,7 +77,7 @@ def head(definition: Instruction) -> str:
 
 
 def _row(definition: Instruction, operand: Operand) -> str:
-    return f"| `{operand.shown}` | {takes(definition, operand)} | {origin(definition, operand)} |"
+    return f"| `{operand.shown}` | {takes(definition, operand)} | {definition.origin_of(operand)} |"
 
 
 def _raised(op: str) -> list[int]:

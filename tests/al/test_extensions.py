@@ -1,5 +1,6 @@
 """`--strict-1973`: what is ours is refused, what is the period's is not."""
 
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -7,10 +8,13 @@ from al_support import LISTING
 from test_dialect_of_1977 import LISTING_1977
 
 from handeye import al
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.definition import Document
+from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.cli.scripts import check
 from handeye.core.codes import CODES
 from handeye.core.source import Source
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 @pytest.mark.parametrize("listing", [LISTING, LISTING_1977])
@@ -56,6 +60,25 @@ def test_every_word_of_ours_is_refused() -> None:
         "LENS",
         "STAGE",
     }
+
+
+def test_words_that_are_known_only_from_memory_are_accepted() -> None:
+    text = "PLACE\nFORCE [0 0 -20]\nTOUCH 3\nCHANGE [0 0 -1] 1\nSTOP [0 0 -50] [0 0 9]\nCHANGE [0 0 -1] 1"
+    assert al.extensions(Source(name="x.al", text=text)) == []
+
+
+def test_the_manual_explains_every_origin_and_the_page_of_1973_counts_them() -> None:
+    manual, compared = (
+        (DOCS / page).read_text(encoding="utf-8") for page in ("language/README.md", "1973.md")
+    )
+    counts = Counter(each.document for each in EXPLAINED.values())
+    assert [one.value for one in Document if f"\n| {one.value} |" not in manual] == []
+    assert (
+        f"of {counts.total()} instructions, {counts[Document.PAPER_1973]} are from the paper, "
+        f"{counts[Document.MANUAL_1973]} from the manual of 1973, {counts[Document.MANUAL_1976]} from a manual "
+        f"of 1976, {counts[Document.LISTING_1977]} from the listing of 1977 and {counts[Document.MEMORY]} from "
+        f"memory; the last eight are unverified. {counts[None]} are ours"
+    ) in compared
 
 
 def test_check_refuses_only_when_asked_to(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -132,10 +132,10 @@ def test_explain_tells_usage_operands_and_origin_of_an_instruction() -> None:
         "",
         "go to a position: rise, move across and go down; with DIRECT, go straight to the position",
         "",
-        "  position  the name of a position (1970s)",
+        "  position  the name of a position (paper 1973)",
         "  (DIRECT)  this word (handeye)",
         "",
-        "Documents of the 1970s contain this motion.",
+        "The paper of 1973 has this motion.",
         "More and examples: docs/language/reference/move.md",
     ]
 

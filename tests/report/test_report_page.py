@@ -10,6 +10,7 @@ from recordings import BOUNDARIES, Recording
 from report_pages import Node, barriers, page_of, recorded, renamed, tree
 
 from handeye.report.recorded import RecordedRun
+from handeye.tasks import known
 from handeye.trace.reading import read_trace
 
 EVIL = "</script><img src=x onerror=alert(1)>"
@@ -61,6 +62,17 @@ def test_its_sections_stand_in_order(page: Node) -> None:
     assert [node.attributes["id"] for node in page.all("section") if "aria-labelledby" in node.attributes] == [
         "run", "timing", "seen", "felt", "planned", "referee", "record",
     ]  # fmt: skip
+
+
+def test_the_times_of_1973_come_with_what_was_timed(
+    run: RecordedRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pump = known("water_pump")
+    assert pump is not None
+    monkeypatch.setattr(RecordedRun, "period", pump.period)
+    timing = tree(page_of(run)).one("timing").text
+    assert "compared with 1973" in timing
+    assert "The job of 1973 had eleven steps." in timing
 
 
 def test_nothing_keeps_people_who_do_not_see_or_point_from_it(page: Node) -> None:

@@ -89,6 +89,8 @@ def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
             f"{then.times['vision']:g} s of processor time. Here, each takes well under a second; the exact "
             "times are in the result of the run."
         )
+        if then.differs:
+            yield f" {then.differs}"
 
 
 def _by_stage(run: RecordedRun, stages: list[StageFigures]) -> Iterator[Markup]:
