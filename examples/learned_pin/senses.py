@@ -16,8 +16,8 @@ FEATURES: Final = (
 _UNITS: Final = np.array([5e-3, 1e-2, 1e-2, 1.0, 2e-3, 2e-3, 2e-3, 2e-3, 1e-3, 1e-3])  # m, but for `touched`
 _PERIOD: Final = 1 / 60  # s
 _FAST, _SLOW, _LONG = 0.07, 0.35, 1.5  # time constants of the averages, s
-_CONTACT: Final = -0.0015  # lag at which metal has touched metal, m: about 8 N
-FASTEST: Final = 0.01  # speed of the set-point at 1, m/s
+_CONTACT: Final = -0.0015  # vertical lag at which the pin has touched the face, m: about 8 N
+_SPEED: Final = 0.01  # of the set-point at an answer of 1, m/s
 
 
 class Senses:
@@ -30,10 +30,8 @@ class Senses:
     def __init__(self, facts: Facts) -> None:
         self._facts, self._start = facts, np.full(3, np.nan)
         self._place, self._lag, self._averaged = np.zeros(3), np.zeros(3), 0.0
-        self._heights, self._face = (
-            np.zeros(3),
-            np.nan,
-        )  # averages over _FAST, _SLOW and _LONG; of the first contact
+        self._heights = np.zeros(3)  # of the hand: averages over _FAST, _SLOW and _LONG
+        self._face = np.nan  # height of the first contact
 
     def see(self, observation: Observation) -> Array:
         """Return the features after a reading, shape (10,), each in a unit in which it is about 1."""
@@ -56,7 +54,7 @@ class Senses:
     def action(self, answer: Array) -> Array:
         """Return the action for an answer, shape (4,): radial, tangential and vertical speed, and `done`."""
         speed = np.array([*(answer[:2] @ self._axes()), answer[2]])
-        moved = np.clip(speed * FASTEST * _PERIOD, -STEP, STEP)
+        moved = np.clip(speed * _SPEED * _PERIOD, -STEP, STEP)
         self._place = self._place + moved
         values = {"grip": 1.0, "done": float(answer[3] > 0.5)}
         values |= dict(zip(("move.x", "move.y", "move.z"), moved / STEP, strict=True))

@@ -32,10 +32,8 @@ FIRST: Final = 5000  # seed of the first world
 WORLDS: Final = (2, 20, 20, 20, 20, 20)  # in each round
 EPOCHS: Final = 30  # after each round
 LIMIT: Final = 25.0  # time limit of an episode in training, s
-DISTURBED, HELD = (
-    0.4,
-    15,
-)  # standard deviation of a disturbance (units of 10 mm/s); periods for which it lasts
+DISTURBED: Final = 0.4  # standard deviation of a disturbance, in units of 10 mm/s
+HELD: Final = 15  # periods for which it lasts
 LINGERED: Final = 30  # periods for which the teacher presses on when it could say done
 CURVE: Final = Path(__file__).with_name("curve.csv")
 

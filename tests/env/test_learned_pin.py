@@ -1,5 +1,6 @@
 """The learned policy for the pin: its weights, what it sees, and an episode in a world in which it was not trained."""
 
+import csv
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +13,14 @@ from handeye.core.pose import Array
 from handeye.env.environment import AssemblyEnv
 from handeye.env.evaluation import play
 
+ROOT = Path(__file__).parents[2]
 UNSEEN = 975000
 """The first world of the result in docs/environments.md. The training used worlds from 5000."""
 
 
-def features(**seen: float) -> Array:
+def features(seen: dict[str, float]) -> Array:
     """Features of a pin in the air over the face, but for those that are given."""
-    return np.array([seen.get(name.replace(" ", "_"), 0.0) for name in FEATURES])
+    return np.array([seen.get(name, 0.0) for name in FEATURES])
 
 
 def test_the_weights_are_a_small_file_without_pickle() -> None:
@@ -34,11 +36,23 @@ def test_the_same_network_is_written_as_the_same_bytes(tmp_path: Path) -> None:
 
 
 def test_the_teacher_says_done_only_of_a_pin_that_stands_deep_and_pressed() -> None:
-    pressed = {"touched": 1.0, "height_over_the_face": -1.9, "height": -2.23, "lag,_vertical,_averaged": -2.0}
-    assert answer(features(**pressed))[3] == 1
-    assert answer(features(**pressed | {"height_over_the_face": 0.0, "height": -0.33}))[3] == 0  # on the face
-    assert answer(features(**pressed | {"lag,_vertical,_averaged": -0.5}))[3] == 0  # deep, but not pressed
-    assert answer(features(**pressed | {"rise_in_.35_s": -0.5}))[3] == 0  # still on its way down
+    seated = {"touched": 1, "height over the face": -1.9, "height": -2.23, "lag, vertical, averaged": -2}
+    assert answer(features(seated))[3] == 1
+    for otherwise in (
+        {"height over the face": 0, "height": -0.33},  # pressed, but on the face
+        {"lag, vertical, averaged": -0.5},  # deep, but not pressed
+        {"rise in .35 s": -0.5},  # still on its way down
+    ):
+        assert answer(features(seated | otherwise))[3] == 0
+
+
+def test_the_page_shows_the_curve_that_the_training_wrote() -> None:
+    page = (ROOT / "docs/environments.md").read_text(encoding="utf-8")
+    with (ROOT / "examples/learned_pin/curve.csv").open(encoding="utf-8", newline="") as file:
+        _, *rows = csv.reader(file)
+    for number, *found in rows:
+        actor = "teacher" if number == "0" else "network"
+        assert f"| {number} | {actor} | {' | '.join(found)} |" in page
 
 
 @pytest.mark.slow
