@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from handeye.trials.chaos.schedule import Schedule
 
 Worldly = Annotated[
-    WholeNumber, Parameter(name="--n", help="Number of worlds, from --seed on, for each disturbance.")
+    WholeNumber,
+    Parameter(name="--n", help="Number of worlds for each disturbance; their seeds count up from --seed."),
 ]
 
 
@@ -42,7 +43,9 @@ class AttemptOptions:
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     worlds: Annotated[
         WholeNumber | None,
-        Parameter(help="Number of worlds, from --seed on. Default: as many as trials (--n)."),
+        Parameter(
+            help="Number of worlds; their seeds count up from --seed. Default: one world for each trial (--n)."
+        ),
     ] = None
     eye: Annotated[
         Known,
@@ -185,7 +188,7 @@ def chaos_trials(
     seed: FirstSeed = 0,
     worlds: Annotated[
         WholeNumber,
-        Parameter(help="Number of worlds; the level of their errors alternates: nominal, low, high."),
+        Parameter(help="Number of worlds. The levels of their errors are nominal, low and high in turn."),
     ] = 3,
     schedule: Annotated[
         list[str] | None,
