@@ -82,8 +82,8 @@ RAMP: Final = 8
 was ended by a force did not slow down at its end.
 """
 JOIN: Final = 5e-4
-"""Speed (rad or m per servo period) at which the joints first move to the end of the path, because brakes and
-guards have left the arm beside the path.
+"""Speed (rad or m per servo period) at which the joints first move to the end of the path. Brakes and guards can leave
+the arm beside the path.
 """
 
 
