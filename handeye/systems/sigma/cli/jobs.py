@@ -117,7 +117,7 @@ def line(
     `plans/line.mal` runs on four simulated arms, a feeder and a belt, in a world with errors. The machine has 26
     microcomputers on one bus of three segments. A referee then checks that each piece stands at its place on the belt,
     within 3 mm and 3 degrees, with both pins protruding by at most .5 mm; that the program counted the finished pieces
-    correctly; and that no arms touched each other.
+    correctly; and that the arms never touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because arms collided;
         3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.
@@ -296,7 +296,7 @@ def _try_out(
     job: "JobName", pieces: int | None, n: int, seed: int, errors: OwnErrorOptions, options: SweepOptions, title: str,
     again: str = "",
 ) -> int:  # fmt: skip
-    """Run a job on many boards; returns the exit code."""
+    """Run a job on many boards, and return the exit code."""
     from handeye.systems.sigma.run.job_trials import TRIALS
     from handeye.systems.sigma.run.jobs import job_setup
 

@@ -103,8 +103,8 @@ fingers' clearance.
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0
-"""Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a
-carrier represents a screw, a body elsewhere would mean that the screw exists twice.
+"""Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a carrier
+represents the screw, the screw would exist twice if its body were elsewhere.
 """
 FORCE: Final = 0.0  # N and N m, external, on a part or the arm: nothing may be held by an unseen hand
 MERGED: Final = 0.1
