@@ -26,9 +26,9 @@ TaughtPositions = Annotated[
     str,
     Meta(
         max_length=500_000,
-        description="Taught positions (inches, degrees): the text of a TOML file, which contains a line break; or the "
-        "name of a file in the folder; or the name of an included program, to use its positions. Default: the .toml "
-        "file next to the script, if there is one.",
+        description="Taught positions (inches, degrees). A value with a line break is the text of a TOML file. A "
+        "value without one is the name of a file in the folder, or the name of an included program whose positions "
+        "are used. Default: the .toml file next to the script, if there is one.",
     ),
 ]
 TaskName = Annotated[
@@ -81,8 +81,8 @@ class Check(Request, frozen=True, kw_only=True):
         str,
         Meta(
             max_length=20,
-            description="Language of a script that is given as text. The language is named by the ending of its "
-            "files, such as al or ml. If the script is a file, its name gives the language.",
+            description="Language of a script that is given as text. Give the ending of the language's file names, "
+            "such as al or ml. If the script is a file, its own name gives the language.",
         ),
     ] = "al"
 
@@ -177,7 +177,7 @@ class Back(Request, frozen=True, kw_only=True):
         str,
         Meta(
             max_length=200,
-            description="Go back to the beginning of this stage. Default: go back by a number of steps.",
+            description="Go back to the beginning of this stage. If it is empty, the run goes back by `steps` steps.",
         ),
     ] = ""
 

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from handeye.results.export import Export
 
 Place = str | int
-"""A place in the script: a stage (its name or a part of it), a label, an instruction, `error:N`, or a line."""
+"""A place in the script: a stage (its name or part of its name), a label, an instruction, `error:N`, or a line."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -30,8 +30,8 @@ from handeye.program.guards import HandLoad
 
 UNKNOWN: Final = 0.02  # of measured friction, in addition to a quarter of a converter step
 PEAK: Final = 4.0
-"""Margin of a guard, in multiples of the scatter of single servo periods. One servo period in 30,000 exceeds this
-margin.
+"""Margin of a guard, in standard deviations of the force or moment that is sensed in a single servo period. One servo
+period in 30,000 exceeds this margin.
 """
 
 

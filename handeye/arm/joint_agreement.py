@@ -19,10 +19,13 @@ the largest amplitude of the waviness. At the high level of errors, this amplitu
 degrees, .011 in).
 """
 READING_STEPS: Final = 1.5
-"""Tolerance for two readings of one position, in converter steps: half a step for each, and their noise."""
+"""Permitted difference between two readings of one position, in converter steps: half a step for each reading, and the
+noise of both.
+"""
 PATH_SHARE: Final = 0.013
 """Tolerance for the difference between the two sensors, as a fraction of the path of the joint: three standard
-deviations of the scale error of a potentiometer (.22 %), doubled.
+deviations of the scale error of a potentiometer at the high level. The stated deviation is .22 %, and the high level
+doubles it.
 """
 JUMP_STEPS: Final = 4.0
 """Tolerance, in converter steps, for a change of the potentiometer reading that the tachometer does not show, within
@@ -54,8 +57,8 @@ is examined more closely. Our choice: of 278 measurements in three runs without 
 STILL_STEPS: Final = 2.0
 """Tolerance, in converter steps, for the median deviation of the rate readings of a joint that is held still.
 
-A steady rate deviates by at most one step, by rounding; the stated noise is .03 steps. The other step is for an arm
-that creeps.
+One of the two steps is for rounding, by which the reading of a steady rate deviates by at most one step; the stated
+noise is only .03 steps. The second step is for an arm that creeps.
 """
 
 

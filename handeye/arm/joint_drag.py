@@ -26,8 +26,8 @@ from handeye.core.pose import Array
 
 SLIDING_STEPS: Final = 4.0  # rate, in tachometer steps, at which a joint certainly slides; chosen
 LEAST_PERIODS: Final = 15
-"""Least number of servo periods of sliding for an average torque. Our choice: the average has a quarter of the
-rounding error of one torque.
+"""Least number of servo periods of sliding for an average torque. Our choice: the rounding error of the average is a
+quarter of that of a single torque.
 """
 MAX_DRAG_RATIO: Final = 2.0
 """Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in
@@ -41,8 +41,8 @@ reached a ratio of 1.4.
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
 """Possible relative error of weight and inertia torques if a joint moved in one direction only. This value allows for
-errors of masses, mass centres and drives up to three times their spreads at the high level, which is six times their
-stated spreads.
+errors of masses, mass centres and drives that are three times their spreads at the high level. The spreads at this
+level are twice the stated ones.
 """
 AT_HAND: Final = 0.15
 """Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Our choice: this

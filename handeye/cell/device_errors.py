@@ -84,7 +84,9 @@ class CameraErrors:
     turn: tuple[float, float, float]  # error of pan, tilt and roll, in rad
     focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
-    """Error of the position of each lens, in m: forwards, to the right and upwards in the picture of the lens."""
+    """Error of the position of each lens, in m: forwards, to the right and upwards, as seen in the picture of the
+    lens.
+    """
     pot_noise: float  # sigma of the pan and tilt readings, in rad
     raster: Raster
     drift: float  # sigma of the shift of a picture, along its lines (in half widths) and across them (in half heights)

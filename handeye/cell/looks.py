@@ -15,4 +15,6 @@ SCENERY: Final = 1
 SEEN: Final = 2  # group of the shapes that show a body
 PLAIN: Final = 5  # group of shapes for the television camera; photographs show finer shapes instead
 LATENT: Final = 4
-"""Geom group of shapes that appear only after an event, such as the screws in threads that are still empty."""
+"""Geom group of shapes that appear only after an event. For example, the screw of a thread is in this group while the
+thread is empty.
+"""

@@ -26,7 +26,9 @@ PLATFORMS: Final = (
     ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),
     ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
 )
-"""Platforms: the name, the module, and alternatives for the libraries that the platform needs."""
+"""For each platform: its name, its module, and the libraries that it needs. Each library has alternatives; one of them
+is enough.
+"""
 SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
 """Prefixes of the environment variables by which a user selects a device or a driver."""
 NEAR, FAR = 0.3, 10.0  # clipping planes, in m

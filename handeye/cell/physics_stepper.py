@@ -49,7 +49,7 @@ LONGER: Final = 4
 still holds joints and parts.
 """
 MIDDLE: Final = 2
-"""Number of short steps in a middle step."""
+"""Number of short steps in a step of medium length."""
 FINER: Final = 8
 """Number of fine steps in a short step. Our choice: a hand that runs into a fixture at 3 m/s goes .4 mm in a fine step.
 """
@@ -124,8 +124,8 @@ class _Contacts:
     delicate: bool
     """True if a pair is not allowed in middle steps."""
     held: tuple[tuple[int, int], ...]
-    """The free bodies that the hand carries if all pairs are allowed in long steps. Each body comes with the index of
-    its pose among the positions of the simulator.
+    """The free bodies that the hand carries, each with the index of its pose among the positions of the simulator.
+    Empty if `carried` is false.
     """
 
 

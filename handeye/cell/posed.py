@@ -12,8 +12,8 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 
 TURNS: Final = "turns/"
-"""Prefix of the numeric fields of the scene that give the period (s) of a rotating body fixed in the world, such as
-a clock hand.
+"""Prefix of the numeric fields of the scene that give the period (s) of a body that turns in place, such as a clock
+hand.
 """
 
 

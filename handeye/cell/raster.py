@@ -25,8 +25,7 @@ class Raster:
     pincushion: float = 0.0
     """Inward displacement of a corner of the picture, divided by its distance from the centre."""
     lines: float = 0.0
-    """Displacement of the middle of each line, divided by half the length of the line. The ends of the line are in
-    place.
+    """Bow of each line: the displacement of its middle relative to its ends, divided by half the length of the line.
     """
     field: float = 0.0  # the same down the picture
 

@@ -19,7 +19,7 @@ _SMOOTH: Final = 1 / 64
 of a grey level.
 """
 _SAMPLES: Final = (np.indices((FINE, FINE)).reshape(2, -1).T[:, ::-1] + 0.5) / FINE - 0.5
-"""Offsets of the samples of a picture point (u, v) from its middle."""
+"""Offsets (u, v) of the samples of a picture point from the middle of this point."""
 
 
 class RayRenderer(SceneRenderer):

@@ -27,9 +27,9 @@ GAIN_WINDOW: Final = 0.6
 the height counts as the middle. Placeholder.
 """
 
-F_NUMBER: Final = 2.8
+F_NUMBER: Final = 2.8  # placeholder
 PITCH: Final = RASTER[0] / COLUMNS  # m
-"""Width (m) of a picture point on the target, used for the blur of defocus. The f-number above is a placeholder."""
+"""Width (m) of a picture point on the target, used for the blur of defocus."""
 
 
 class Vidicon:

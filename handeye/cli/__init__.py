@@ -87,7 +87,7 @@ def _carried_out() -> int:
 
 
 def _complained(sentence: object) -> int:
-    """Print an error if standard error is still open; returns the exit code for bad input."""
+    """Print an error if standard error is still open, and return the exit code for bad input."""
     with suppress(OSError):
         complain(sentence)
     return BAD_INPUT

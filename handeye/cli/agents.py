@@ -76,8 +76,8 @@ def bench_agents(
         Path | None,
         Parameter(
             name="--try",
-            help="Instead of --command: a folder with one program for the task, such as `.`. The program is judged "
-            "in the public worlds, and the command prints the feedback.",
+            help="Instead of --command: a folder, such as `.`, that contains one program for the task. The program "
+            "is judged in the public worlds, and the command prints the feedback.",
         ),
     ] = None,
     check: Annotated[
@@ -91,8 +91,8 @@ def bench_agents(
     solutions: Annotated[
         Path | None,
         Parameter(
-            help="Instead of --command: a folder that an earlier --out wrote. The programs in this folder are "
-            "judged again."
+            help="Instead of --command: a folder that this command wrote earlier, with --out. The programs in this "
+            "folder are judged again."
         ),
     ] = None,
     feedback: Annotated[

@@ -81,7 +81,7 @@ def assembly_trials(
     ] = 1800.0,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble in many worlds: success rate with its confidence interval, and what failed where.
+    """Assemble in many worlds, to learn the success rate with its confidence interval, and what failed where.
 
     The figures are the same for any number of processes. A trial whose process is killed is repeated once; an
     exception counts as a failure. Trials that ended because this computer failed are repeated when the batch
@@ -217,8 +217,8 @@ def compare_trials(
     ],
     json: Json = False,
 ) -> int:
-    """Compare batches of trials with a first batch, world by world: how much a sensor, or an error of the world,
-    changes the success rate.
+    """Compare batches of trials with a first batch, world by world, to see how much a sensor, or an error of the
+    world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
     is the p-value of McNemar's exact test: the probability of differences at least as uneven as here, if neither batch
@@ -254,7 +254,7 @@ def _task_words(task: str, plan: Path | None) -> list[str]:
 
 
 def _again(trial: "Trial", command: list[str], options: list[str]) -> "Callable[[Row], str]":
-    """Return a function that gives, for a row, the command that repeats its trial."""
+    """Return a function that takes a row and returns the command that repeats the trial of this row."""
     from msgspec.structs import replace
 
     from handeye.report.facts.again import sense_words, world_words

@@ -110,7 +110,7 @@ def insertion(
         cases,
         head_of(INSERTION, world, camera="ray"),
         options,
-        title=f"insertion bench with {PROGRAMS[search]}, in worlds with seeds from {seed} on",
+        title=f"insertion bench with {PROGRAMS[search]}, in worlds whose seeds count up from {seed}",
     )
 
 

@@ -31,7 +31,7 @@ stages = scripts:stages: List the stages of a plan and their steps, with their s
 fmt = editing:fmt: Format scripts in columns, like a listing of 1973; comments are kept.
 explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 docs = docs:docs: List the pages of the documentation, or print one.
-exercise = exercises:exercise: List the exercises of the course, show one, or grade a program: verdict over all worlds, and hints.
+exercise = exercises:exercise: List the exercises of the course, show one, or grade a program with a verdict over all worlds, and hints.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
 mcp = agents:mcp: Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
 export: Export a world, or the state of a run, to other programs.
@@ -56,14 +56,14 @@ world = worlds:world: List every quantity that varies between worlds: its value 
 render = worlds:render: Render a picture of the work cell.
 faults = fault_matrix:faults: Assemble once with each fault of a standard set, at its usual size, and report which faults the program noticed.
 trials: Repeat a task in many worlds and count successes.
-trials assembly = batches:assembly_trials: Assemble in many worlds: success rate with its confidence interval, and what failed where.
+trials assembly = batches:assembly_trials: Assemble in many worlds, to learn the success rate with its confidence interval, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in place.
 trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the arm does damage?
-trials compare = batches:compare_trials: Compare batches of trials with a first batch, world by world: how much a sensor, or an error of the world, changes the success rate.
+trials compare = batches:compare_trials: Compare batches of trials with a first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
-trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch the faults for which the missing check was meant?
+trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch the faults for which the changed check was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
 trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 trials worst = rare:worst_trials: Find the nearest worlds in which a program fails, and the quantities that push it to fail.

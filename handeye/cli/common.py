@@ -176,7 +176,7 @@ def put_json(answer: object) -> None:
 
 
 def answer(found: object, lines: Iterable[str], *, json: bool) -> int:
-    """Print the answer as JSON or as text; returns its exit code."""
+    """Print the answer as JSON or as text, and return the answer's exit code."""
     if json:
         put_json(found)
     for line in () if json else lines:

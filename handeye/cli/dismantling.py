@@ -34,9 +34,9 @@ def dismantle(
     more force than expected, or no longer holds the part that it held when the step was executed, the arm brakes
     and the program calls the operator. The folder of the run does not change.
 
-    Exit code 0: every part is back where it was before the run or, with --to, all steps from the beginning of the
-    given stage on are undone; 1: the arm was stopped and the program called the operator; 3: the program reported
-    every step undone, but the referee disagrees; 2: bad input; 130: interrupted.
+    Exit code 0: every part is back where it was before the run or, with --to, all steps since the beginning of the
+    given stage are undone; 1: the arm was stopped and the program called the operator; 3: the program reported every
+    step undone, but the referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.debugger.breakpoints import stage_number

@@ -27,7 +27,7 @@ def fmt(
 ) -> int:
     """Format scripts in columns, like a listing of 1973; comments are kept.
 
-    `-` reads standard input and writes standard output. A script with syntax errors does not change. Exit code
+    `-` reads standard input and writes standard output. A script with syntax errors is left as it is. Exit code
     2: a script has syntax errors, or a file cannot be used.
 
     Parameters

@@ -38,7 +38,7 @@ def exercise(
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
-    """List the exercises of the course, show one, or grade a program: verdict over all worlds, and hints.
+    """List the exercises of the course, show one, or grade a program with a verdict over all worlds, and hints.
 
     ```
     handeye exercise
@@ -46,8 +46,9 @@ def exercise(
     handeye exercise find find.al
     ```
 
-    Exit code 0: the program is right in every world; 1: the program is not right in some world; 3: a silent failure:
-    in some world, the program reported success but its work is wrong; 2: bad input, or a program with mistakes.
+    Exit code 0: the program is right in every world; 1: the program is not right in at least one world; 3: a silent
+    failure: in at least one world, the program reported success but its work is wrong; 2: bad input, or a program with
+    mistakes.
     """
     from handeye.exercises import exercises
 

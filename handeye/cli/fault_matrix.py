@@ -44,15 +44,15 @@ def faults(
         WholeNumber | None,
         Parameter(
             name="--n",
-            help="Number of worlds, from --seed on; each fault is tried in each world. Default: 1.",
+            help="Number of worlds; their seeds count up from --seed. Each fault is tried in each world. Default: 1.",
         ),
     ] = None,
     seeds: Seeds = None,
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder that keeps, for each world, one run without faults; what is missing is created. A run with "
-            "a fault that begins at a later stage then starts from a checkpoint of the run without faults. By "
+            help="Folder that keeps, for each world, one run without faults; a missing run is made first. A run "
+            "with a fault that begins at a later stage then starts from a checkpoint of the run without faults. By "
             "default, each fault is tried in a whole run. The outcomes are the same either way."
         ),
     ] = None,
@@ -69,8 +69,8 @@ def faults(
     (`unbraked`), or it reported success although the pump is wrong (`silent`).
 
     A whole run takes one to three CPU minutes; the time left is shown on standard error. Ctrl-C stops the command and
-    prints the runs that have finished; with --out, the same command continues where it stopped. A command for other
-    faults in the same worlds adds its runs to the same folder.
+    prints the runs that have finished; with --out, the same command continues where it stopped. To add runs with other
+    faults in the same worlds, give the command again with these faults and the same folder.
 
     Exit code 0: every fault was detected; 1: no trial finished; 3: a fault was undetected; 2: bad input; 130:
     interrupted.

@@ -46,9 +46,9 @@ def mutant_trials(
     options: SweepOptions = ANY,
 ) -> int:
     """Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does
-    another check catch the faults for which the missing check was meant?
+    another check catch the faults for which the changed check was meant?
 
-    A mutant that `handeye check --prove` does not refuse runs from the beginning of its stage, once with each fault
+    If `handeye check --prove` accepts a mutant, the mutant runs from the beginning of its stage, once with each fault
     for which the missing check exists. The mutant is `caught` if it stops, `silent` if it reports success with wrong
     work, and `unnoticed` if all runs end with the right work. If there is no such fault, the mutant is `not run`.
 

@@ -31,8 +31,8 @@ def compiled(file: Path, work: "Task | None" = None) -> Plan:
 
 
 def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
-    """The script in a file, or else the program with that name; and the task of the script. Raises InvalidInput if
-    there is neither.
+    """Return a script and its task. The script is the file or, if there is no such file, the program with that name.
+    Raises InvalidInput if there is neither.
     """
     wanted = None if task_words is None else planned(named(task_words))
     program = None if given.is_file() else _program(given)
@@ -50,7 +50,8 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan in a file, the plan of a script, or the plan of the program with that name.
+    """The plan in the file `given`, the plan of the script in it, or else the plan of the program with the name
+    `given`.
 
     Raises:
         InvalidInput: there is no such plan for the task.

@@ -61,8 +61,8 @@ def typed_already() -> str | None:
 
 
 class PipedLines:
-    """Reads the lines of a file in the background; the caller can wait for a line, or take a line only if one has
-    arrived.
+    """Reads the lines of a file in the background; the caller can wait for the next line, or ask for it without
+    waiting.
     """
 
     def __init__(self, file: int) -> None:
@@ -112,6 +112,8 @@ def _edit(words: Callable[[], Iterable[str]]) -> None:
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:
-    """Return a completion of the typed text `start` by its number, counted from 0. Returns None after the last one."""
+    """Return the completion of the typed text `start` with this number, counted from 0. Returns None if there are
+    fewer.
+    """
     found = sorted({word for word in words if word.upper().startswith(start.upper())})
     return f"{found[number]} " if number < len(found) else None

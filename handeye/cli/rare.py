@@ -253,9 +253,9 @@ def worst_trials(
 ) -> int:
     """Find the nearest worlds in which a program fails, and the quantities that push it to fail.
 
-    The levels are those of `trials rare`. This command can therefore continue a folder that `trials rare` wrote. Then
-    the quantities of the nearest failing worlds return to the middle of their ranges, as long as the program still
-    fails.
+    The levels are those of `trials rare`. This command can therefore continue a folder that `trials rare` wrote. In
+    each of the nearest failing worlds, every quantity then returns to the middle of its range, unless the program
+    would succeed without its deviation.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.

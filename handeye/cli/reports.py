@@ -126,7 +126,13 @@ def compare(
         ),
     ] = None,
     b: Annotated[
-        Path | None, Parameter(name="B", help="Another run; by default the newest run in the folder `runs`.")
+        Path | None,
+        Parameter(
+            name="B",
+            help=(
+                "The run to compare with A, given in the same way; by default the newest run in the folder `runs`."
+            ),
+        ),
     ] = None,
     /,
     *,

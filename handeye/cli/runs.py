@@ -44,12 +44,16 @@ Break = Annotated[
         "may be repeated.",
     ),
 ]  # fmt: skip
-Step = Annotated[bool, Parameter(help="Step through the run with commands, typed or from standard input.")]
+Step = Annotated[
+    bool,
+    Parameter(help=("Step through the run with commands that you type, or that standard input provides.")),
+]
 Live = Annotated[
     bool,
     Parameter(
-        help="With --step and piped commands: print each line as it begins, and accept the commands `pause` and "
-        "`pace` during the run, as on a terminal. Send each command only after the answer to the previous one."
+        help="With --step and piped commands: print each line of the program as the line begins, and accept the "
+        "commands `pause` and `pace` during the run, as on a terminal. Send each command only after the answer to "
+        "the previous one."
     ),
 ]
 OnStop = Annotated[

@@ -49,8 +49,8 @@ def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
 
 
 def trace_file(path: Path) -> Path:
-    """Return the path of the trace in the folder of a run, or of the event list if the folder has no trace. If `path`
-    names a file, it is returned unchanged. Raises InvalidInput if the run has not begun.
+    """Return `path` itself if it is a file. If it is the folder of a run, return the path of the run's trace or, if
+    there is no trace, of its event list. Raises InvalidInput if the run has not begun.
     """
     from handeye.runs.folder import EVENTS, TRACE, check_holds_run
     from handeye.trace.recorder import part

@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from handeye.trials.chaos.schedule import Schedule
 
 Worldly = Annotated[
-    WholeNumber, Parameter(name="--n", help="Number of worlds, from --seed on, for each disturbance.")
+    WholeNumber,
+    Parameter(name="--n", help="Number of worlds for each disturbance; their seeds count up from --seed."),
 ]
 
 
@@ -43,9 +44,7 @@ class AttemptOptions:
     worlds: Annotated[
         WholeNumber | None,
         Parameter(
-            help=(
-                "Number of worlds. The first world has the seed of --seed. Default: as many worlds as trials (--n)."
-            )
+            help="Number of worlds; their seeds count up from --seed. Default: one world for each trial (--n)."
         ),
     ] = None
     eye: Annotated[
@@ -189,7 +188,7 @@ def chaos_trials(
     seed: FirstSeed = 0,
     worlds: Annotated[
         WholeNumber,
-        Parameter(help="Number of worlds; the level of their errors alternates: nominal, low, high."),
+        Parameter(help="Number of worlds. The levels of their errors are nominal, low and high in turn."),
     ] = 3,
     schedule: Annotated[
         list[str] | None,
@@ -218,10 +217,11 @@ def chaos_trials(
 
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
-    and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). A
-    schedule that fails is shortened as long as it still fails, then printed as a command. If a fault spoiled a part of
-    the pump only after the program's last look at this part, the schedule is `unseen` instead of silent. First, one
-    complete run is made in each world. A complete run takes one CPU minute, and a schedule takes some seconds.
+    and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). If a
+    schedule fails, the trial shortens it step by step, as long as it still fails, and then prints it as a command. If
+    a fault spoiled a part of the pump only after the program's last look at this part, the schedule is `unseen`
+    instead of silent. First, one complete run is made in each world. A complete run takes one CPU minute, and a
+    schedule takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

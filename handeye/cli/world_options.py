@@ -31,7 +31,8 @@ Faults = Annotated[
         consume_multiple=False,
         help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. A "
         "fault of the arm in a job of ML begins after a time, such as @30s. `handeye faults --list` lists the "
-        "faults of the pump; with `--task NAME`, the command lists the faults of another task. May be repeated.",
+        "faults of the pump; with `--task NAME`, the command lists the faults of another task. To plant several "
+        "faults, repeat --fault.",
     ),
 ]
 
@@ -81,7 +82,7 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """The same options for the task recorded in a plan or run; no task module is imported for it."""
+        """The same options for the task that a plan or run records. The method imports no task module."""
         return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
@@ -110,9 +111,9 @@ class ErrorOptions:
         replace(self, without=None).spec(seed)
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """Split the names in `--without`. The first value is a copy of these options; its `--without` keeps only the
-        errors of the world. The second value contains the senses and macros that the program must do without, each
-        once.
+        """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
+        errors of the world. The second value contains the senses and macros that the program must do without; no name
+        occurs twice in it.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -209,8 +210,8 @@ class WorldOptions:
         given, errors = read_world(path), self.errors
         if self.seed is not None or replace(errors, task=None) != ErrorOptions():
             raise BadArgument(
-                f"--world {path} gives the whole world; leave out --seed, --level, --set, --scale, and errors in "
-                "--without"
+                f"--world {path} gives the whole world; leave out --seed, --level, --set and --scale, and do not "
+                "name errors in --without"
             )
         work = self.work
         if given.task != work.name:
@@ -224,7 +225,7 @@ class WorldOptions:
         return given.world
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """Split the names in `--without`. The first value is a copy of these options; its `--without` keeps only the
+        """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
         errors of the world. The second value contains the senses and macros that the program must do without.
         """
         errors, spared = self.errors.apart(calls)

@@ -37,7 +37,7 @@ class FineOptions:
         bool,
         Parameter(
             negative="",
-            help="Average many exposures: soft shadows, depth of field, smooth edges.",
+            help="Average many exposures. The picture then has soft shadows, depth of field and smooth edges.",
         ),
     ] = False
     film: Annotated[

@@ -35,7 +35,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
     what: str
     """Name of the condition: `task`, `plan`, `arm`, `camera`, `seed` or another setting of the world, the name of a
-    set quantity, `version of ...`, or `own ...`.
+    quantity that was set, `version of ...`, or `own ...`.
     """
     a: str
     b: str

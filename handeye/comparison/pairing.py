@@ -168,8 +168,8 @@ class Leg:
 
     begin: float  # s on the common timeline
     a: float
-    """Time of the first run at the beginning of the leg, s since the run began; the time advances evenly to the
-    beginning of the next leg.
+    """Time in the first run at the beginning of the leg, in s since that run began. During the leg, this time advances
+    evenly to its value at the beginning of the next leg.
     """
     b: float
     places: tuple[Place | None, Place | None]

@@ -147,7 +147,9 @@ CODES: Final[dict[str, Code]] = {
         "the taught file lacks data that vision needs to find a part",
         "LOOK V\nGENERAL GASKET V",
     ),
-    "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
+    "path-leaves-reach": _planning(
+        "the path of a motion leaves the arm's reach", "MOVE T\nCHANGE [0 1 0] 30"
+    ),
     "position-before-here": _error("a position is used before the HERE that defines it", "MOVE A\nHERE A"),
     "position-twice": _error(
         "two positions have the same name", "TRANS A [1 2 3 0 0 0]\nTRANS A [1 2 3 0 0 0]\nPARK"

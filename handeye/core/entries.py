@@ -76,14 +76,14 @@ class Entry(Record, frozen=True, kw_only=True):
     that `handeye faults` does for each fault. Empty if the system has no such trials.
     """
     programs: str = ""
-    """`module:NAME` of a function that takes the name of a task, the name and text of a program, and a variant of the
-    task (empty for the usual one), and returns the plan with which the program does the task. Empty if the system has
-    no such tasks, or if it runs plans of motions.
+    """`module:NAME` of a function that returns the plan with which a program does a task. The function takes the name
+    of the task, the name and text of the program, and a variant of the task (empty for the usual one). This field is
+    empty if the system has no such tasks, or if it runs plans of motions.
     """
     orders: str = ""
     """`module:NAME` of a function that takes the name and text of a program. It returns the problems that the program
-    has in at least one order of its concurrent tasks, the worst first. A problem has two values: True if the program
-    does not notice it, and a sentence. Empty if the system cannot try every order.
+    has in at least one order of its concurrent tasks, the worst first. Each problem is a pair: True if the program
+    does not notice the problem, and a sentence. This text is empty if the system cannot try every order.
     """
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending
@@ -91,7 +91,7 @@ class Entry(Record, frozen=True, kw_only=True):
         ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can do a leg of a relay
     )
     environments: dict[str, str] = field(default_factory=dict)
-    """`module:NAME` of the `handeye.env.jobs.Job` of each of its Gymnasium environments, by id."""
+    """The Gymnasium environments of the system: for the id of each, the `module:NAME` of its `handeye.env.jobs.Job`."""
     exercises: tuple[str, ...] = ()  # `module:NAME` of each `Exercise` for students
     files: tuple[str, ...] = ()  # files that its finished runs add to their folders
 

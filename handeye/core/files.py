@@ -21,8 +21,8 @@ _CANNOT: Final = {
 }  # errors from a file system that lacks the operation
 _NOWHERE: Final = {errno.ENOENT, errno.ENOTDIR, errno.ENAMETOOLONG}
 _OF_NAME: Final = 40
-"""Number of characters of a file's name that are repeated in the name of its temporary file. A longer name could
-exceed the limit of the file system.
+"""Number of characters of a file's name that are repeated in the name of its temporary file. With more characters, the
+temporary name could exceed the limit of the file system.
 """
 
 _FRONT: Final = 1024  # bytes that identify a file

@@ -14,8 +14,9 @@ _LEAST: Final = 1e-9  # least norm of an interpolated quaternion; halfway betwee
 
 Rows = NDArray[np.int64]
 Off = Callable[[Rows, Rows, Rows], Array]
-"""Function that returns, for each of n rows, the deviation from linear interpolation divided by the tolerance, shape
-(n,). Its arguments are, for each row: the first row of the segment, the row itself, and the last row of the segment.
+"""Function that returns, for each of n rows, the deviation from linear interpolation, in multiples of the tolerance,
+shape (n,). Its arguments are, for each row: the first row of the segment, the row itself, and the last row of the
+segment.
 """
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final
 
 _SETTINGS: Final = ("GLIBC_TUNABLES", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES")
-"""Environment variables that influence the choice of instructions."""
+"""Environment variables that influence the choice of processor instructions."""
 
 
 @cache

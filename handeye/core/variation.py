@@ -44,7 +44,9 @@ UNSOURCED: Final = "unsourced"
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
 LARGEST_SCALE: Final = 4.0
-"""Greatest factor on an error, level included. With a greater factor, friction could be negative."""
+"""Greatest factor by which an error can be multiplied, including the factor of the level. With a greater factor,
+friction could be negative.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,7 +64,8 @@ class Quantity:
     """
     source: str  # meaning, and source of its figures
     unsourced: str = ""
-    """Why the size of the quantity has no source, and what limits it; empty if there is a source or none is needed.
+    """Why the size of the quantity has no source, and what limits this size. Empty if the size has a source or needs
+    none.
     """
 
     @property

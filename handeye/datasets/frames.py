@@ -45,8 +45,8 @@ class Frames:
     rate: Array  # joint rates as last read, shape (K, n), rad/s or m/s
     torque: Array  # mean commanded joint torques, 0 under the brakes; shape (K, n), N m or N
     force: Array
-    """Last estimate of the force (N) and moment (N m) of the hand on its surroundings, shape (K, 6); 0 if there was no
-    estimate.
+    """Last estimate of the force (N) and moment (N m) that the hand exerts on its surroundings, shape (K, 6); 0 if
+    there was no estimate.
     """
     force_mean: Array  # mean of the estimates, as `force`
     force_share: Array  # fraction of the servo periods in which force was estimated, shape (K,)

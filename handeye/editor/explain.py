@@ -136,7 +136,7 @@ class Remedy:
 REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_LIMIT: Remedy(
         "The planner reports this error for a planned position. During a run, the error occurs when a part lies "
-        "farther away than planned: take another path.",
+        "farther away than planned. In that case, take another path.",
         "MOVE T\nSKIPE 1 ;T is too far away\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.NOTHING_HELD: Remedy(
@@ -146,8 +146,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE P\nCLOSE .1\nSKIPN 2 ;something is in the hand\nWAIT "NO PIN THERE"\nMOVE T',
     ),
     errors.NO_SOLUTION: Remedy(
-        "The planner reports this error for a planned position. During a run, the error occurs when the camera sees a "
-        "part that is too far away: leave that part alone.",
+        "The planner reports this error for a planned position. During a run, the error occurs when the camera "
+        "sees a part that is too far away. In that case, leave that part alone.",
         "MOVE T\nSKIPE 3 ;T is out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.SERVO_LAG: Remedy(
@@ -226,8 +226,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),
     errors.GAP_WRONG: Remedy(
-        "If nothing is in the way of the fingers, the potentiometer that measures the gap is broken: do not "
-        "test for the error. If the fingers may meet an object as they open, open them less. A held part "
+        "If nothing is in the way of the fingers, the potentiometer that measures the gap is broken. In that case, "
+        "do not test for the error. If the fingers may meet an object as they open, open them less. A held part "
         "that slips or is pushed also changes the gap.",
         "OPEN 1.8\nSKIPN 51 ;the fingers reached their gap\nOPEN 1.5\nMOVE P",
     ),
@@ -287,8 +287,8 @@ def error_text(number: int) -> str:
     """Return the explanation of an error number, without a final newline."""
     tested = (
         f"SKIPE {number} skips the next instruction if the error was raised; SKIPN {number} skips the next "
-        "instruction if the error was not raised. If neither tests for the error, the error sets the brakes and "
-        "calls the operator."
+        "instruction if the error was not raised. If the program has neither of them there, the error sets the "
+        "brakes and calls the operator."
     )
     example = indent(format_text(REMEDIES[number].example).rstrip("\n"), "    ")
     by = fill(f"raised by {', '.join(raised_by()[number])}", SENTENCE_WIDTH, subsequent_indent="    ")

@@ -25,7 +25,8 @@ from handeye.program.language import OwnLanguage, own_language
 from handeye.program.taught import Taught
 
 PAUSE_S: Final = 0.3
-"""Time without a keystroke (s) before motions are planned; all other diagnostics are sent at once."""
+"""Time without a keystroke (s) after which motions are planned and diagnosed; all other diagnostics are sent at once.
+"""
 
 
 class ArmServer(LanguageServer):

@@ -37,7 +37,7 @@ class Job(Record, frozen=True, kw_only=True):
     machine: str = "handeye.env.controlled_arm:ControlledArm"
     """`module:NAME` of the class of the job's machine, derived from `handeye.env.controls.ControlledMachine`."""
     policies: Mapping[str, str] = msgspec.field(default_factory=dict)
-    """`module:NAME` of the makers of included policies that only this job has, by the names of the policies."""
+    """The included policies that only this job has: for the name of each policy, the `module:NAME` of its maker."""
     stages: tuple[int, ...] = (0,)
     """Numbers of the stages before which an episode may start; the first stage of the program is 0. If there are
     several numbers, the seed chooses one.
@@ -54,8 +54,8 @@ class Job(Record, frozen=True, kw_only=True):
     """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. A step is done if certain findings hold; its value gives the beginnings of
-    the names of these findings.
+    """Steps of the work, in their order. The key is the name of a step. The value gives the beginnings of the names of
+    the findings that hold if the step is done.
     """
 
     def requires(self, finding: str) -> bool:

@@ -13,12 +13,12 @@ from handeye.runs.runner import Runner
 
 Outcome = Literal["right", "false done", "not done", "stopped"]
 """`right`: the policy reported that the work is done, and the referee agrees. `false done`: the policy reported that
-the work is done, but the referee disagrees. `not done`: the time limit came first, whatever the state of the work.
-`stopped`: the arm stopped for good.
+the work is done, but the referee disagrees. `not done`: the time limit ended the episode, whatever the state of the
+work. `stopped`: the arm stopped for good.
 """
 
 REWARDS: Final[Mapping[Outcome, float]] = {"right": 1.0, "false done": -1.0, "not done": 0.0, "stopped": 0.0}
-"""Reward at the end of an episode. To report `done` when the work is wrong costs more than to give up. The values are
+"""Reward at the end of an episode. Reporting `done` when the work is wrong costs more than giving up. The values are
 our choice.
 """
 

@@ -32,9 +32,9 @@ MIN_TRAVEL: Final = 0.5  # least fraction of the commanded path; a joint that mo
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
-The value lies between the ratios of sound joints and those of drives that give half of their torque. In measurements,
-sound joints reached 1.61 in sixty worlds. In eighty worlds with twice the errors, only one sound joint exceeds the
-limit, with 1.87. With a drive that gives half of its torque, the ratio is 1.4 to 2.3.
+The value lies between the ratios of sound joints and the ratios of joints whose drives give half of their torque. In
+measurements, sound joints reached 1.61 in sixty worlds. In eighty worlds with twice the errors, only one sound joint
+exceeds the limit, with 1.87. With a drive that gives half of its torque, the ratio is 1.4 to 2.3.
 """
 
 
@@ -59,7 +59,7 @@ class JointMeasurement:
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
 """Settings of the quick pass. Our choice: the rate is about twenty steps of a 12-bit tachometer, and joints move at
-about this rate while the hand presses. The pass takes 3.3 s and a range of about 2 in.
+about this rate while the hand presses. The pass takes 3.3 s, and moves the hand over about 2 in.
 """
 
 

@@ -69,8 +69,8 @@ class Servo:
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
-    """Motion (rad, m) of the joints in the last servo period that their rates do not show, if an object has shifted in
-    the fingers and may have thrown the hand.
+    """Difference (rad, m) in the last servo period between the motion of each joint and the motion that its rates
+    show. None unless the closing gap shows that an object has shifted in the fingers; such a shift may throw the hand.
     """
 
     @property

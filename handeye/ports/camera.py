@@ -29,8 +29,8 @@ class Renderer(Record, frozen=True, kw_only=True):
 
     method: Literal["opengl", "rays", "none", "replaced"]  # `replaced`: by code of the calling program
     platform: str = ""
-    """Library that provides OpenGL, such as `EGL` or `OSMesa`, or the name of the code that replaces the
-    renderer.
+    """Library that provides OpenGL, such as `EGL` or `OSMesa`. If the method is `replaced`, the name of the code that
+    replaces the renderer.
     """
 
 

@@ -143,8 +143,8 @@ def _names(bodies: Iterable[WeighedBody]) -> str:
 
 
 Shown = Callable[[], ExportedState]
-"""Makes the state to export. Making the state takes a while, so the function is called only after the destination has
-been checked.
+"""Function that makes the state to export. It takes a while, so it is called only after the destination has been
+checked.
 """
 
 

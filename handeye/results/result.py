@@ -67,7 +67,7 @@ class Timing(Record, frozen=True, kw_only=True):
     time spent waiting for the user.
     """
     real_time_factor: float
-    """Simulated seconds, including preparation, per second of `run_wall_s`; differs from run to run."""
+    """Simulated seconds, including preparation, per second of `run_wall_s`. This ratio differs from run to run."""
     host_from_step: int
     """Number of steps done before computing time was recorded. If this number is 0, the computing times cover the
     whole run.

@@ -14,7 +14,7 @@ from handeye.core.units import INCH, OUNCE_FORCE
 FREE_OPENING: Final = 0.12 * INCH
 """Opening (m) after which a finger is clear of an object that it touched.
 
-Half of the opening, 1.5 mm, belongs to each finger. The arm deflects by 1.5 mm only under about 18 N.
+Each finger moves by half of the opening, 1.5 mm. Only a force of about 18 N could deflect the arm by as much.
 """
 GAP_ERROR: Final = 0.1 * INCH
 """Permitted difference (m) between the gap and its goal. The finger servo stops within a few hundredths of an inch.
@@ -47,12 +47,12 @@ GAP_SCALE: Final = 0.03  # as a fraction of the gap
 STARTING_TORQUE: Final = 0.05
 """Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
 STALLED_TORQUE: Final = 0.37
-"""Greatest torque of the motor (N m): that of the slipping clutch, plus that of the spindle."""
+"""Greatest torque of the motor (N m): the torque of the slipping clutch, plus the torque that turns the spindle."""
 STARTING_PERIODS: Final = 4
 """Servo periods that a motor takes to reach the speed of driving. We measured 4.2 periods."""
 FAST_PERIODS: Final = 6
-"""Servo periods after which a free motor of the usual speed has certainly started. By then, a motor whose full speed
-is 1.4 times the usual speed is still starting.
+"""Servo periods after which a free motor of the usual speed has certainly started. A motor whose full speed is 1.4
+times the usual speed takes longer.
 """
 WIND_UP: Final = 0.2
 """Longest time (s) for which the torque rises after the head of a screw has met the top. The value is our choice; the
@@ -61,14 +61,15 @@ measured time is .1 s.
 DRIVEN: Final = 0.2 * INCH
 """A screw that has advanced by this distance (m), four turns, shows its running torque."""
 PLATEAU: Final = 1.0
-"""Time (s) for which a torque must last to show that the motor is held fast: three turns at driving speed. Our choice.
+"""Time (s) for which a torque must last to show that the motor is held fast: the time of three turns at driving speed.
+Our choice.
 """
 HELD_FAST: Final = 0.3
 """A torque above this fraction of the requested torque shows that the motor is held fast, if the hand does not advance.
 
-For 42 ounce-inches this is .09 N m. A turning screw takes .02 N m. A bit that slips under 22 ounces takes at most
-.025 N m, if all of that force acts as friction at the edge of a head. Five times the noise of the current adds .04
-N m.
+For 42 ounce-inches this is .09 N m. A turning screw takes .02 N m. A bit that slips on a head while the hand presses
+with 22 ounces takes at most .025 N m, even if this whole force causes friction at the edge of the head. Five times the
+noise of the current adds .04 N m.
 """
 CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
@@ -124,8 +125,8 @@ the high level, it is off by up to .04 in.
 """
 SAME_HOLD: Final = 5e-4  # m; greatest change of the gap in an unchanged hold
 SKEW: Final = 1e-3
-"""Permitted change (m) of the gap on an object that has turned between the fingers. A turn of 2 degrees on an inch
-gives .9 mm.
+"""Permitted change (m) of the gap on an object that has turned between the fingers. If the contact is an inch long, a
+turn of 2 degrees changes the gap by .9 mm.
 
 An object that is grasped again lies straighter, and CENTER holds it only lightly. An object that was pushed against
 blocks lies more askew. Measured: on pins, the gap closed by .5 mm. On the base of the pump, it closed by .8 mm and

@@ -81,7 +81,7 @@ def _watching(forces: Forces) -> Iterator[int]:
 
 STEP: Final = np.float32(2.0**-13)
 """Positions (m) and components of quaternions are rounded to multiples of this step. For positions, the step is an
-eighth of a millimetre; for rotations, it is at most .014 degrees.
+eighth of a millimetre. For rotations, one step means a turn of at most .014 degrees.
 """
 
 

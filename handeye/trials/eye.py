@@ -16,7 +16,7 @@ class EyeRow(TrialRow, frozen=True, kw_only=True):
     """One attempt of a trial."""
 
     attempt: dict[str, Any] = msgspec.field(default_factory=dict)
-    """The attempt, as the fields of the class `attempt` of the trial."""
+    """The fields of the attempt. They are those of the class that the trial gives as `attempt`."""
     came: str = "missed"
     told: str = ""
 
@@ -38,7 +38,9 @@ EYE: Final = Sweep(
     sentence=lambda row: f"seed {row.seed:4}  {row.detail}",
     shared_worlds=True,
 )
-"""A sweep of attempts in many worlds. `eye_sweep` makes the sweep for one trial of a task from this sweep."""
+"""A sweep of attempts in many worlds, without the parts that depend on the trial. `eye_sweep` adds these parts for one
+trial of a task.
+"""
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:

@@ -23,8 +23,8 @@ class Rate(Record, frozen=True, kw_only=True):
     wilson95: tuple[float, float] | None
     """Wilson's score interval. In about 95 of 100 batches, the interval contains the true probability."""
     p_s: float | None
-    """Lower bound of the one-sided 95 % confidence interval of the probability (Clopper and Pearson): the least p at
-    which this many successes or more have a probability of 5 %.
+    """Lower bound of the one-sided 95 % confidence interval of the probability (Clopper and Pearson). If the
+    probability were equal to this bound, a batch would have this many successes or more with a probability of 5 %.
     """
 
 

@@ -189,8 +189,8 @@ class Sweep(Generic[R]):
     success: str  # The word for a right trial
     noun: str = "trial"
     sentence: Callable[[R], str] | None = None
-    """A function that returns the text to print when a trial ends; an empty text is not printed. If this is None,
-    the failures are listed at the end instead.
+    """A function that returns the text to print when a trial ends; an empty text is not printed. If there is no
+    function, the failures are listed at the end instead.
     """
     narrated: bool = False  # Each trial is reported on standard error, with the rate so far
     summary: Callable[[Sequence[R]], Sequence[str]] = field(default=lambda _: ())

@@ -22,7 +22,7 @@ from handeye.view.moment import FIGURES, Newest
 
 _MARK: Final = "<!DOCTYPE html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
-"""Permissions in addition to the report's: the page may communicate with its server, and nothing else."""
+"""Permissions in addition to the report's: the page may communicate with its own server, but with no other."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,7 +102,7 @@ def source_region(label: str, *content: Markup, id: str | None = None) -> Markup
 def _viewer(face: Face, *, seen: bool) -> Markup:
     canvas = element(
         "canvas", id="view", tabindex="0", role="img",
-        aria_label="the live cell; arrow keys turn the view, plus and minus zoom",
+        aria_label="the live cell; the arrow keys turn the view, and the keys + and - zoom",
     )  # fmt: skip
     figures = element("p", id="figures", class_="caption")
     views = element("div", id="views", role="group", aria_label="view", class_="views")

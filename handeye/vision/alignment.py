@@ -15,7 +15,9 @@ from handeye.ports.camera import Picture
 
 MAX_SHIFT: Final = 4  # points, both along and across the lines
 CHANGED: Final = 3.0
-"""Difference (levels) from which a point counts as changed. A greater difference is replaced by this value."""
+"""If a point differs by this number of levels, it counts as fully changed. Greater differences are replaced by this
+value.
+"""
 AREA: Final = 11  # side of a square, points
 QUIET: Final = 1.2  # levels; a square with a smaller mean difference has not changed
 CLEAR: Final = 15  # side, points, of a square that must be free of changes and of soft shadow edges

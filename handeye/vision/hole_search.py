@@ -116,14 +116,16 @@ SEED: Final = 4  # points inside the border where bouncing starts
 # All figures above: vision study, sections 1.2 and 1.3.
 
 INNER: Final = 0.25
-"""Where beams to the border of a hole start, as a fraction of the smaller width of the hole: half-way to the border."""
+"""Distance from the middle of a hole at which beams to its border start, as a fraction of the smaller width of the
+hole. With this value, they start half-way to the border.
+"""
 ANGLES: Final = np.linspace(-TURN, TURN, 7)
 """Angles of the beams from the largest hole towards the second, relative to the planned direction. The beams are so
 close together that the second hole cannot lie between two of them.
 """
 BEFORE: Final = 0.35 * INCH
-"""The beams towards the second hole start at this distance (m) before the border of the second hole. There, they are
-beyond the screw holes about the first hole.
+"""The beams towards the second hole start at this distance (m) before the border of the second hole. They therefore do
+not meet the screw holes around the first hole.
 """
 
 

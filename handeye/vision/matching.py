@@ -23,9 +23,9 @@ from handeye.vision.camera_model import View, in_picture
 MOVED: Final = 0.03 * INCH
 """Greatest apparent movement (m) of a part that still counts as no movement.
 
-Two pictures of a pump at rest show .02 to .07 mm. Two pictures show .13 to .16 mm if the pump is pushed against its
-blocks between them (worlds of seeds 3 and 15 at the nominal level). If a base is .05 in away from its place, the base
-is wrong (reference test 59).
+From one picture to the next, a pump at rest seems to move by .02 to .07 mm. A pump that is pushed against its blocks
+moves by .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). If a base is .05 in away from its place, the
+base is wrong (reference test 59).
 """
 SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6
@@ -33,14 +33,15 @@ DIFFERENT: Final = 1.6
 changed.
 
 The noise of two pictures gives a mean of .3 (median of 17,500 squares). If the pump is at rest, or was pushed by
-up to .15 mm, the greatest square of a pair of pictures has a median of .88. The maximum was 1.06 in 90 pairs (seed
+up to .15 mm, the greatest such mean in a pair of pictures has a median of .88. The maximum was 1.06 in 90 pairs (seed
 15, OpenGL), and 1.08 in 36 pairs by ray casting. The greatest of many values has a Gumbel distribution, here of
 location .86 and scale .05, so the limit is reached once in a million pairs. A screw whose head is missing gives
 3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so most such screws are missed; a screw behind the
 crank is not visible at all.
 """
 FAINT: Final = 3.3
-"""Least contrast (levels) of the earlier picture on the part: the difference between its 10th and its 90th percentile.
+"""Least contrast (levels) of the earlier picture on the part: the difference between the 10th and the 90th percentile
+of the picture's levels.
 
 Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
 (five worlds). There, a missing head gives at least 3.7 levels, so at a contrast of 2.9 levels it would give 1.6

@@ -22,8 +22,8 @@ REMEMBERED: Final = (
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
-"""Fields that steps do not store. They are replaced by empty fields for the check, because they are large and known
-to be valid.
+"""Fields that steps do not store. Before the memory of a step is checked, empty fields replace them, because they are
+large and known to be valid.
 """
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 

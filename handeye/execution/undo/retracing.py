@@ -28,8 +28,8 @@ from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
-"""Least force limit of a reversal (N). Measured: lifting a top off the pins is sensed as at most 11 N. With a screw
-left in the top, the lifting is sensed as 36 N and then 108 N.
+"""Least force limit of a reversal (N). We measured the sensed force while a top is lifted off the pins: at most 11 N;
+with a screw left in the top, 36 N and then 108 N.
 """
 SHARE: Final = 1.5  # multiple of the force that the step itself met
 
@@ -82,8 +82,8 @@ RAMP: Final = 8
 was ended by a force did not slow down at its end.
 """
 JOIN: Final = 5e-4
-"""Speed (rad or m per servo period) at which the joints first move to the end of the path, because brakes and
-guards have left the arm beside the path.
+"""Speed (rad or m per servo period) at which the joints first move to the end of the path. Brakes and guards can leave
+the arm beside the path.
 """
 
 

@@ -293,8 +293,8 @@ _UNDOING: Final[dict[type[Operation], Callable[[ExecutionContext, ExecutedStep],
     Close: _let_go,
     Center: _let_go,
 }
-"""Method of reversal for each operation. All other motions retrace their set-points, and steps without motion only
-restore memory.
+"""Method of reversal for each operation that needs its own method. All other motions retrace their set-points, and
+steps without motion only restore memory.
 """
 
 

@@ -18,8 +18,8 @@ from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
-"""Speed of turning out, as a multiple of the speed of driving in. A motor stalls at a torque in proportion to its
-commanded speed, so this speed is needed to give the loosening torque.
+"""Speed of turning out, as a multiple of the speed of driving in. The torque at which a motor stalls is proportional
+to its commanded speed. The torque that loosens a screw needs this speed.
 """
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5

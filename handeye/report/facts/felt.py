@@ -31,8 +31,8 @@ class GuardedMotion:
     guard: GuardKind
     times: Array  # Ends of the periods, shape (n,), s since the run began
     values: Array
-    """Force along the guard's axis (N), moment about this axis (N m), torque of the screwdriver (N m), or finger
-    switches, shape (n,).
+    """What the guard measures, shape (n,). It depends on `guard`: force along the guard's axis (N), moment about this
+    axis (N m), torque of the screwdriver (N m), or finger switches.
     """
     limit: float  # N, N m, or switches
     trip: MetGuard | None

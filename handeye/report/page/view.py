@@ -27,7 +27,7 @@ def view_section(run: RecordedRun, strip: Sequence[Photograph]) -> Markup:
     pairs = joined((joined([element("kbd", key), f" {does}"]) for key, does in _KEYS), ", ")
     canvas = element(
         "canvas", id="view", hidden=True, tabindex="0", role="img",
-        aria_label="the cell at the displayed time; arrow keys turn the view, plus and minus zoom",
+        aria_label="the cell at the displayed time; the arrow keys turn the view, and the keys + and - zoom",
     )  # fmt: skip
     photographs = element("div", *_photographs(strip), id="strip", class_="strip")
     sensed = element("canvas", id="senses", class_="senses", aria_hidden="true")

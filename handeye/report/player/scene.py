@@ -127,8 +127,8 @@ def _texture(model: Any, number: int) -> NDArray[np.uint8]:
 
 
 _CALLED: Final = "called/"
-"""Prefix of the names of those text fields of the scene that give the display name of a body, or of several numbered
-bodies.
+"""Some text fields of the scene give the display name of a body, or of several numbered bodies. The names of these
+fields have this prefix.
 """
 
 

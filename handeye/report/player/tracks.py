@@ -65,8 +65,8 @@ def _needed(poses: Array) -> Rows:
 
 
 UNIT: Final = 0x1FFF
-"""The whole number that stores a quaternion component of 1. Rounding causes a turn of at most .01 degrees. The script
-has the same constant.
+"""The whole number that stores a quaternion component of 1. Rounding turns a body by at most .01 degrees. The player's
+script has the same constant.
 """
 
 

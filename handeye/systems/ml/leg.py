@@ -61,8 +61,8 @@ HAND: Final = 11  # number of the motor of the fingers
 ZERO: Final = (20 * INCH, 42 * INCH, 5 * INCH)  # x, y, z of the tool in W (m) with all slides at 0
 _DOWN: Final = (pi / 2, pi / 2, 0.0)  # O, A, T
 _SLIDE: Final = {"lower": -10_039, "upper": 10_039, "tolerance": 60}
-"""Travel of the rectilinear arm. The tolerance is our choice: friction may stop the Stanford arm up to 1.5 mm from its
-goal.
+"""Ends of the travel of a slide of the rectilinear arm, and the tolerance of its goals, in thousandths of an inch. The
+tolerance is our choice: friction may stop the Stanford arm up to 1.5 mm from its goal.
 """
 
 SPEC: Final = ArmSpec(

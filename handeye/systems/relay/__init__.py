@@ -5,7 +5,7 @@ from handeye.core.entries import Entry
 ENTRY = Entry(
     name="relay",
     title="the relay",
-    help="Let programs of several systems do the stages of one pump, one after the other, on the same arm.",
+    help="Assemble one pump with programs of several systems, which take turns on the same arm.",
     system="handeye.systems.relay.system:RELAY",
     can=("undo", "faults", "levels", "video"),
     reasons={
@@ -13,7 +13,7 @@ ENTRY = Entry(
         "leg": "its own legs are programs of other systems",
     },
     commands="""
-relay = handeye.systems.relay.cli.commands:relay: Let programs of several systems do the stages of one pump, one after the other, on the same arm.
+relay = handeye.systems.relay.cli.commands:relay: Assemble one pump with programs of several systems, which take turns on the same arm.
 trials relay = handeye.systems.relay.cli.commands:relay_trials: Run a relay in many worlds: success rate, and time and force of each leg.
 """,  # noqa: E501 - a command a line
     sweeps={"relay": "handeye.systems.relay.trials:RELAYS"},

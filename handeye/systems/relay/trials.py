@@ -31,8 +31,8 @@ class LegTrial(Record, frozen=True, kw_only=True):
     ended: str
     arm_s: float
     peak_n: float
-    """Greatest resultant force (N) of all contacts on the arm, at the end of any servo period, taken from the
-    simulator. The force includes the weight of a held part.
+    """At the end of each servo period, the simulator gives the resultant force (N) of all contacts on the arm. This
+    field is the greatest of these forces. It includes the weight of a held part.
     """
 
 
@@ -150,7 +150,7 @@ RELAYS: Final = Sweep(
     narrated=True,
     details=_details,
     summary=lambda _: [
-        "A peak is the greatest resultant force of all contacts on the arm at the end of any servo period, taken "
-        "from the simulator. The force includes the weight of a held part."
+        "At the end of each servo period, the simulator gives the resultant force of all contacts on the arm. A "
+        "peak is the greatest of these forces. It includes the weight of a held part."
     ],
 )

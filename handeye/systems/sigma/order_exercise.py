@@ -81,9 +81,9 @@ SHARE: Final = OrderExercise(
     name="share",
     session=5,
     title="keep two hands apart in every order",
-    brief="Two arms bring pieces to one place and take them away. As a rule, the arms do not meet, because the "
-    "second arm is fast enough; but a motor may be slow. Add flags so that, in whatever order the tasks run, the "
-    "hands cannot meet, no signal is lost, and no task waits for ever.",
+    brief="Two arms work at one place: the first arm brings pieces, and the second arm drives screws. As a rule, "
+    "the arms do not meet, because the second arm is fast enough; but a motor may be slow. Add flags so that, in "
+    "whatever order the tasks run, the hands cannot meet, no signal is lost, and no task waits for ever.",
     start="share.mal",
     hints=(
         (KINDS["hands"], "Use a flag that means `the place is free`: TAKE it before the hand goes there."),

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 
 HOLDER_PLACE: Final = 3.0
-"""Greatest distance (mm) of a returned pin from its original position: the clearance plus the chamfer of the
-holder's hole, as in the pump's cell.
+"""Greatest distance (mm) of a returned pin from its original position: the sum of the clearance and the chamfer of the
+holder's hole. The limit for the pump's pins is the same.
 """
 HOLE_PLACE: Final = 2.5
 """Greatest distance (mm) of an inserted pin from the axis of its hole: the radius of its nose. A pin that lies on the

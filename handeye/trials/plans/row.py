@@ -82,13 +82,13 @@ def _goals(program: Program, events: Sequence[AnyEvent]) -> Iterator[str]:
 
 
 OUTCOMES: Final[Mapping[str, Standing]] = {"assembled": "right", "silent": "silent", "stopped": "wrong"}
-"""Outcomes of an assembly. In this order: the referee accepted the work; the program reported success, but the
+"""Outcomes of an assembly, in this order: the referee accepted the work; the program reported success, but the
 work is wrong; the program called the operator.
 """
 APART: Final[Mapping[str, Standing]] = {
     "apart": "right", "silent": "silent", "stopped": "wrong", "not built": "uncounted",
 }  # fmt: skip
-"""Outcomes of a dismantling. In this order: everything is back in its place; the program reported success, but
+"""Outcomes of a dismantling, in this order: everything is back in its place; the program reported success, but
 something is out of place; the program called the operator; nothing had been built.
 """
 

@@ -46,8 +46,8 @@ class Estimated(Record, frozen=True, kw_only=True):
 
     failure: FailureKind
     reached: bool
-    """True if worlds were found in which the program fails in this way. Otherwise the estimate is for a margin that
-    is at most the threshold of the last level.
+    """True if worlds were found in which the program fails in this way. If False, the estimate is the probability of a
+    margin that is at most the threshold of the last level.
     """
     threshold: float
     estimate: Estimate

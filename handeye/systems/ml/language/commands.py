@@ -243,7 +243,9 @@ MOTIONS: Final = frozenset(
 
 
 TABLE_NAMES: Final = {word_of(name): name for name in SHAPES}
-"""For each word that stands for a table, the name of the table. A word has 8 bits for each of the two letters."""
+"""For each word that stands for a table, the name of the table. The word consists of the two letters of the name, with
+8 bits for each letter.
+"""
 
 
 def explained(word: str) -> str | None:

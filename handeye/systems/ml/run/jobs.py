@@ -24,7 +24,7 @@ USUAL: Final = {"follow": "square", "bin": "8", "typewriter": "4"}  # variants o
 
 COUNTED: Final = {"bin": "5 LOAD 33 {}\n"}
 """The statement that the operator of a job stores before the program runs, because only the operator has counted the
-parts. `{}` is the variant of the job.
+parts. `{}` stands for the variant of the job, which is the number of parts.
 """
 
 

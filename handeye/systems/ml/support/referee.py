@@ -63,7 +63,7 @@ def judge(truth: Truth, counted: int) -> Findings:
         "placed": at_most(far, PLACED, "mm", "greatest distance of a part from its place"),
         "seated": at_most(high, SEATED, "mm", "greatest error of a part's height"),
         "upright": at_most(lean, LEAN, "deg", "greatest tilt of a part"),
-        "screws": at_least(screws.taken, SCREWS, "screws", "threads with a screw that is not crossed"),
+        "screws": at_least(screws.taken, SCREWS, "screws", "number of threads whose screw is not crossed"),
         "screws_depth": at_most(screws.gap, HEAD_GAP, "mm", "greatest gap under the head of a screw"),
         "screws_clamp": at_least(screws.weakest, CLAMP, "N", "smallest clamping force of a screw"),
         "screws_strain": at_most(screws.strongest, STRAIN, "N", "greatest clamping force of a screw"),

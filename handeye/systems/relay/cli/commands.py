@@ -20,7 +20,7 @@ RelayFile = Annotated[
 
 relay = App(
     name="relay",
-    help="Let programs of several systems do the stages of one pump, one after the other, on the same arm.",
+    help="Assemble one pump with programs of several systems, which take turns on the same arm.",
 )
 
 
@@ -115,7 +115,7 @@ def relay_trials(
         cases(seed, range(n)),
         head_of(RELAYS, setup.world, settings={"relay": digest_of(setup)}, camera=setup.camera),
         options,
-        title=f"{file.name} in worlds with seeds from {seed} on",
+        title=f"{file.name} in worlds whose seeds count up from {seed}",
         again=lambda row: f"handeye relay {words} --seed {row.seed}",
     )
 

@@ -30,8 +30,8 @@ class Layout(Record, frozen=True, kw_only=True):
 
     places: tuple[Place, ...]
     behind: tuple[int, ...] = (-1,)
-    """For each segment, the segment towards the central computer; the first segment is connected to the computer
-    itself.
+    """For each segment, the next segment on the way to the central computer; the first segment is connected to the
+    computer itself.
     """
     more_pages: bool = False  # two more output bits, for 256 microcomputers
 

@@ -1,4 +1,4 @@
-"""The command of the bridge: a MAL program as a plan for another arm."""
+"""The command of the bridge, which turns a MAL program into a plan for another arm."""
 
 from pathlib import Path
 from typing import Annotated, Final

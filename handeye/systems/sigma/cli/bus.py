@@ -23,7 +23,7 @@ BusFaults = Annotated[
         name="--fault",
         negative=(),
         help="A fault of the bus, as KIND, KIND:WHERE or KIND:WHERE:VALUE; `handeye sigma bus faults` lists them. "
-        "May be repeated.",
+        "This option may be repeated.",
     ),
 ]
 AllLines = Annotated[

@@ -175,7 +175,8 @@ def words(word: str | None = None, /) -> int:
 def console(
     file: Annotated[Path | None, Parameter(help="A program in MAL to load at the start, `.mal`.")] = None, /
 ) -> int:
-    """Open the console of 1981: type the numbered lines of a program, or a command such as RUN; HELP lists them all.
+    """Open the console of 1981: type the numbered lines of a program, or a command such as RUN; HELP lists the
+    commands.
 
     Exit code 0: you left; 2: bad input, or a piped line was refused; 130: interrupted.
     """

@@ -32,7 +32,7 @@ def diagnose(
         WholeNumber | None,
         Parameter(
             help="Seed of the world. In a game, it determines the fault (default: 0). With --fault or --all, it "
-            "determines the place of each fault; by default, each fault is at its usual place."
+            "determines the place of each fault; without it, each fault is at its usual place."
         ),
     ] = None,
     json: Json = False,

@@ -70,7 +70,7 @@ def handover(
     """Hand four pieces from arm to arm: arm 1 brings the pieces; arm 2 presses in their pins and takes the pieces away.
 
     `plans/handover_pieces.mal` runs on two simulated gantries, in a world with errors. A referee then checks
-    that each piece stands at its last place, within 3 mm and 3 degrees, with its pin pressed in to within .5 mm;
+    that each piece stands at its last place, within 3 mm and 3 degrees, with its pin protruding by at most .5 mm;
     that the program counted the finished pieces correctly; and that the arms never touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because the arms
@@ -116,8 +116,8 @@ def line(
 
     `plans/line.mal` runs on four simulated arms, a feeder and a belt, in a world with errors. The machine has 26
     microcomputers on one bus of three segments. A referee then checks that each piece stands at its place on the belt,
-    within 3 mm and 3 degrees, with both pins pressed in to within .5 mm; that the program counted the finished pieces
-    correctly; and that no arms touched each other.
+    within 3 mm and 3 degrees, with both pins protruding by at most .5 mm; that the program counted the finished pieces
+    correctly; and that the arms never touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because arms collided;
         3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.
@@ -259,8 +259,8 @@ def _check(subject: str, count: int, most: int, noun: str) -> None:
 
 
 def _plan(job: "JobName", pieces: int | None, file: Path | None) -> "MalPlan | None":
-    """Return the plan of a job's own program, or of the program in `file` for the same pieces. Prints the mistakes of
-    that program, and returns None if the program has errors.
+    """Return the plan of a job's own program or, if `file` is given, of the program in that file for the same pieces.
+    Prints the mistakes of that program, and returns None if the program has errors.
     """
     from handeye.core.source import read_source
     from handeye.systems.sigma.cli.commands import reported
@@ -296,7 +296,7 @@ def _try_out(
     job: "JobName", pieces: int | None, n: int, seed: int, errors: OwnErrorOptions, options: SweepOptions, title: str,
     again: str = "",
 ) -> int:  # fmt: skip
-    """Run a job on many boards; returns the exit code."""
+    """Run a job on many boards, and return the exit code."""
     from handeye.systems.sigma.run.job_trials import TRIALS
     from handeye.systems.sigma.run.jobs import job_setup
 
@@ -304,5 +304,5 @@ def _try_out(
     assert plan is not None
     return carry_out_job_trials(
         TRIALS[job], partial(job_setup, plan), n, seed, errors, options, settings={"pieces": plan.pieces},
-        title=f"{title}, on boards with seeds from {seed} on", again=again,
+        title=f"{title}, on boards whose seeds count up from {seed}", again=again,
     )  # fmt: skip

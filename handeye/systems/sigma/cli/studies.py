@@ -12,7 +12,9 @@ def put_study(
     seed: int | None = None,
     stopped_at: str | None = None,
 ) -> None:
-    """Print the result of a study with the fields of `assemble --json`, and the study's own results under `figures`."""
+    """Print the result of a study as JSON with the fields of `assemble --json`; `figures` contains the study's own
+    results.
+    """
     put_json(
         {
             "assembled": None,

@@ -241,7 +241,7 @@ def wrong_force(found: means.Forces) -> tuple[str, str]:
             "all components give the same reading, whichever component is loaded",
         )
     if len(wrong) > 1:
-        return f"converter of wrist {arm}", "readings of all components are wrong by the same amounts"
+        return f"converter of wrist {arm}", "the readings of more than one component are wrong"
     (component,) = wrong
     own = [error for each, _, error in errors if each == component]
     spread = max(own) - min(own)

@@ -15,8 +15,8 @@ from handeye.systems.sigma.protocol import COMPONENTS, FORCE_STEP_N, STANDARD, O
 STANDARD_N: Final = 4.0
 CONVERTER_N: Final = 0.05  # N: step of the converter
 RELEASED: Final = 0.8
-"""Share of a threshold. The pin of a force is released only when the force has fallen below this share, so that a
-swinging wrist does not trip twice.
+"""Share of a threshold. The pin that signals a force is released only when the force has fallen below this share of
+the threshold, so that a swinging wrist does not trip twice.
 """
 _LARGEST: Final = 0x7FFF  # greatest value of an answer
 

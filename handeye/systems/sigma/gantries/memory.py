@@ -10,7 +10,7 @@ class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
     """The state of the gantries. Lists have one value per axis, in the order of the machine."""
 
     slipped: list[int] = field(default_factory=lambda: [0] * len(AXES))
-    """Number of poles that rotors have slipped forward; negative if backward."""
+    """For each rotor, the number of poles by which it has slipped forward; negative if it has slipped backward."""
     holds: list[float] = field(default_factory=lambda: [1.0] * len(AXES))
     """For each rotor, the force with which its pole holds it, as a fraction of the pull-out force."""
     peaks: list[float] = field(default_factory=lambda: [0.0] * len(AXES))

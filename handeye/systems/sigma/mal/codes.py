@@ -28,7 +28,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="set the flag with SET in another task, or correct its name", severity="warning",
     ),
     "for-without-next": Mistake(
-        meaning="no NEXT of the same name follows a FOR in its task", example="10 FOR I = 1 TO 4\n20 PRINT I",
+        meaning="a FOR has no NEXT of the same name after it in its task", example="10 FOR I = 1 TO 4\n20 PRINT I",
         cure="write NEXT after the lines to repeat",
     ),
     "line-missing": Mistake(
@@ -48,7 +48,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="give each line a different number",
     ),
     "next-without-for": Mistake(
-        meaning="no FOR of the same name precedes a NEXT in its task", example="10 PRINT I\n20 NEXT I",
+        meaning="a NEXT has no FOR of the same name before it in its task", example="10 PRINT I\n20 NEXT I",
         cure="write FOR before the lines to repeat",
     ),
     "number-too-large": Mistake(

@@ -86,5 +86,5 @@ class UntimedMachine(MicrobusPort):
 
     def remember(self, memory: MutableRecord) -> None:
         if not isinstance(memory, UntimedMemory):
-            raise BadFile("the saved state does not belong to a machine without time")
+            raise BadFile("the saved state comes from another kind of machine")
         put_back(self.state, memory)

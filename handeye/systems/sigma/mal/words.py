@@ -127,7 +127,7 @@ WORDS: Final[dict[str, Word]] = {
     "SLOW": Word("part", "SLOW expression", "Move at this constant speed, 2 to 254 mm/s."),
     "LINE": Word(
         "part", "LINE",
-        "Choose constant speeds with which all axes arrive together, so that the path is straight.",
+        "Move each axis at a constant speed, so that all axes arrive together and the path is straight.",
     ),
     "NOWAIT": Word("part", "NOWAIT", "Continue as soon as the commands are sent; do not wait for the motion."),
     "STANDARD": Word("part", "STANDARD", "In LIMIT: the force limit that applies before the program sets any LIMIT."),

@@ -73,7 +73,7 @@ class Plate(JobTask):
                 pins.right, PINS, "pins", "pins that stand upright at the bottom of their holes"
             ),
             "screws": at_least(
-                screws.taken, pump.screws, "screws", "threads with a screw that is not crossed"
+                screws.taken, pump.screws, "screws", "number of threads whose screw is not crossed"
             ),
             "screws_depth": at_most(screws.gap, HEAD_GAP, "mm", "greatest gap under the head of a screw"),
             "screws_clamp": at_least(screws.weakest, CLAMP, "N", "smallest clamping force of a screw"),

@@ -270,7 +270,7 @@ def pallet_trials(
         cases(seed, range(n)),
         head_of(PALLET, world, settings=settings),
         options,
-        title=f"the palletiser with {counted(blocks, 'block')}, in worlds with seeds from {seed} on",
+        title=f"the palletiser with {counted(blocks, 'block')}, in worlds whose seeds count up from {seed}",
         again=lambda row: f"handeye trials pallet --n 1 --seed {row.seed} --blocks {blocks}{broken}",
         more={"blocks": blocks, "interrupted": interrupt},
     )

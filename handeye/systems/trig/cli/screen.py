@@ -171,7 +171,7 @@ class Screen(Desk):
         self.scroll = max(0, min(self.scroll + 8 * by, len(self.page) - 1))
 
     def drop_line(self) -> None:
-        """Cancel the question that is being asked. If no question is being asked, only discard the typed line."""
+        """Discard the typed line. If a question is being asked, also cancel the question."""
         if self.question != PROMPT:
             self.put_line(None)
 

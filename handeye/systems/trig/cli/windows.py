@@ -198,7 +198,7 @@ def _drawn(lines: list[Line]) -> StyleAndTextTuples:
 
 
 def _page(screen: "Screen") -> StyleAndTextTuples:
-    """Return a long answer, from the present scroll position on."""
+    """Return the part of a long answer that begins at the present scroll position."""
     return [("", "\n".join(f" {line}" for line in screen.page[screen.scroll :]))]
 
 

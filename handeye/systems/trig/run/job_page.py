@@ -80,8 +80,8 @@ def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
 
 def _blocks(done: JobReport) -> Iterator[Markup]:
     above = (
-        "The true scene from above, which neither arm nor program sees: outlines of the wanted and the "
-        "actual places of the blocks, numbered in the order of grasping, and a cross at the centre of the "
+        "The true scene, seen from above. Neither the arm nor the program sees it. Outlines show the wanted and "
+        "the actual places of the blocks, numbered in the order of grasping. A cross marks the centre of the "
         "platter."
     )
     off = " The chart on the right shows the centre of each block, relative to its wanted place."

@@ -101,7 +101,7 @@ def typed(text: str, name: str) -> TrigProgram:
         nonlocal asked
         asked += 1
         if asked > PATIENCE:
-            raise Refused("a run of the script does not end")
+            raise Refused("a RUN in the script does not end")
         return False
 
     script = Script(text.splitlines(), halted=ask)

@@ -38,7 +38,7 @@ class TaughtSystem(System):
         places=("PLACE is a line (8), the name of a step, or a kind of step (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={
-            "proceed": "try again the step that called the operator, forwards or backwards",
+            "proceed": "repeat the step that called the operator, forwards or backwards",
             "retry": "the same as `proceed`",
             "skip": "end the program here; not possible while the program runs backwards",
         },

@@ -227,7 +227,8 @@ def _holes(count: int) -> Iterator[PartFault]:
              f"An earlier screw was cross-threaded in tapped hole {number}, so that the next screw cross-threads "
              "more easily.", scene.as_drawn,
              ExpectedDetection(
-                 harmless="A screw that enters straight seats even in a scarred thread; the referee adds a caution."
+                 harmless="A screw that enters straight reaches its seat, even in a scarred thread; the referee "
+                 "adds a caution."
              ), None),
             (f"thread.{number}.crosses",
              f"Every screw in tapped hole {number} cross-threads, however straight it is.", scene.as_drawn,

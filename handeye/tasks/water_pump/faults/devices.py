@@ -122,7 +122,10 @@ def _switches() -> Iterator[DeviceFault]:
             yield _fault(f"{line}.stuck_{state}", meaning, line, stuck, expected)
     yield _fault(
         "finger_switch.swapped", "The switches of the two fingers are swapped.", "switches", Stuck(1.0),
-        replace(expected, harmless="Only CENTER depends on which finger touches; both may touch at once."),
+        replace(expected, harmless=(
+            "Only CENTER depends on which finger touches, and if both fingers touch at once, the swap has no "
+            "effect."
+        )),
     )  # fmt: skip
     yield _fault(
         "finger_switch.hard", "The switches of both fingers need this many times their usual force.",
@@ -142,14 +145,18 @@ def _hand() -> Iterator[DeviceFault]:
     )  # fmt: skip
     yield _fault(
         f"{gap}.factor", "The gap reading is the true gap times this factor.", gap, GainEffect,
-        replace(expected, harmless="The switches feel parts between the fingers; if the gap is wrong by less than "
-            "a tenth, the fingers hold a part equally well."),
+        replace(expected, harmless=(
+            "The switches feel parts between the fingers; if the gap reading is wrong by less than a tenth, the "
+            "fingers still hold a part equally well."
+        )),
         Size(unit="", usual=1.15, limits=(0.1, 5.0)),
     )  # fmt: skip
     expected = ExpectedDetection(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG))
     yield _fault("finger_motor.dead", "The fingers have no force.", "finger_motor", DEAD, expected)
     yield _fault(
-        "finger_motor.weak", "The fingers press with this fraction of their force.", "finger_motor", GainEffect,
+        "finger_motor.weak", (
+            "The fingers press with only this fraction of their nominal force."
+        ), "finger_motor", GainEffect,
         ExpectedDetection(errors=(SWITCH_WRONG, GAP_WRONG, FORCE_WRONG)),
         Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
     )  # fmt: skip
@@ -252,8 +259,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "A factor of 1.1 is within the noise of the current when a screw seats, and a factor of .7 is within the "
-        "noise when the motor starts."
+        "When a screw seats, the noise of the current hides a factor of 1.1. When the motor starts, the noise "
+        "hides a factor of .7."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
@@ -275,7 +282,9 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
-        "magnet.weak", "The bit's magnet, which holds a screw, has this fraction of its force.", "magnet", GainEffect,
+        "magnet.weak", (
+            "The bit's magnet, which holds a screw, has only this fraction of its nominal force."
+        ), "magnet", GainEffect,
         ExpectedDetection(
             calls=(
                 "SCREW {number} IS NOT ON THE BIT",

@@ -88,7 +88,8 @@ class PumpClaims:
         socket = self.places.socket(hole)
         driven = [self.threaded(each).phases[0].by for each in range(self.places.screws)]
         return Claim(
-            says="after all screws have gone into their threads, the torque stop ends one more drive",
+            says="after all screws have gone into their threads, the screwdriver turns the screw again until the "
+            "torque stop ends the motion",
             where=f"hole {hole + 1}",
             phases=(
                 Phase(
@@ -102,7 +103,8 @@ class PumpClaims:
         """Return the claim that the hand went down by the length of the thread while it drove a screw at a hole."""
         socket = self.places.socket(hole)
         return Claim(
-            says="a drive goes down by the length of the thread before the torque stop ends it",
+            says="while it drives a screw, the hand goes down by the length of the thread before the torque stop "
+            "ends the motion",
             where=f"hole {hole + 1}",
             phases=(
                 Phase(
@@ -340,7 +342,7 @@ class PumpClaims:
         """Return the claim that no screw was driven with a torque stop above the torque of the clutch."""
         strong = Contacted(of=Contact(where=self.places.pump, torque=Limits(TORQUE.high, math.inf)))
         return Claim(
-            says="no drive has a torque stop above 45.5 oz-in",
+            says="no screw is driven with a torque stop above 45.5 oz-in",
             phases=(Phase(undone=(strong,)),),
             at_first=True,
         )

@@ -29,7 +29,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="base_left", claims=(left,), rests=_SLIDES),
         Obligation(
             finding="base_yaw", claims=(far,),
-            rests="A push against the far block turns the base until its straight edge is along the block.",
+            rests="A push against the far block turns the base until the straight edge of the base lies along the "
+            "block.",
         ),
         Obligation(
             finding="base_height", claims=(claims.level(), *map(claims.face, range(4))),
@@ -75,8 +76,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops at least .17 in too high."),
         Obligation(
             finding="screws_clamp", claims=tight,
-            rests="A screw that is driven later shifts the load of the others. The torque stop is felt, not the "
-            "clamping force: a thread that turns hard clamps less.",
+            rests="A screw that is driven later shifts the load of the others. The program feels the torque stop, "
+            "not the clamping force: if a thread is hard to turn, its screw clamps less.",
         ),
         Obligation(finding="screws_strain", claims=(claims.gentle(),), rests=_CLUTCH),
         Obligation(finding="screws_turned", claims=(claims.gentle(),), rests=_CLUTCH),

@@ -15,8 +15,7 @@ from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, screw_h
 Point = tuple[float, float]
 SOCKET: Final = Limits(3.0 * INCH, 9.0 * INCH)  # heights of a hand that holds the screwdriver over the pump
 TOUCH: Final = Limits(20 * OUNCE_FORCE, 60 * OUNCE_FORCE)
-"""Forces at which a touch ends. They exceed the errors of the sensed force, and are too small for the fingers to move
-the pump.
+"""Forces at which a touch ends. They exceed the errors of the sensed force, but are too small to move the pump.
 """
 PUSH: Final = Limits(40 * OUNCE_FORCE, 80 * OUNCE_FORCE)  # forces that move the pump against its blocks
 SEATED: Final = Limits(

@@ -4,13 +4,15 @@ from typing import Final
 
 BLOCK_GAP: Final = 1.27  # mm, .05 in: reference test 59, displacement from the standard position
 BASE_HEIGHT: Final = 0.5
-"""Height error of the base's reference point (mm). Contacts are soft; a base that hangs on a block is 6 mm too high."""
+"""Greatest height error (mm) of the base's reference point. It is not 0, because contacts are soft. A base that hangs
+on a block is 6 mm too high.
+"""
 BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
 LAYER_HEIGHT: Final = 0.3
-"""Greatest deviation from the nominal height at each screw hole (mm). A deviation of half this limit would already
-reveal a lost chip under the layer (assembly study).
+"""Greatest deviation (mm) of a layer from its nominal height, measured at each screw hole. A deviation of half this
+limit would already reveal a lost chip under the layer (assembly study).
 """
 
 SCREW_GAP: Final = 0.2
@@ -101,8 +103,8 @@ fingers' clearance.
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0
-"""Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a
-carrier represents a screw, a body elsewhere would mean that the screw exists twice.
+"""Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a carrier
+represents the screw, the screw would exist twice if its body were elsewhere.
 """
 FORCE: Final = 0.0  # N and N m, external, on a part or the arm: nothing may be held by an unseen hand
 MERGED: Final = 0.1
@@ -113,4 +115,6 @@ MERGED_TURN: Final = 0.1  # deg, the same limit for rotation; up to .017 deg in 
 ALTERED: Final = 0  # parts; any difference counts, because building a scene again gives the same bytes
 FLOOR: Final = -5.0  # mm, height relative to the table top: no part may be lower
 PENETRATION: Final = 0.15
-"""Overlap (mm) of parts pressed together. Contacts are soft; the force of six screws gives .06 mm."""
+"""Greatest overlap (mm) of two solids. Parts that are pressed together overlap a little, because contacts are soft:
+the force of six screws gives .06 mm.
+"""

@@ -24,12 +24,12 @@ STOOD: Final = ("gasket", "top")
 """The parts that a person puts on a stand, where only friction holds them."""
 SCREWS: Final = "pump.screws"
 MAKES: Final = (6, 7)
-"""Numbers of screws that a pump may have. It has a tapped hole for each screw."""
+"""Possible values of the number of screws of a pump. A pump has a tapped hole for each of its screws."""
 USUAL: Final = 6
 
 _VISION: Final = "Vision study, section 3."
 IN_PLAY: Final = 70.0
-"""Greatest displacement of a part along an axis, in percent of its play, so that the part stays clear of the
+"""Greatest displacement of a part along an axis, in percent of its play. This limit keeps the part clear of the
 corners of its seat.
 """
 
