@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Self
 
 from handeye.al import AL
 from handeye.core.resources import plans
@@ -38,6 +38,9 @@ class PinExercise(Exercise):
     @property
     def seeds(self) -> tuple[int, ...]:
         return tuple(seed for each in self.worlds for seed in each.seeds)
+
+    def beginning_at(self, first: int) -> Self:
+        return replace(self, worlds=tuple(each.moved(first - min(self.seeds)) for each in self.worlds))
 
     @property
     def cases(self) -> str:

@@ -6,15 +6,15 @@ import pytest
 
 from handeye.core.source import Source, read_source
 from handeye.exercises import exercises
-from handeye.exercises.exercise import Grade, Submission
+from handeye.exercises.exercise import Exercise, Grade, Submission
 
 SOLUTIONS = Path(__file__).parent / "solutions"
 
 
-def graded(name: str, source: Source, *seeds: int, taught: Source | None = None) -> Grade:
+def graded(exercise: str | Exercise, source: Source, *seeds: int, taught: Source | None = None) -> Grade:
     """The grade of a program in the worlds of some seeds."""
     given = Submission(source=source, taught=taught, seeds=seeds, jobs=1, told=lambda _: None)
-    return exercises()[name].grade(given)
+    return (exercises()[exercise] if isinstance(exercise, str) else exercise).grade(given)
 
 
 def solution(name: str) -> Source:
@@ -46,6 +46,17 @@ def test_success_reported_where_no_hole_is_in_reach_is_silent_and_a_call_of_the_
         "handeye run honest.al --task insertion --seed 10 --set plate.x=20mm"
     )
     assert graded("honest", solution("honest_gives_up_at_once"), 10).exit_code == 0
+
+
+@pytest.mark.slow
+def test_a_teacher_can_grade_in_worlds_that_no_student_has_seen() -> None:
+    other = exercises()["honest"].beginning_at(700)
+    assert other.seeds == tuple(range(700, 720))
+    (hopeless,) = graded(other, solution("honest_gives_up_at_once"), 710).verdicts
+    assert (hopeless.case, hopeless.standing) == ("seed 710", "right")
+    assert hopeless.again.startswith(
+        "handeye run honest_gives_up_at_once.al --task insertion --seed 710 --set plate.x=20mm"
+    )
 
 
 def test_a_program_may_use_only_the_positions_of_the_exercise() -> None:
