@@ -69,6 +69,8 @@ class PinExercise(Exercise):
         assert plan is not None, "the program was checked before"
         own = [name for name in plan.program.positions if name not in known]
         found = [f"the program defines the position {name}" for name in own]
+        changed = plan.program.written("position") & set(known)
+        found += [f"the program changes the taught position {name}" for name in sorted(changed)]
         if given.taught is not None and read_taught(given.taught).positions != known:
             found.append(f"{given.taught.name} does not have the taught positions of the exercise")
         return found
