@@ -48,11 +48,11 @@ def opened(page: Page, address: str) -> Page:
         ("referee", "glossary.html#cell-and-world"),
     ],
 )
-def test_the_search_shows_the_place_that_explains_the_words_first(browser: Browser, words: str, place: str) -> None:
+def test_the_search_shows_the_place_that_explains_the_words_first(
+    browser: Browser, words: str, place: str
+) -> None:
     page = opened(browser.page(SITE / "index.html"), f"{(SITE / 'search.html').as_uri()}?q={quote(words)}")
-    found = page.evaluate(
-        "[...document.querySelectorAll('#results a')].map((a) => a.getAttribute('href'))"
-    )
+    found = page.evaluate("[...document.querySelectorAll('#results a')].map((a) => a.getAttribute('href'))")
     assert found[0] == place
     assert page.errors == []
 

@@ -15,7 +15,9 @@ PAGE = Path(__file__).parents[2] / "docs" / "exercises.md"
 
 def section(name: str) -> str:
     """The section of the page on an exercise."""
-    found = re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    found = re.search(
+        rf"^## {name}\n(.*?)(?=^## |\Z)", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
+    )
     assert found is not None
     return found[1]
 
