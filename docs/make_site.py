@@ -9,6 +9,7 @@ the recorded runs that handeye includes. Exit code 0: built; 1: a link leads now
 import json
 import shutil
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
@@ -17,7 +18,7 @@ from sphinx.cmd.build import build_main
 ROOT: Final = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
-from docs.website.built import Page, mend, read_page  # noqa: E402
+from docs.website.built import Page, Section, mend, read_page  # noqa: E402
 from docs.website.checks import faults  # noqa: E402
 from docs.website.staging import REPLAYS, BrokenLinks, replay_path, stage  # noqa: E402
 from handeye.cli.reports import page_of  # noqa: E402
@@ -26,6 +27,10 @@ from handeye.core import resources  # noqa: E402
 SITE: Final = ROOT / "site"
 WORK: Final = ROOT / "build" / "docs"
 INDEX: Final = "search_index.js"
+DEFINING: Final = frozenset({"faults.html", "glossary.html", "language/index.html"})
+"""Pages whose tables define words: the search finds each row."""
+LONGEST: Final = 60
+"""Greatest length of a first cell that is a word and not a sentence."""
 
 
 def main() -> int:
@@ -82,17 +87,21 @@ def write_replays(built: Path) -> None:
 
 
 def search_index(pages: dict[str, Page]) -> str:
-    """The script that gives the search its sections."""
+    """The script that gives the search its sections, and the rows of the tables that define words."""
     sections = [
-        [
-            path,
-            section.anchor if number else "",
-            *map(one_line, (page.sections[0].heading, section.heading, section.text)),
-        ]
+        [path, anchor, *map(one_line, (page.sections[0].heading, part.heading, part.text))]
         for path, page in sorted(pages.items())
-        for number, section in enumerate(page.sections)
+        for anchor, part in parts(page, rows=path in DEFINING)
     ]
     return f"const SECTIONS = {json.dumps(sections, ensure_ascii=False, separators=(',', ':'))};\n"
+
+
+def parts(page: Page, *, rows: bool) -> Iterator[tuple[str, Section]]:
+    """The sections of a page, and the rows of its tables, each with the anchor to go to."""
+    for number, section in enumerate(page.sections):
+        yield section.anchor if number else "", section
+    if rows:
+        yield from ((row.anchor, row) for row in page.rows if row.text and len(row.heading) <= LONGEST)
 
 
 def one_line(text: str) -> str:

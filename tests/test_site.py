@@ -117,6 +117,18 @@ def test_a_section_has_the_text_up_to_the_next_heading(tmp_path: Path) -> None:
     ]
 
 
+def test_a_row_of_a_table_has_its_first_cell_as_heading_and_the_anchor_of_its_section(tmp_path: Path) -> None:
+    file = tmp_path / "a.html"
+    file.write_text(
+        '<article><section id="a"><h1>A</h1><table><tr><th>term</th><th>is</th></tr>'
+        "<tr><td>one</td><td>two</td><td>three</td></tr></table><p>four</p></section></article>"
+    )
+    page = read_page(file)
+    rows = [(each.anchor, each.heading.split(), each.text.split()) for each in page.rows if each.text]
+    assert rows == [("a", ["one"], ["two", "three"])]
+    assert page.sections[0].text.split() == ["term", "is", "one", "two", "three", "four"]
+
+
 def test_a_mended_page_has_no_empty_heading_of_a_column(tmp_path: Path) -> None:
     file = tmp_path / "a.html"
     file.write_text('<th class="head"><p></p></th><th>a</th>')

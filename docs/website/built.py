@@ -39,6 +39,10 @@ class Page(HTMLParser):
     links: list[str] = field(default_factory=list)
     loaded: list[str] = field(default_factory=list)
     sections: list[Section] = field(default_factory=list)
+    rows: list[Section] = field(default_factory=list)
+    """Rows of tables: the heading is the first cell, and the anchor is that of the section."""
+    _cell: int = 0
+    """Number of the cell within its row, from 1; 0 outside a table."""
     _in_article: bool = False
     _in_heading: bool = False
     _in_mark: bool = False
@@ -58,6 +62,11 @@ class Page(HTMLParser):
             self._in_article = True
         elif tag == "section" and self._in_article:
             self.sections.append(Section(given.get("id", "")))
+        elif tag == "tr" and self.sections:
+            self.rows.append(Section(self.sections[-1].anchor))
+            self._cell = 0
+        elif tag == "td" and self.rows:
+            self._cell += 1
         if tag not in INLINE:
             self.handle_data(" ")
         self._in_heading = self._in_heading or (tag in HEADINGS and self._in_article)
@@ -70,6 +79,8 @@ class Page(HTMLParser):
             self._in_heading = False
         elif tag == "a":
             self._in_mark = False
+        elif tag == "table":
+            self._cell = 0
 
     def handle_data(self, data: str) -> None:
         if not (self._in_article and self.sections) or self._in_mark:
@@ -78,6 +89,10 @@ class Page(HTMLParser):
             self.sections[-1].heading += data
         else:
             self.sections[-1].text += data
+        if self._cell == 1:
+            self.rows[-1].heading += data
+        elif self._cell > 1:
+            self.rows[-1].text += data
 
 
 def mend(file: Path) -> None:

@@ -35,6 +35,13 @@ def exercise(
     seed: Annotated[
         WholeNumber | None, Parameter(help="Try your program only in the world with this seed.")
     ] = None,
+    first_seed: Annotated[
+        WholeNumber | None,
+        Parameter(
+            help="Try your program in other worlds: with as many seeds, beginning with this one. Default: the worlds "
+            "of the exercise."
+        ),
+    ] = None,
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
@@ -44,6 +51,7 @@ def exercise(
     handeye exercise
     handeye exercise find --start
     handeye exercise find find.al
+    handeye exercise find find.al --first-seed 1000
     ```
 
     Exit code 0: the program is right in every world; 1: the program is not right in at least one world; 3: a silent
@@ -60,14 +68,16 @@ def exercise(
         raise NoSuchName(f"there is no exercise {quoted(name)}; {near}")
     chosen = known[name]
     positive(jobs, "process")
-    if start and (file is not None or seed is not None):
-        raise BadArgument("--start writes the program of the exercise; leave out your file and --seed")
+    if start and (file is not None or seed is not None or first_seed is not None):
+        raise BadArgument("--start writes the program of the exercise; leave out your file and all seeds")
     if start:
         return _begin(chosen, overwrite=overwrite, json=json)
     if file is None:
-        if seed is not None:
-            raise BadArgument("--seed needs your program")
+        if seed is not None or first_seed is not None:
+            raise BadArgument(f"{'--first-seed' if seed is None else '--seed'} needs your program")
         return _describe(chosen, json=json)
+    if first_seed is not None:
+        chosen = _elsewhere(chosen, first_seed)
     return _grade(chosen, file, seed, jobs, json=json)
 
 
@@ -152,6 +162,18 @@ def _grade(chosen: "Exercise", file: Path, seed: int | None, jobs: int, *, json:
     else:
         _tell(found)
     return code
+
+
+def _elsewhere(chosen: "Exercise", first: int) -> "Exercise":
+    """Return the exercise with other worlds."""
+    from handeye.core.variation import checked_seed
+
+    if not chosen.seeds:
+        raise BadArgument(f"the exercise {chosen.name} has no worlds, so --first-seed does not apply")
+    moved = chosen.beginning_at(first)
+    for seed in (moved.seeds[0], moved.seeds[-1]):
+        checked_seed(seed)
+    return moved
 
 
 def _no_such_seed(chosen: "Exercise", seed: int) -> str:

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final, Literal, Self
 
 from handeye.core.errors import BadArgument
 from handeye.core.record import Record
@@ -123,6 +123,12 @@ class Exercise(ABC):
     @abstractmethod
     def seeds(self) -> tuple[int, ...]:
         """Seeds of the worlds in which a program is judged; empty if there are no worlds."""
+
+    def beginning_at(self, first: int) -> Self:
+        """Return this exercise with other worlds, whose smallest seed is `first`. An exercise without worlds stays as
+        it is.
+        """
+        return self
 
     @abstractmethod
     def diagnostics(self, given: Submission) -> list[Diagnostic]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Self
 
 from handeye.al import AL
 from handeye.core.resources import plans
@@ -39,6 +39,9 @@ class PinExercise(Exercise):
     def seeds(self) -> tuple[int, ...]:
         return tuple(seed for each in self.worlds for seed in each.seeds)
 
+    def beginning_at(self, first: int) -> Self:
+        return replace(self, worlds=tuple(each.moved(first - min(self.seeds)) for each in self.worlds))
+
     @property
     def cases(self) -> str:
         parts = [
@@ -66,6 +69,8 @@ class PinExercise(Exercise):
         assert plan is not None, "the program was checked before"
         own = [name for name in plan.program.positions if name not in known]
         found = [f"the program defines the position {name}" for name in own]
+        changed = plan.program.written("position") & set(known)
+        found += [f"the program changes the taught position {name}" for name in sorted(changed)]
         if given.taught is not None and read_taught(given.taught).positions != known:
             found.append(f"{given.taught.name} does not have the taught positions of the exercise")
         return found

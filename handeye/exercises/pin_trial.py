@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final, Self
 
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.exercises.exercise import Standing, Verdict
@@ -32,6 +32,10 @@ class PinWorlds:
     told: str  # what these worlds have in common, in words that follow a number
     set: Mapping[str, float]  # quantities with fixed values, SI
     calls: bool = False  # the work is impossible, so a right program calls the operator
+
+    def moved(self, by: int) -> Self:
+        """Return the same worlds with seeds that are larger by `by`."""
+        return replace(self, seeds=range(self.seeds.start + by, self.seeds.stop + by))
 
 
 class PinRow(TrialRow, frozen=True, kw_only=True):

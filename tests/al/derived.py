@@ -56,8 +56,8 @@ def index() -> str:
 
 def errors() -> str:
     """The table of errors a program can test."""
-    rows = [f"| {number} | {meaning} |" for number, meaning in sorted(ERRORS.items())]
-    return "\n".join(["| error | |", "|---|---|", *rows, ""])
+    rows = [f"| error {number} | {meaning} |" for number, meaning in sorted(ERRORS.items())]
+    return "\n".join(["| error | meaning |", "|---|---|", *rows, ""])
 
 
 def head(definition: Instruction) -> str:

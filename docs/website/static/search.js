@@ -3,26 +3,36 @@
 
 const MOST = 50;
 const AROUND = 90; // characters of an excerpt on each side
+const LAST = /^(CHANGELOG|CONTRIBUTING|notebooks|plans|examples|handeye)\b/; // pages that come after all others
 
 const plain = (text) => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 // a word of the text may go on after a word of the question, except after a number
 const beginning = (word) =>
   new RegExp(`(?<![\\p{L}\\p{N}])${plain(word)}${/\d$/.test(word) ? "(?![\\p{L}\\p{N}])" : ""}`, "iu");
 
+// what a heading names: `a seed` in `What a seed is`, one deadlock in `Deadlocks`
+const named = (heading) =>
+  heading
+    .toLowerCase()
+    .replace(/^what (an? |the )?(.*) is$/, "$2")
+    .replace(/s$/, "");
+
 function search(question) {
   const words = question.trim().split(/\s+/).filter(Boolean).map(beginning);
   if (words.length === 0) return [];
-  const phrase = beginning(question.trim().replace(/\s+/g, " "));
+  const asked = question.trim().replace(/\s+/g, " ");
+  const phrase = beginning(asked);
   const rated = [];
   for (const section of SECTIONS) {
-    const [, , title, heading, text] = section;
+    const [page, , title, heading, text] = section;
     const whole = `${title}\n${heading}\n${text}`;
     if (!words.every((word) => word.test(whole))) continue;
     const every = (part) => words.every((word) => word.test(part));
     const times = text.split(phrase).length - 1;
     const density = times / (times + text.length / 500 + 1); // below 1
-    const rating =
-      16 * phrase.test(heading) + 8 * every(heading) + 4 * phrase.test(title) + 2 * every(title) + (times > 0) + density;
+    const inHeading = 16 * (named(heading) === named(asked)) + 16 * phrase.test(heading) + 8 * every(heading);
+    const inTitle = 4 * phrase.test(title) + 2 * every(title);
+    const rating = inHeading + inTitle + (times > 0) + density - 32 * LAST.test(page);
     rated.push([rating, section]);
   }
   return rated.sort(([a], [b]) => b - a).map(([, section]) => [section, excerpt(section[4], [phrase, ...words])]);
