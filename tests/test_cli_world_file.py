@@ -57,7 +57,10 @@ def test_a_run_in_the_world_of_a_file_records_this_world(
     )
 
 
-WHOLE = "--world w.json gives the whole world; leave out --seed, --level, --set and --scale, and do not name errors in --without"
+WHOLE = (
+    "--world w.json gives the whole world; leave out --seed, --level, --set and --scale, and do not name errors in "
+    "--without"
+)
 
 
 @pytest.mark.parametrize(
