@@ -57,7 +57,7 @@ def main() -> NoReturn:
 
 
 def _carried_out() -> int:
-    """Execute the typed command; returns its exit code. Raises OSError if the output cannot be written."""
+    """Execute the typed command, and return its exit code. Raises OSError if the output cannot be written."""
     try:
         with heard(break_in):
             code = app(result_action="return_value", exit_on_error=False, print_error=False)

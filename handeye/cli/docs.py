@@ -73,4 +73,4 @@ def _list(index: str) -> None:
                 )
             )
         say("")
-    say("Print a page: handeye docs TOPIC. Each instruction of the language has a page: handeye docs SEARCH.")
+    say("Print a page: handeye docs TOPIC. Each instruction has a page, for example handeye docs SEARCH.")

@@ -378,7 +378,7 @@ class _Work:
 
 
 def work(job: Job) -> int:
-    """Execute a job; returns the exit code. Raises InvalidInput if a file cannot be used or written."""
+    """Execute a job, and return the exit code. Raises InvalidInput if a file cannot be used or written."""
     with PanicButton() as panic, ExitStack() as closing:
         if job.folder is not None:
             closing.enter_context(held(job.folder.path))

@@ -115,7 +115,7 @@ def carry_out_job_trials(
     title: str,
     again: str,
 ) -> int:
-    """Run a job in many worlds; returns the exit code.
+    """Run a job in many worlds, and return the exit code.
 
     Args:
         settings: settings of all trials, recorded with each trial.

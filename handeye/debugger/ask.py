@@ -91,7 +91,7 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 def _choices(runner: Runner) -> list[str]:
     return [
         *(f"{word[0]:10} {does}" for word, does in runner.kind.choices(runner).items()),
-        "b [STAGE]  go back in time to the beginning of this stage, or of an earlier stage",
+        "b [STAGE]  go back in time to the beginning of this stage, or of the earlier STAGE",
         "u [STAGE]  unwind: the arm undoes its work back to the beginning of this stage, and the program "
         "continues from there",
         "a          abort",

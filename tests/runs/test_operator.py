@@ -226,7 +226,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
         "p          proceed: continue at line 20",
         "r          retry the stage from line 18, in the world as it is now",
         "s          skip the rest of the stage",
-        "b [STAGE]  go back in time to the beginning of this stage, or of an earlier stage",
+        "b [STAGE]  go back in time to the beginning of this stage, or of the earlier STAGE",
         "u [STAGE]  unwind: the arm undoes its work back to the beginning of this stage, and the program continues "
         "from there",
         "a          abort",

@@ -90,7 +90,7 @@ SHARE: Final = OrderExercise(
         (KINDS["flag"], "Let the feeder wait until its last signal has been taken."),
         (
             KINDS["deadlock"],
-            "Which task sets the flag that this task waits for? And which task sets this flag the first time?",
+            "Which task sets the flag that this task waits for? And which task is the first to set this flag?",
         ),
     ),
 )

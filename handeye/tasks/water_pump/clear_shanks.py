@@ -18,7 +18,9 @@ from handeye.core.small_arrays import span
 from handeye.tasks.water_pump.clamping import LAYERS, Clamping
 
 MARGIN: Final = 1e-4
-"""A shank is left out if it is at least this far (m) from the hole. Our choice; welds yield by micrometres."""
+"""A shank is left out if it is at least this far (m) from the hole. Our choice: it is more than the micrometres by
+which welds yield.
+"""
 
 
 class ClampedStepper(PhysicsStepper):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from handeye.systems.ml.background.interpreter import Interpreter
 
 NUMBERS: Final = {code: number for number, code in enumerate(COMMANDS, 1)}
-"""Numbers of the commands in the tables TK, TR and CC."""
+"""The number that stands for each command in the tables TK, TR and CC."""
 _SIGN: Final = 8  # the bit above the three bits for the number of ampersands
 _PACKED: Final = 4  # parameters whose forms fit into a word
 

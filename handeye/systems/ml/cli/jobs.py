@@ -57,7 +57,7 @@ def carry_out_trials(
     title: str,
     again: str = "",
 ) -> int:
-    """Run the plan of a job in many worlds; returns the exit code."""
+    """Run the plan of a job in many worlds, and return the exit code."""
     from handeye.systems.ml.run.jobs import job_setup
 
     return carry_out_job_trials(

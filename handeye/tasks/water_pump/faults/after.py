@@ -95,7 +95,10 @@ _OF_A_PUMP: Final[Mapping[str, tuple[str, Make]]] = {
     "driver.removed": ("The screwdriver is removed from its rack.", partial(_removed, "driver")),
     "magnet.dead": ("The magnet of the screwdriver fails.", _demagnetize),
     "pin.removed": ("A pin is removed from its holder.", partial(_removed, "pin0")),
-    "pin.swapped": ("A pin is replaced by a pin of .6 times its thickness.", partial(_thinned, "pin1")),
+    "pin.swapped": (
+        ("A pin is replaced by a thinner pin, which has .6 times the thickness."),
+        partial(_thinned, "pin1"),
+    ),
 }
 _OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
     "gasket.glued": ("The gasket is glued to the base.", partial(_glued, "gasket")),

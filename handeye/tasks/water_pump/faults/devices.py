@@ -166,8 +166,8 @@ def _force() -> Iterator[DeviceFault]:
     for axis in "xyz":
         yield _fault(
             f"force.off_zero.{axis}",
-            f"The drives have an offset equal to this force at the hand along table {axis}: the program, which "
-            f"computes the force from the commanded torques, feels a force that does not exist.",
+            f"The drives have an offset that equals this force at the hand along the {axis} axis of the table; the "
+            "program, which computes the force from the commanded torques, feels a force that does not exist.",
             f"force.{axis}", OffsetEffect, ExpectedDetection(errors=(FORCE_WRONG,), at_setup=True),
             Size(unit="N", usual=20.0, limits=(-100.0, 100.0)),
         )  # fmt: skip

@@ -59,7 +59,7 @@ LOOKS: Final = (
 )
 """Views of the lamp over the belt, through both lenses; and views of the lamp between the belt and the standard
 position, through the close-up lens only. Between belt and standard position, half as many views suffice, because the
-other views give most of the information.
+views over the belt give most of the information.
 
 The fingers reach 3.5 in below the lamp, and must stay clear of the base on the belt, which is 2.75 in high.
 """
