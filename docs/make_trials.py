@@ -56,7 +56,7 @@ The last table lists the trials that did not assemble the pump. *Message* is wha
 |---|---|---|---|---|---|"""
 FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions", "renderer")
 """What stands above the trials of a batch."""
-FIGURES: Final = Kind("page of figures", b"# Forces", ending=".md")
+FIGURES: Final = Kind("page of figures", b"# Success rates", ending=".md")
 TRIALS: Final = Kind("file of trials", b"# command: ", ending=".csv")
 
 

@@ -1,4 +1,4 @@
-"""The page of the sizes of errors is made from the pump's quantities, and each of them has a source, a bound or a test."""
+"""The page of the sizes of errors is made from the pump's quantities, each with a source, a bound or a test."""
 
 import importlib.util
 import re
