@@ -6,7 +6,8 @@ python docs/make_trials.py NAME COMMIT DIR       # the file of the batch in DIR,
 DIR is the output folder of `handeye trials assembly --out DIR`. Of an interrupted batch, the trials before the first
 missing one count. A file has a line for each trial. Above them are the command, the commit, digests of code and plan,
 the worlds, the versions, and (since it is recorded) the renderer of the pictures. The table adds up batches of one
-plan, one kind of worlds, one renderer and the same code, which includes the scenes.
+plan, one kind of worlds, one renderer and the same code, which includes the scenes. Batches of the newest program that
+was counted come first, in a table of their own; change `NEWEST` with it.
 """
 
 import csv
@@ -38,6 +39,10 @@ BEGIN, END = "<!-- Below: docs/make_trials.py -->\n", "<!-- Above: docs/make_tri
 COLUMNS: Final = ("seed", "verdict", "stage", "cause", "arm_s", "cpu_s", "events")
 PROGRAM: Final = "water_pump"
 """The program whose plan `handeye trials assembly` runs if no plan is given."""
+NEWEST: Final = ("65c5f280", "64baaebf")
+"""The commits of the newest program that was counted, and of the same program before its last correction."""
+NEWEST_TITLE: Final = "### The newest program counted\n"
+EARLIER_TITLE: Final = "### Earlier programs\n"
 PAIRED: Final = """\
 In the next table, each batch of the first column was run without a sense or with another program. The
 second column names the batch of the full program in the same worlds:
@@ -51,7 +56,7 @@ The last table lists the trials that did not assemble the pump. *Message* is wha
 |---|---|---|---|---|---|"""
 FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions", "renderer")
 """What stands above the trials of a batch."""
-FIGURES: Final = Kind("page of figures", b"# Forces", ending=".md")
+FIGURES: Final = Kind("page of figures", b"# Success rates", ending=".md")
 TRIALS: Final = Kind("file of trials", b"# command: ", ending=".csv")
 
 
@@ -167,12 +172,19 @@ def read(file: Path) -> Batch:
 
 
 def table(batches: Sequence[Batch]) -> str:
-    """Batches one by one, batches of one kind together, pairs of batches world by world, and the failures."""
+    """Batches of the newest program and of earlier ones, pairs of batches world by world, and the failures."""
+    newest = [batch for batch in batches if batch.facts["commit"] in NEWEST]
+    earlier = [batch for batch in batches if batch.facts["commit"] not in NEWEST]
+    rows = (*_rows(NEWEST_TITLE, newest), *_rows(EARLIER_TITLE, earlier))
+    return "\n".join((*rows, *_pairs(batches), *_failures(batches)))
+
+
+def _rows(title: str, batches: Sequence[Batch]) -> Iterator[str]:
+    """Batches one by one, and batches of one kind together, under a title."""
+    if not batches:
+        return
     kinds = dict.fromkeys(batch.kind for batch in batches)
-    return "\n".join((_rows(batches, kinds), *_pairs(batches), *_failures(batches)))
-
-
-def _rows(batches: Sequence[Batch], kinds: Mapping[BatchKind, None]) -> str:
+    yield title
     lines = [
         "| worlds | plan | command | commit | assembled | silent | Wilson 95 % | at least | arm, s | CPU h |",
         "|---|---|---|---|---|---|---|---|---|---|",
@@ -182,7 +194,7 @@ def _rows(batches: Sequence[Batch], kinds: Mapping[BatchKind, None]) -> str:
         lines += [_row(batch.trials, kind, _linked(batch), batch.facts["commit"]) for batch in mine]
         if len(mine) > 1:
             lines.append(_row([trial for batch in mine for trial in batch.trials], kind, "together", ""))
-    return "\n".join(lines) + "\n"
+    yield "\n".join(lines) + "\n"
 
 
 def _linked(batch: Batch) -> str:
