@@ -15,9 +15,9 @@ from handeye.core import resources
 @pytest.fixture(autouse=True)
 def page(monkeypatch: pytest.MonkeyPatch) -> None:
     """A short page in the place of the report, which takes seconds, and no browser."""
-    from handeye.report.page.document import REPORT
+    from handeye.report.page.document import MARK
 
-    monkeypatch.setattr(reports, "page_of", lambda run: REPORT.begins + str(run).encode())
+    monkeypatch.setattr(reports, "page_of", lambda run: MARK.encode() + str(run).encode())
     for name in ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
 

@@ -14,7 +14,7 @@ from handeye.core import resources
 from handeye.core.errors import InvalidInput
 from handeye.report import animation, photographs
 from handeye.report.facts.again import is_shipped
-from handeye.report.page.document import REPORT
+from handeye.report.page.document import MARK
 from handeye.tasks.water_pump.task import WaterPump
 from handeye.trace import channels, mcap_writer
 from handeye.trace.reading import read_trace
@@ -169,7 +169,7 @@ def test_a_run_is_what_it_is_whatever_comes_of_its_report(
 
 def test_a_report_is_known_by_how_it_begins(command: Command, kept: Path) -> None:
     assert command("report", "kept", "-o", "page.html")[0] == 0
-    assert Path("page.html").read_bytes().startswith(REPORT.begins)
+    assert Path("page.html").read_bytes().startswith(MARK.encode())
 
 
 def test_the_demo_is_a_page_of_twelve_stages_made_without_opengl(

@@ -95,7 +95,7 @@ def _wait() -> None:
 
 
 def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _wait) -> int:
-    """Check a script now and whenever one of its files changes, until Ctrl-C; then return the code of the last check."""
+    """Check a script now and whenever one of its files changes, until Ctrl-C. Return the code of the last check."""
     code = 2
     seen: dict[Path, Version] = {}
     note(f"watching {file}; Ctrl-C ends it")
