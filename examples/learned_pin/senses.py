@@ -13,7 +13,9 @@ FEATURES: Final = (
     "radius", "height", "height over the face", "touched", "lag, radial", "lag, tangential", "lag, vertical",
     "lag, vertical, averaged", "rise in .35 s", "rise in 1.5 s",
 )  # fmt: skip
-_UNITS: Final = np.array([5e-3, 1e-2, 1e-2, 1.0, 2e-3, 2e-3, 2e-3, 2e-3, 1e-3, 1e-3])  # m, but for `touched`
+_UNITS: Final = np.array(
+    [5e-3, 1e-2, 1e-2, 1.0, 2e-3, 2e-3, 2e-3, 2e-3, 1e-3, 1e-3]
+)  # m, except for `touched`
 _PERIOD: Final = 1 / 60  # s
 _FAST, _SLOW, _LONG = 0.07, 0.35, 1.5  # time constants of the averages, s
 _CONTACT: Final = -0.0015  # vertical lag at which the pin has touched the face, m: about 8 N
