@@ -90,7 +90,7 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
 
 
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield the numbers of steps after which a schedule can begin, each with the number of the stage.
+    """Yield each number of steps after which a schedule can begin, together with the number of the stage.
 
     If the program has only one stage, no schedule begins near its end, because a resumed run may have to undo
     its work.
