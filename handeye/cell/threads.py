@@ -221,8 +221,8 @@ class Threads(Mechanism[ThreadsState]):
         return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
 
     def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
-        """Return True if the tip of a screw enters the thread of a hole within `seconds`. `offset` is the position
-        of the tip from the mouth of the hole, shape (3,), in m.
+        """Return True if the tip of a screw enters the thread of a hole within `seconds`. `offset` is the position of
+        the tip relative to the mouth of the hole, shape (3,), in m.
         """
         in_bore = np.hypot(offset[0], offset[1]) < CAPTURE and -offset[2] > START_DEPTH
         rate = -self._rate(screw)

@@ -242,8 +242,8 @@ class Servo:
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
         """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
         is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
-        other joints, and does not count. Nor does the blow of an object that shifts in the fingers, which the
-        closing gap shows.
+        other joints, and does not count. The blow of an object that shifts in the fingers does not count either; the
+        closing gap shows such a blow.
         """
         moved, work = after.q - before.q, self._work(before, after)
         self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None
