@@ -183,8 +183,8 @@ class _Search:
             write_over(self.options.out / page, content, PAGE)
 
     def name_first(self, files: "Sequence[str]") -> None:
-        """Print the command that runs the program in the first of some worlds. Each world is given by its file in the
-        folder.
+        """Print the command that runs the program in the first of the given worlds. Each world is given by its file in
+        the folder.
         """
         if not files or self.options.out is None:
             return

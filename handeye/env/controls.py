@@ -41,7 +41,7 @@ class Controls(ABC):
 
     @property
     def known(self) -> Mapping[str, Any]:
-        """What the machine measured of itself, or was taught, before the episode. `reset` includes this in its `info`."""
+        """What the machine measured of itself, or was taught, before the episode. `reset` returns this in `info`."""
         return {}
 
     def facts(self, common: Mapping[str, Any]) -> Facts:

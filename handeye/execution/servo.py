@@ -158,7 +158,7 @@ class Servo:
     ) -> Motion[Array]:
         """Run one servo period. At the beginning of the period, the arm should be at `q` and move with rates `qd`.
 
-        If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
+        If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards` or, if
         `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
         friction is not sensed as force. `dither` are torques in addition to those of the servo. Returns the torque
         residual, shape (n,), beyond weight, inertia and load; it includes friction.
@@ -189,7 +189,7 @@ class Servo:
         taring: bool = False,
         periods: int = 1,
     ) -> Motion[Sensed]:
-        """Run one servo period with torques `tau`, or if `tau` is None, several periods under brakes. At the end,
+        """Run one servo period with torques `tau` or, if `tau` is None, several periods under brakes. At the end,
         `feel` estimates the force.
 
         Returns the readings at the end.

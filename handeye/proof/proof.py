@@ -109,7 +109,7 @@ class _Prover:
         )
 
     def proved(self, claims: Sequence[Claim]) -> Iterable[ClaimProof]:
-        """Yield the verdicts on some claims."""
+        """Yield the verdicts on the given claims."""
         forms = [self._forms(claim) for claim in claims]
         strict = [[Effects(form, self.places, generous=False) for form in some] for some in forms]
         least = iter(least_shown(self.graph, [one for some in strict for one in some]))

@@ -392,8 +392,8 @@ class Runner:
     # -- inside ---------------------------------------------------------------------------------------
 
     def _settle(self) -> None:
-        """Capture the cell's state, restore it, and add it to the history. A state that equals the last one, such as
-        that after a statement which takes no time, is not restored again.
+        """Capture the cell's state, restore it, and add it to the history. A state that equals the last one, for
+        example after a statement that takes no time, is not restored again.
         """
         cell = self.system.cell
         captured = None if cell is None else cell.capture()

@@ -59,7 +59,7 @@ class SoundRun:
 
 
 def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
-    """Yield the fault-free runs of some worlds, in the order in which they are ready. Runs that the folder does
+    """Yield the fault-free runs of the given worlds, in the order in which they are ready. Runs that the folder does
     not contain yet are executed now.
     """
     yield from in_processes(partial(sound_run, folder, of), worlds, jobs)

@@ -1,7 +1,7 @@
 """Decides whether a fault spoiled finished work only after the last look of the program at this work.
 
-No program can notice such a fault. The steps that look at some work are known from the proof of the program
-(`handeye.proof`): they show a claim on which a finding of the referee rests.
+No program can notice such a fault. The proof of the program (`handeye.proof`) names the steps that look at the work:
+these steps show a claim on which a finding of the referee rests.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

@@ -72,7 +72,7 @@ class WorldSpace:
         return sorted(found.values(), key=len, reverse=True)
 
     def told(self, numbers: Array, only: Iterable[int]) -> Mapping[str, float]:
-        """Return the deviations of some quantities, by name, the greatest first."""
+        """Return the deviations of the given quantities, by name, the greatest first."""
         away = self.deviations(numbers)
         ordered = sorted(only, key=lambda number: -abs(away[number]))
         return {self.names[number]: round(float(away[number]), 3) for number in ordered}

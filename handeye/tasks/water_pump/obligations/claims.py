@@ -38,7 +38,7 @@ _CORNERS: Final = (1, 2, 5, 4)
 
 
 class PumpClaims:
-    """The claims for a pump with some number of screws. Holes and pins are numbered from 0."""
+    """The claims for a pump with a given number of screws. Holes and pins are numbered from 0."""
 
     def __init__(self, screws: int) -> None:
         self.places = PumpPlaces(screws)
