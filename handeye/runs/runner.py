@@ -182,7 +182,7 @@ class Runner:
 
     @property
     def ended(self) -> bool:
-        """True if no further step is possible unless the operator says how to continue."""
+        """True if a further step is possible only after the operator has said how to continue."""
         return self.at is None or self.trouble is not None
 
     @property

@@ -20,7 +20,9 @@ class Point:
 
 
 class WorldSpace:
-    """The quantities that vary between the worlds of a batch, and the standard normal numbers behind them."""
+    """The quantities that vary between the worlds of a batch, and the standard normal numbers from which they are
+    computed.
+    """
 
     def __init__(self, variation: Variation, base: WorldSpec) -> None:
         """Make the space of the worlds that differ from `base` only in their seed. Raises InvalidInput if the base
